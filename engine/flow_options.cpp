@@ -1,0 +1,56 @@
+#include "engine/flow_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+template <class Value>
+void require(bool holds, const char* field, Value value, const char* limits)
+{
+    if (holds)
+        return;
+    std::ostringstream message;
+    message.precision(17);
+    message << field << " is " << value << ", but must be " << limits;
+    throw OptionError(message.str());
+}
+
+bool positive_and_finite(double value)
+{
+    return value > 0.0 && std::isfinite(value);
+}
+
+}  // namespace
+
+FlowOptions FlowOptions::plain()
+{
+    FlowOptions options;
+    options.sweep = Sweep::Fixed;
+    return options;
+}
+
+void require_valid(const FlowOptions& options)
+{
+    require(positive_and_finite(options.time_step), "time_step", options.time_step, "positive and finite (length²)");
+    require(options.steps >= 0, "steps", options.steps, "at least 0");
+    require(options.subdomains >= 0, "subdomains", options.subdomains, "at least 0 (0: chosen)");
+    require(options.threads >= 0, "threads", options.threads, "at least 0 (0: as many as the calling TBB arena has)");
+    if (options.p)
+        require(positive_and_finite(*options.p), "p", *options.p, "positive and finite (1/length)");
+    const auto negative =
+        std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });
+    if (negative != options.labels.end())
+        throw InputError("the label of face " + std::to_string(negative - options.labels.begin()) + " is " +
+                         std::to_string(*negative) + ", but labels must be at least 0");
+}
+
+}  // namespace seamflow

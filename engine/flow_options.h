@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow
+{
+
+/// How the sub-meshes are coloured. Sub-meshes of one colour are independent; colours are solved in turn.
+enum class Coloring {
+    /// Two colours (red-black) where the sub-mesh adjacency is bipartite, few otherwise. Colour classes are solved in
+    /// order of
+    /// decreasing total curvature Σ‖ΔV⁰‖.
+    Greedy,
+    /// The colour of a sub-mesh is its label: sub-mesh 0 solves first, then 1, and so on.
+    Label,
+};
+
+/// What holds on the interface between sub-meshes.
+enum class Conditions {
+    /// The paper's adapted Robin conditions (eqs. adaptedVentcell A and B with q = 0), for any number of sub-meshes.
+    AdaptedRobin,
+};
+
+/// In which order the colours are solved.
+enum class Sweep {
+    /// Fixed for two sub-meshes, Alternating for more.
+    Automatic,
+    /// The same order in every step, as in the paper.
+    Fixed,
+    /// First to last in even steps, last to first in odd steps.
+    Alternating,
+};
+
+/// What happens to the vertices of the interface after each step.
+enum class Correction {
+    /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction).
+    Centroid,
+    /// Nothing.
+    None,
+};
+
+/// Everything that decides about a flow.
+struct FlowOptions {
+    /// Which discrete Laplacian drives the flow.
+    Laplacian laplacian = Laplacian::Fujiwara;
+    /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
+    /// positive and finite.
+    double time_step = 0.0;
+    /// Number of steps, at least 0 (0 leaves the mesh as it is).
+    int steps = 1;
+    /// Number of sub-meshes. 1: undecomposed. 0: chosen from the size of the mesh and of √dt. Every component of the
+    /// mesh has at least one sub-mesh of its own, and no sub-mesh is cut too small, so the number used (see FlowReport)
+    /// can differ.
+    int subdomains = 0;
+    /// A cut of one's own: the sub-mesh of every face (#F entries, each at least 0), used instead of `subdomains`
+    /// where not empty. Parts that are not connected, or pinched at a vertex, are repaired by moving faces.
+    std::vector<Index> labels;
+    /// Order of sub-meshes in a step.
+    Coloring coloring = Coloring::Greedy;
+    /// What holds between sub-meshes.
+    Conditions conditions = Conditions::AdaptedRobin;
+    /// Robin parameter p, in 1/length, positive. Empty: p* of the paper (eq. ourP) for each sub-mesh.
+    std::optional<double> p;
+    /// Direction of the sweep over the colours.
+    Sweep sweep = Sweep::Automatic;
+    /// Treatment of the interface after a step.
+    Correction correction = Correction::Centroid;
+    /// Threads used. 0: those of the calling TBB arena. The result is the same, bit for bit, for any number.
+    int threads = 0;
+    /// Also run the undecomposed flow and report the distance to it after each step.
+    bool reference = false;
+
+    /// The paper to the letter, generalised to many sub-meshes and nothing else: fixed sweep, no improvements that
+    /// other defaults may hold now or later.
+    static FlowOptions plain();
+};
+
+/// Checks every field against its limits.
+/// @throws OptionError naming the field, its value and its limits.
+void require_valid(const FlowOptions& options);
+
+}  // namespace seamflow

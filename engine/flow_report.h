@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "partition/metrics/vertex_distance.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow
+{
+
+/// Seconds. `assemble` to `correct` are summed over all tasks and threads; the others are wall-clock time.
+struct PhaseSeconds {
+    double cut = 0.0;
+    double analyse = 0.0;
+    double assemble = 0.0;
+    double factorise = 0.0;
+    double solve = 0.0;
+    double correct = 0.0;
+    /// All steps.
+    double step = 0.0;
+    /// The whole call, without the undecomposed flow that FlowOptions::reference asks for.
+    double total = 0.0;
+};
+
+/// One step.
+struct StepReport {
+    /// Wall-clock time.
+    double seconds = 0.0;
+    /// Largest length of the mean curvature vector ΔV over all vertices that may move, in 1/length.
+    double max_mean_curvature_before = 0.0;
+    double max_mean_curvature_after = 0.0;
+    /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
+    std::optional<VertexDistance> distance;
+};
+
+/// What a flow did.
+struct FlowReport {
+    Index vertices = 0;
+    Index faces = 0;
+    /// Number of sub-meshes used, and of colours.
+    Index subdomains = 0;
+    Index colors = 0;
+    /// Faces and vertices of each sub-mesh (vertices of the interface counted in each).
+    std::vector<Index> subdomain_faces;
+    std::vector<Index> subdomain_vertices;
+    /// Colour of each sub-mesh; colour 0 solves first in even steps.
+    std::vector<Index> subdomain_colors;
+    /// Sub-mesh of every face after repair.
+    std::vector<Index> labels;
+    /// Number of vertices on the interface Γ.
+    Index interface_vertices = 0;
+    /// Faces moved to another sub-mesh so that each is connected and has one fan of faces around each of its vertices.
+    Index repaired_faces = 0;
+    /// Vertices held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
+    Index non_manifold_vertices = 0;
+    /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface).
+    std::vector<double> p;
+    /// dt, in length².
+    double time_step = 0.0;
+    /// Threads used.
+    int threads = 0;
+    PhaseSeconds seconds;
+    std::vector<StepReport> steps;
+    /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
+    std::vector<std::string> remarks;
+};
+
+/// What an observer sees after each step.
+struct StepState {
+    /// Number of the step, from 1.
+    int step = 0;
+    /// #V by 3, the positions after the step.
+    const Points& positions;
+    const StepReport& report;
+};
+
+/// Called after each step, in the thread that called the flow.
+using StepObserver = std::function<void(const StepState&)>;
+
+}  // namespace seamflow

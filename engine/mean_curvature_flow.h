@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/flow_options.h"
+#include "engine/flow_report.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow
+{
+
+/// Smooths a mesh by mean curvature flow: `options.steps` backward Euler steps (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq.
+/// MCFbackwardEuler), decomposed into sub-meshes. Boundary vertices stay where they are, bit for bit; vertices without
+/// faces too.
+/// @param mesh its positions are moved; after an exception they are those of the last complete step.
+/// @param on_step called after each step.
+/// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits,
+///         ComputationError, naming the sub-mesh, for a system that is singular or a result that is not finite.
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {});
+
+}  // namespace seamflow

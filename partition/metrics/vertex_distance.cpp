@@ -1,0 +1,52 @@
+#include "partition/metrics/vertex_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+double mean_edge_length(const PolygonMesh& mesh)
+{
+    return mean_edge_length(mesh, mesh.vertices);
+}
+
+double mean_edge_length(const PolygonMesh& mesh, const Points& positions)
+{
+    double sum = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto corners = mesh.face(f);
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            sum += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
+    }
+    return mesh.n_corners() > 0 ? sum / mesh.n_corners() : 0.0;
+}
+
+VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate)
+{
+    if (reference.rows() != candidate.rows())
+        throw InputError("the reference has " + std::to_string(reference.rows()) + " vertices, the candidate " +
+                         std::to_string(candidate.rows()) +
+                         ": only meshes with corresponding vertices can be compared");
+    VertexDistance distance;
+    distance.mean_edge = mean_edge_length(mesh, reference);
+    if (reference.rows() == 0)
+        return distance;
+    double sum = 0.0;
+    double sum_of_squares = 0.0;
+    for (Eigen::Index v = 0; v < reference.rows(); ++v) {
+        const double squared = (candidate.row(v) - reference.row(v)).squaredNorm();
+        sum += std::sqrt(squared);
+        sum_of_squares += squared;
+        distance.max = std::max(distance.max, std::sqrt(squared));
+    }
+    const auto count = static_cast<double>(reference.rows());
+    distance.mean = sum / count;
+    distance.rms = std::sqrt(sum_of_squares / count);
+    return distance;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow
+{
+
+/// Distances of corresponding vertices of two meshes (paper, section Evaluation): V_mean, V_RMS, V_max.
+struct VertexDistance {
+    /// In units of length.
+    double mean = 0.0;
+    double rms = 0.0;
+    double max = 0.0;
+    /// Mean edge length of the reference, over its half-edges: an interior edge counts twice.
+    double mean_edge = 0.0;
+};
+
+/// Mean length over the half-edges of a mesh, so that an interior edge counts twice; 0 without faces.
+double mean_edge_length(const PolygonMesh& mesh);
+
+/// As above for positions other than the mesh's own, #V by 3.
+double mean_edge_length(const PolygonMesh& mesh, const Points& positions);
+
+/// Distances between `candidate` and `reference`, #V by 3 each, over all vertices; `mesh` gives the faces.
+/// @throws InputError if the numbers of vertices differ.
+VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate);
+
+}  // namespace seamflow

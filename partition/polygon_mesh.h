@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace seamflow
+{
+
+/// Index of a vertex, face, half-edge or sub-mesh.
+using Index = std::int32_t;
+
+/// Positions, #V by 3, one vertex a row, in the unit of length of the input.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// A polygonal surface mesh as flat arrays: faces of any number of sides, planar or not, convex or not. Vertices
+/// without faces, several components, closed and open surfaces are all welcome, and faces need not be oriented alike.
+struct PolygonMesh {
+    /// #V by 3.
+    Points vertices = Points(0, 3);
+    /// #F + 1; the vertices of face f are face_vertices[face_offsets[f]] to face_vertices[face_offsets[f + 1] - 1].
+    std::vector<Index> face_offsets{0};
+    /// One entry per corner of every face, in order around the face.
+    std::vector<Index> face_vertices;
+
+    [[nodiscard]] Index n_vertices() const { return static_cast<Index>(vertices.rows()); }
+    [[nodiscard]] Index n_faces() const { return static_cast<Index>(face_offsets.size()) - 1; }
+    [[nodiscard]] Index n_corners() const { return static_cast<Index>(face_vertices.size()); }
+
+    /// The vertices of face f, in order.
+    [[nodiscard]] std::span<const Index> face(Index f) const
+    {
+        const auto begin = static_cast<std::size_t>(face_offsets[static_cast<std::size_t>(f)]);
+        const auto end = static_cast<std::size_t>(face_offsets[static_cast<std::size_t>(f) + 1]);
+        return std::span<const Index>(face_vertices).subspan(begin, end - begin);
+    }
+
+    /// Appends a face.
+    void add_face(std::span<const Index> corners)
+    {
+        face_vertices.insert(face_vertices.end(), corners.begin(), corners.end());
+        face_offsets.push_back(n_corners());
+    }
+};
+
+/// Checks that the arrays fit together, that every face has at least three corners, all different and in range, and
+/// that all coordinates are finite.
+/// @throws InputError naming the first offending face or vertex (numbered from 0).
+void require_valid(const PolygonMesh& mesh);
+
+}  // namespace seamflow

@@ -1,0 +1,184 @@
+#include "partition/topology.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace seamflow
+{
+
+namespace
+{
+
+std::size_t at(Index i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+void list_corners(const PolygonMesh& mesh, Topology& topology)
+{
+    topology.vertex_offsets.assign(at(mesh.n_vertices()) + 1, 0);
+    for (const Index v : mesh.face_vertices)
+        ++topology.vertex_offsets[at(v) + 1];
+    for (std::size_t v = 0; v < at(mesh.n_vertices()); ++v)
+        topology.vertex_offsets[v + 1] += topology.vertex_offsets[v];
+    topology.vertex_corners.resize(mesh.face_vertices.size());
+    std::vector<Index> end(topology.vertex_offsets.begin(), topology.vertex_offsets.end() - 1);
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        topology.vertex_corners[at(end[at(mesh.face_vertices[at(h)])]++)] = h;
+}
+
+/// One half-edge at a vertex, by the vertex at its other end.
+struct Spoke {
+    Index neighbour;
+    Index halfedge;
+    friend auto operator<=>(const Spoke&, const Spoke&) = default;
+};
+
+/// Pairs the half-edges between v and vertices of higher index.
+void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology,
+                       std::vector<bool>& non_manifold)
+{
+    spokes.clear();
+    for (const Index h : topology.corners_at(v))
+        for (const auto& [neighbour_corner, halfedge] :
+             {std::pair(topology.next(mesh, h), h), std::pair(topology.previous(mesh, h), topology.previous(mesh, h))})
+            if (const Index neighbour = mesh.face_vertices[at(neighbour_corner)]; neighbour > v)
+                spokes.push_back({neighbour, halfedge});
+    std::sort(spokes.begin(), spokes.end());
+    for (auto first = spokes.begin(); first != spokes.end();) {
+        const auto last =
+            std::find_if(first, spokes.end(), [&](const Spoke& s) { return s.neighbour != first->neighbour; });
+        if (last - first == 2) {
+            topology.twin[at(first[0].halfedge)] = first[1].halfedge;
+            topology.twin[at(first[1].halfedge)] = first[0].halfedge;
+        } else if (last - first > 2) {
+            non_manifold[at(v)] = true;
+            non_manifold[at(first->neighbour)] = true;
+        }
+        first = last;
+    }
+}
+
+VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v, bool on_non_manifold_edge)
+{
+    const auto corners = topology.corners_at(v);
+    if (corners.empty())
+        return VertexKind::Isolated;
+    if (on_non_manifold_edge)
+        return VertexKind::NonManifold;
+    for (const Index h : corners)
+        if (topology.twin[at(h)] < 0 || topology.twin[at(topology.previous(mesh, h))] < 0)
+            return VertexKind::Boundary;
+    return fans_at(mesh, topology, v, {}, 0).size() == 1 ? VertexKind::Interior : VertexKind::NonManifold;
+}
+
+/// The two half-edges at the vertex of a corner, in its face.
+std::array<Index, 2> spokes_of(const PolygonMesh& mesh, const Topology& topology, Index corner)
+{
+    return {corner, topology.previous(mesh, corner)};
+}
+
+/// The corner at v of the face that half-edge h, which begins or ends at v, belongs to.
+Index corner_at(const PolygonMesh& mesh, const Topology& topology, Index h, Index v)
+{
+    return mesh.face_vertices[at(h)] == v ? h : topology.next(mesh, h);
+}
+
+/// The end of half-edge h that is not v.
+Index other_end(const PolygonMesh& mesh, const Topology& topology, Index h, Index v)
+{
+    const Index start = mesh.face_vertices[at(h)];
+    return start == v ? mesh.face_vertices[at(topology.next(mesh, h))] : start;
+}
+
+/// Walks from `corner` across its half-edge `spoke` and on, face by face, as long as the faces belong to the fan.
+/// @returns the last half-edge reached; `visit` gets each further corner.
+template <class Belongs, class Visit>
+Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index corner, Index spoke, Belongs&& belongs,
+           Visit&& visit)
+{
+    const Index start = corner;
+    for (;;) {
+        const Index across = topology.twin[at(spoke)];
+        if (across < 0 || !belongs(topology.face_of[at(across)]))
+            return spoke;
+        const Index next_corner = corner_at(mesh, topology, across, v);
+        if (next_corner == start)
+            return spoke;
+        visit(next_corner);
+        const auto spokes = spokes_of(mesh, topology, next_corner);
+        spoke = spokes[0] == across ? spokes[1] : spokes[0];
+        corner = next_corner;
+    }
+}
+
+}  // namespace
+
+Topology make_topology(const PolygonMesh& mesh)
+{
+    Topology topology;
+    topology.twin.assign(mesh.face_vertices.size(), -1);
+    topology.face_of.resize(mesh.face_vertices.size());
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        std::fill(topology.face_of.begin() + mesh.face_offsets[at(f)],
+                  topology.face_of.begin() + mesh.face_offsets[at(f) + 1], f);
+    list_corners(mesh, topology);
+
+    std::vector<bool> on_non_manifold_edge(at(mesh.n_vertices()), false);
+    std::vector<Spoke> spokes;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        pair_halfedges_at(mesh, v, spokes, topology, on_non_manifold_edge);
+
+    topology.kind.resize(at(mesh.n_vertices()));
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        topology.kind[at(v)] = classify(mesh, topology, v, on_non_manifold_edge[at(v)]);
+    return topology;
+}
+
+std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Index v, std::span<const Index> labels,
+                         Index label)
+{
+    const auto belongs = [&](Index f) { return labels.empty() || labels[at(f)] == label; };
+    const auto corners = topology.corners_at(v);
+    std::vector<bool> visited(corners.size(), false);
+    const auto mark = [&](Index corner) {
+        visited[static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), corner) - corners.begin())] =
+            true;
+    };
+
+    std::vector<Fan> fans;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (visited[i] || !belongs(topology.face_of[at(corners[i])]))
+            continue;
+        Fan fan;
+        mark(corners[i]);
+        const auto spokes = spokes_of(mesh, topology, corners[i]);
+        const auto append = [&](Index corner) {
+            mark(corner);
+            fan.corners.push_back(corner);
+        };
+        const Index last = walk(mesh, topology, v, corners[i], spokes[0], belongs, append);
+        const Index closing = topology.twin[at(last)];
+        fan.closed = closing >= 0 && closing == spokes[1];
+        Index first = spokes[1];
+        if (!fan.closed) {
+            std::vector<Index> backwards;
+            first = walk(mesh, topology, v, corners[i], spokes[1], belongs, [&](Index corner) {
+                mark(corner);
+                backwards.push_back(corner);
+            });
+            std::reverse(backwards.begin(), backwards.end());
+            backwards.push_back(corners[i]);
+            fan.corners.insert(fan.corners.begin(), backwards.begin(), backwards.end());
+        } else {
+            fan.corners.insert(fan.corners.begin(), corners[i]);
+        }
+        fan.first = other_end(mesh, topology, first, v);
+        fan.last = other_end(mesh, topology, last, v);
+        fans.push_back(std::move(fan));
+    }
+    return fans;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow
+{
+
+/// Where a vertex lies in its mesh.
+enum class VertexKind : std::uint8_t {
+    /// Its faces form one closed fan.
+    Interior,
+    /// On an edge of one face.
+    Boundary,
+    /// On an edge of three or more faces, or its faces form several fans of which none is open.
+    NonManifold,
+    /// No faces.
+    Isolated,
+};
+
+/// How the faces of a mesh hang together. Half-edge h runs from corner h to the next corner of the same face, so that
+/// half-edges are numbered like `face_vertices`. Orientation plays no part: an edge pairs its two half-edges whether
+/// they run in opposite directions or in the same one, and a Möbius band is as good a mesh as any.
+struct Topology {
+    /// One entry per half-edge: the half-edge of the other face at the same edge, or -1 on an edge of one face, or of
+    /// three or more.
+    std::vector<Index> twin;
+    /// One entry per half-edge: its face.
+    std::vector<Index> face_of;
+    /// #V + 1; the corners at vertex v are vertex_corners[vertex_offsets[v]] and so on, in ascending order.
+    std::vector<Index> vertex_offsets;
+    std::vector<Index> vertex_corners;
+    /// #V.
+    std::vector<VertexKind> kind;
+
+    /// The corners (each one in its own face) at vertex v.
+    [[nodiscard]] std::span<const Index> corners_at(Index v) const
+    {
+        const auto begin = static_cast<std::size_t>(vertex_offsets[static_cast<std::size_t>(v)]);
+        const auto end = static_cast<std::size_t>(vertex_offsets[static_cast<std::size_t>(v) + 1]);
+        return std::span<const Index>(vertex_corners).subspan(begin, end - begin);
+    }
+
+    /// The half-edge after h in its face.
+    [[nodiscard]] Index next(const PolygonMesh& mesh, Index h) const
+    {
+        const auto f = static_cast<std::size_t>(face_of[static_cast<std::size_t>(h)]);
+        return h + 1 == mesh.face_offsets[f + 1] ? mesh.face_offsets[f] : h + 1;
+    }
+
+    /// The half-edge before h in its face.
+    [[nodiscard]] Index previous(const PolygonMesh& mesh, Index h) const
+    {
+        const auto f = static_cast<std::size_t>(face_of[static_cast<std::size_t>(h)]);
+        return h == mesh.face_offsets[f] ? mesh.face_offsets[f + 1] - 1 : h - 1;
+    }
+};
+
+/// Pairs the half-edges of a valid mesh (see require_valid) and classifies its vertices. Linear in the size of the
+/// mesh.
+Topology make_topology(const PolygonMesh& mesh);
+
+/// A run of faces around a vertex, each sharing an edge at the vertex with the next.
+struct Fan {
+    /// One corner at the vertex per face, in order around the vertex.
+    std::vector<Index> corners;
+    /// The neighbours of the vertex along the fan's first and last edge; the same one if the fan is closed.
+    Index first = -1;
+    Index last = -1;
+    bool closed = false;
+};
+
+/// The fans that those faces at vertex v form whose label is `label`, in order of their lowest corner.
+/// @param labels #F; empty: all faces have the label 0.
+std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Index v, std::span<const Index> labels,
+                         Index label);
+
+}  // namespace seamflow
