@@ -35,6 +35,8 @@ struct StepReport {
     double max_mean_curvature_after = 0.0;
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
+    /// Wall-clock time of the undecomposed step, with FlowOptions::reference.
+    std::optional<double> reference_seconds;
 };
 
 /// What a flow did.

@@ -1,16 +1,14 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "partition/index.h"
+
 namespace seamflow
 {
-
-/// Index of a vertex, face, half-edge or sub-mesh.
-using Index = std::int32_t;
 
 /// Positions, #V by 3, one vertex a row, in the unit of length of the input.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -32,9 +30,8 @@ struct PolygonMesh {
     /// The vertices of face f, in order.
     [[nodiscard]] std::span<const Index> face(Index f) const
     {
-        const auto begin = static_cast<std::size_t>(face_offsets[static_cast<std::size_t>(f)]);
-        const auto end = static_cast<std::size_t>(face_offsets[static_cast<std::size_t>(f) + 1]);
-        return std::span<const Index>(face_vertices).subspan(begin, end - begin);
+        const std::size_t begin = at(face_offsets[at(f)]);
+        return std::span<const Index>(face_vertices).subspan(begin, at(face_offsets[at(f) + 1]) - begin);
     }
 
     /// Appends a face.

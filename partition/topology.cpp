@@ -10,11 +10,6 @@ namespace seamflow
 namespace
 {
 
-std::size_t at(Index i)
-{
-    return static_cast<std::size_t>(i);
-}
-
 void list_corners(const PolygonMesh& mesh, Topology& topology)
 {
     topology.vertex_offsets.assign(at(mesh.n_vertices()) + 1, 0);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,22 +39,21 @@ struct Topology {
     /// The corners (each one in its own face) at vertex v.
     [[nodiscard]] std::span<const Index> corners_at(Index v) const
     {
-        const auto begin = static_cast<std::size_t>(vertex_offsets[static_cast<std::size_t>(v)]);
-        const auto end = static_cast<std::size_t>(vertex_offsets[static_cast<std::size_t>(v) + 1]);
-        return std::span<const Index>(vertex_corners).subspan(begin, end - begin);
+        const std::size_t begin = at(vertex_offsets[at(v)]);
+        return std::span<const Index>(vertex_corners).subspan(begin, at(vertex_offsets[at(v) + 1]) - begin);
     }
 
     /// The half-edge after h in its face.
     [[nodiscard]] Index next(const PolygonMesh& mesh, Index h) const
     {
-        const auto f = static_cast<std::size_t>(face_of[static_cast<std::size_t>(h)]);
+        const auto f = at(face_of[at(h)]);
         return h + 1 == mesh.face_offsets[f + 1] ? mesh.face_offsets[f] : h + 1;
     }
 
     /// The half-edge before h in its face.
     [[nodiscard]] Index previous(const PolygonMesh& mesh, Index h) const
     {
-        const auto f = static_cast<std::size_t>(face_of[static_cast<std::size_t>(h)]);
+        const auto f = at(face_of[at(h)]);
         return h == mesh.face_offsets[f] ? mesh.face_offsets[f + 1] - 1 : h - 1;
     }
 };

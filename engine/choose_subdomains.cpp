@@ -1,0 +1,45 @@
+#include "engine/choose_subdomains.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/geometry.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Factorising and solving costs least per vertex in blocks of this size or less; smaller ones have more interface for no gain.
+constexpr double vertices_per_sub_mesh = 2'500.0;
+
+double total_area(const PolygonMesh& mesh)
+{
+    double sum = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        sum += area(mesh.face(f), mesh.vertices);
+    return sum;
+}
+
+}  // namespace
+
+SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step)
+{
+    const double width = good_width_in_diffusion_lengths * std::sqrt(time_step);
+    const double most_by_width = std::floor(total_area(mesh) / (width * width));
+    const double most_by_cost = std::floor(mesh.n_vertices() / vertices_per_sub_mesh);
+    SubdomainChoice choice;
+    choice.count = static_cast<Index>(std::max(1.0, std::min(most_by_width, most_by_cost)));
+    const std::string number = std::to_string(choice.count) + (choice.count == 1 ? " sub-mesh" : " sub-meshes");
+    if (most_by_width < most_by_cost)
+        choice.reason = number + " chosen: more would be narrower than 10 √dt, where the result drifts from the undecomposed flow";
+    else
+        choice.reason = number + " chosen: about 2,500 vertices in each cost least";
+    return choice;
+}
+
+double width_in_diffusion_lengths(const PolygonMesh& mesh, Index k, double time_step)
+{
+    return std::sqrt(total_area(mesh) / k / time_step);
+}
+
+}  // namespace seamflow

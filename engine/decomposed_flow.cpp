@@ -1,0 +1,156 @@
+#include "engine/decomposed_flow.h"
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <string>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "engine/sweep_order.h"
+#include "partition/errors.h"
+#include "solvers/interface/robin_parameter.h"
+
+namespace seamflow {
+
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+/// Runs `body` for a sub-mesh; failures come out with its name.
+template <class Body>
+void on_behalf_of(const SubMesh& sub_mesh, Index s, Body&& body)
+{
+    const auto name = [&] {
+        return "sub-mesh " + std::to_string(s) + " (" + std::to_string(sub_mesh.n_vertices) +
+               " vertices, among its faces number " + std::to_string(sub_mesh.faces.front()) + "): ";
+    };
+    try {
+        body();
+    } catch (const ComputationError& error) {
+        throw ComputationError(name() + error.what());
+    } catch (const std::bad_alloc&) {
+        throw ComputationError(name() + "out of memory: use more sub-meshes");
+    }
+}
+
+std::vector<SubMesh> cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
+{
+    auto faces = faces_by_label(cut.labels, cut.n_parts);
+    std::vector<SubMesh> sub_meshes(faces.size());
+    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
+        sub_meshes[s] = make_sub_mesh(mesh, topology, cut.labels, std::move(faces[s]));
+    });
+    return sub_meshes;
+}
+
+bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
+{
+    return options.sweep == Sweep::Alternating || (options.sweep == Sweep::Automatic && n_sub_meshes > 2);
+}
+
+}  // namespace
+
+DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                               const FlowOptions& options, const std::vector<double>& curvature)
+    : decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
+    , positions_(mesh.vertices)
+{
+    make_states(mesh, options);
+    const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
+    plans_.push_back(plan_sweep(decomposition_, rank));
+    if (alternates(options, states_.size()))
+        plans_.push_back(plan_sweep(decomposition_, reversed(rank)));
+    for (const SweepPlan& plan : plans_)
+        roots_.push_back(add_sweep(plan, options));
+}
+
+void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t s) {
+        const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
+        on_behalf_of(sub_mesh, static_cast<Index>(s),
+                     [&] { made[s].emplace(sub_mesh, options.laplacian, mesh.vertices); });
+        if (!sub_mesh.interface.vertices.empty())
+            made[s]->p = options.p.value_or(optimal_robin_parameter(sub_mesh, made[s]->position));
+    });
+    states_.reserve(made.size());
+    for (auto& state : made)
+        states_.push_back(std::move(*state));
+}
+
+TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptions& options)
+{
+    const auto n = static_cast<Index>(states_.size());
+    const double time_step = options.time_step;
+    const bool corrected = options.correction == Correction::Centroid;
+    const auto task = [this](Index s, auto body, TaskGraph::Priority priority) {
+        return graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); }, priority);
+    };
+
+    const TaskGraph::Node root = graph_.add_root();
+    std::vector<TaskGraph::Node> solved;
+    for (Index s = 0; s < n; ++s) {
+        const auto factorised = task(
+            s,
+            [this, &plan, time_step](Index i) {
+                assemble_and_factorise(states_, i, decomposition_.halo[at(i)], plan.roles[at(i)], time_step);
+            },
+            TaskGraph::Priority::Normal);
+        solved.push_back(task(
+            s, [this, &plan](Index i) { solve(states_, i, plan.traces[at(i)]); }, TaskGraph::Priority::High));
+        graph_.add_dependency(root, factorised);
+        graph_.add_dependency(factorised, solved.back());
+    }
+    for (Index s = 0; s < n; ++s) {
+        const auto accepted = task(
+            s,
+            [this, corrected](Index i) {
+                corrected ? accept_corrected(states_, i, decomposition_.halo[at(i)]) : accept(states_, i);
+            },
+            TaskGraph::Priority::High);
+        graph_.add_dependency(solved[at(s)], accepted);
+        for (const Transfer& trace : plan.traces[at(s)])
+            graph_.add_dependency(solved[at(trace.from)], solved[at(s)]);
+        for (const Index neighbour : decomposition_.adjacency[at(s)])
+            graph_.add_dependency(solved[at(neighbour)], accepted);
+    }
+    return root;
+}
+
+void DecomposedFlow::step()
+{
+    graph_.run(roots_[static_cast<std::size_t>(steps_done_) % roots_.size()]);
+    ++steps_done_;
+    join();
+}
+
+void DecomposedFlow::join()
+{
+    tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t s) {
+        const SubMesh& sub_mesh = *states_[s].sub_mesh;
+        for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+            if (sub_mesh.owned[at(v)] != 0)
+                positions_.row(sub_mesh.local_to_global[at(v)]) = states_[s].position.row(v);
+    });
+}
+
+void DecomposedFlow::describe(FlowReport& report) const
+{
+    report.subdomains = static_cast<Index>(states_.size());
+    report.interface_vertices = decomposition_.n_interface_vertices;
+    report.subdomain_colors = plans_.front().rank;
+    report.colors = states_.empty() ? 0 : *std::max_element(plans_.front().rank.begin(), plans_.front().rank.end()) + 1;
+    for (const SubMeshState& state : states_) {
+        report.subdomain_faces.push_back(static_cast<Index>(state.sub_mesh->faces.size()));
+        report.subdomain_vertices.push_back(state.sub_mesh->n_vertices);
+        report.p.push_back(state.p);
+        report.seconds.assemble += state.seconds.assemble;
+        report.seconds.factorise += state.seconds.factorise;
+        report.seconds.solve += state.seconds.solve;
+        report.seconds.correct += state.seconds.correct;
+    }
+}
+
+}  // namespace seamflow

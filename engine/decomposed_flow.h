@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/flow_options.h"
+#include "engine/flow_report.h"
+#include "engine/sub_mesh_state.h"
+#include "engine/task_graph.h"
+#include "partition/cut/cut.h"
+#include "partition/decomposition/sweep_plan.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// A mesh flowing in pieces: one task graph, built once, run once per step. Per sub-mesh it has three tasks:
+///
+///     assemble and factorise ──► solve ──► correct
+///                                 ▲  │        ▲
+///        solve of adjacent sub-   │  │        │  solve of all
+///        meshes of lower colour ──┘  └─ …     └─ adjacent sub-meshes
+///
+/// No barrier stands between colours. Belongs to the arena in which it is constructed.
+class DecomposedFlow {
+  public:
+    /// Cuts out the sub-meshes, analyses their equations and builds the graph.
+    /// @param mesh, topology must outlive the flow.
+    /// @param curvature #V: ‖ΔV⁰‖.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails.
+    DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+                   const std::vector<double>& curvature);
+
+    /// One backward Euler step. After an exception the positions are those before the step, and the flow is at its end.
+    /// @throws ComputationError naming the sub-mesh.
+    void step();
+
+    /// #V by 3, after the last complete step.
+    [[nodiscard]] const Points& positions() const { return positions_; }
+
+    /// Fills in what the flow knows of itself: sub-meshes, colours, p, seconds spent in tasks.
+    void describe(FlowReport& report) const;
+
+  private:
+    void make_states(const PolygonMesh& mesh, const FlowOptions& options);
+    TaskGraph::Node add_sweep(const SweepPlan& plan, const FlowOptions& options);
+    void join();
+
+    Decomposition decomposition_;
+    std::vector<SubMeshState> states_;
+    /// Forward, and backward where the sweep alternates.
+    std::vector<SweepPlan> plans_;
+    std::vector<TaskGraph::Node> roots_;
+    TaskGraph graph_;
+    Points positions_;
+    int steps_done_ = 0;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,119 @@
+#include "engine/mean_curvature_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "engine/choose_subdomains.h"
+#include "engine/decomposed_flow.h"
+#include "engine/stopwatch.h"
+#include "engine/surface_curvature.h"
+#include "engine/workers.h"
+#include "partition/cut/cut.h"
+#include "partition/errors.h"
+#include "partition/topology.h"
+#include "solvers/degenerate.h"
+
+namespace seamflow {
+
+namespace {
+
+Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+{
+    if (!options.labels.empty())
+        return cut_by_labels(mesh, topology, options.labels);
+    if (options.subdomains > 0)
+        return cut_into(mesh, topology, options.subdomains);
+    const SubdomainChoice choice = choose_subdomains(mesh, options.time_step);
+    Cut cut = cut_into(mesh, topology, choice.count);
+    cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
+    return cut;
+}
+
+void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+                    FlowReport& report)
+{
+    report.vertices = mesh.n_vertices();
+    report.faces = mesh.n_faces();
+    report.time_step = options.time_step;
+    report.labels = cut.labels;
+    report.repaired_faces = cut.repaired_faces;
+    report.remarks = cut.remarks;
+    report.non_manifold_vertices =
+        static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));
+    if (report.non_manifold_vertices > 0)
+        report.remarks.push_back(std::to_string(report.non_manifold_vertices) +
+                                 " vertices are held fixed because the mesh is not manifold there.");
+    if (cut.n_parts > 1 && options.steps > 0) {
+        const double width = width_in_diffusion_lengths(mesh, cut.n_parts, options.time_step);
+        if (width < good_width_in_diffusion_lengths)
+            report.remarks.push_back(
+                "The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
+                " √dt on average, 10 are good): the result may drift from the undecomposed flow; use fewer sub-meshes.");
+    }
+}
+
+void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const StepObserver& on_step,
+               std::vector<double> curvature, DecomposedFlow& flow, DecomposedFlow* reference, FlowReport& report)
+{
+    double curvature_before = largest_curvature(curvature);
+    for (int step = 1; step <= options.steps; ++step) {
+        Stopwatch watch;
+        flow.step();
+        StepReport& of_step = report.steps.emplace_back();
+        of_step.seconds = watch.lap();
+        report.seconds.step += of_step.seconds;
+        mesh.vertices = flow.positions();
+
+        curvature = measure_curvature(mesh, topology, flow.positions(), options.laplacian);
+        of_step.max_mean_curvature_before = curvature_before;
+        of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
+        report.seconds.total += of_step.seconds + watch.lap();
+        if (reference != nullptr) {
+            reference->step();
+            of_step.reference_seconds = watch.lap();
+            of_step.distance = vertex_distance(mesh, reference->positions(), flow.positions());
+        }
+        if (on_step)
+            on_step({step, flow.positions(), of_step});
+    }
+}
+
+void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
+               FlowReport& report)
+{
+    Stopwatch watch;
+    const PolygonMesh input = mesh;
+    const Topology topology = make_topology(input);
+    require_sound_geometry(input, topology, options.laplacian);
+    const Cut cut = make_cut(input, topology, options);
+    describe_input(input, topology, cut, options, report);
+    report.threads = workers.threads();
+    report.seconds.cut = watch.lap();
+
+    const auto curvature = measure_curvature(input, topology, input.vertices, options.laplacian);
+    DecomposedFlow flow(input, topology, cut, options, curvature);
+    report.seconds.analyse = watch.lap();
+    report.seconds.total = report.seconds.cut + report.seconds.analyse;
+
+    std::optional<DecomposedFlow> reference;
+    if (options.reference)
+        reference.emplace(input, topology, cut_into(input, topology, 1), options, curvature);
+    run_steps(mesh, topology, options, on_step, curvature, flow, reference ? &*reference : nullptr, report);
+    flow.describe(report);
+}
+
+}  // namespace
+
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step)
+{
+    require_valid(options);
+    require_valid(mesh);
+    FlowReport report;
+    Workers workers(options.threads);
+    workers.execute([&] { flow_with(workers, mesh, options, on_step, report); });
+    return report;
+}
+
+}  // namespace seamflow

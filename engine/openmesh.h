@@ -1,0 +1,24 @@
+#pragma once
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/openmesh.h"
+
+namespace seamflow {
+
+/// Smooths a mesh of OpenMesh: see mean_curvature_flow for a PolygonMesh. Points are computed in double precision, whatever the
+/// mesh's own scalar is, and rounded once at the end. The mesh's other properties (normals, too) stay as they are.
+template <OpenMeshMesh Mesh>
+FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {})
+{
+    PolygonMesh flowing = to_polygon_mesh(mesh);
+    try {
+        FlowReport report = mean_curvature_flow(flowing, options, on_step);
+        set_positions(mesh, flowing.vertices);
+        return report;
+    } catch (...) {
+        set_positions(mesh, flowing.vertices);
+        throw;
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,70 @@
+#include "engine/single_threaded_libraries.h"
+
+#include <mutex>
+
+#include <dlfcn.h>
+
+namespace seamflow {
+
+namespace {
+
+/// A function of a library that may or may not be loaded. Looked up by name, because which BLAS stands behind libblas, and whether
+/// OpenMP is there at all, is decided when the program starts.
+template <class Function>
+Function* find_function(const char* name)
+{
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// How many SingleThreadedBlas there are, and what to go back to.
+struct BlasThreads {
+    std::mutex mutex;
+    int users = 0;
+    int before = 1;
+};
+
+BlasThreads& blas_threads()
+{
+    static BlasThreads threads;
+    return threads;
+}
+
+}  // namespace
+
+SingleThreadedBlas::SingleThreadedBlas()
+{
+    const auto get = find_function<int()>("openblas_get_num_threads");
+    const auto set = find_function<void(int)>("openblas_set_num_threads");
+    const std::lock_guard lock(blas_threads().mutex);
+    if (blas_threads().users++ > 0 || get == nullptr || set == nullptr)
+        return;
+    blas_threads().before = get();
+    set(1);
+}
+
+SingleThreadedBlas::~SingleThreadedBlas()
+{
+    const auto set = find_function<void(int)>("openblas_set_num_threads");
+    const std::lock_guard lock(blas_threads().mutex);
+    if (--blas_threads().users == 0 && set != nullptr)
+        set(blas_threads().before);
+}
+
+int forbid_openmp_threads()
+{
+    const auto get = find_function<int()>("omp_get_max_active_levels");
+    const auto set = find_function<void(int)>("omp_set_max_active_levels");
+    if (get == nullptr || set == nullptr)
+        return 0;
+    const int levels = get();
+    set(0);
+    return levels;
+}
+
+void restore_openmp_threads(int levels)
+{
+    if (const auto set = find_function<void(int)>("omp_set_max_active_levels"))
+        set(levels);
+}
+
+}  // namespace seamflow

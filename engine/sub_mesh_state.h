@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+#include "partition/decomposition/sweep_plan.h"
+#include "solvers/sub_mesh_system.h"
+
+namespace seamflow {
+
+/// Seconds spent on one sub-mesh, summed over all steps.
+struct SubMeshSeconds {
+    double assemble = 0.0;
+    double factorise = 0.0;
+    double solve = 0.0;
+    double correct = 0.0;
+};
+
+/// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read the states of the
+/// senders that a Transfer names, and write to their own alone.
+struct SubMeshState {
+    SubMeshState(const SubMesh& sub_mesh, Laplacian laplacian, const Points& positions);
+
+    const SubMesh* sub_mesh;
+    SubMeshSystem system;
+    /// Robin parameter, in 1/length.
+    double p = 0.0;
+    /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
+    Points position;
+    /// #local by 3: Vᵏ⁺¹ as solved, before the correction.
+    Points solved;
+    SubMeshSeconds seconds;
+};
+
+/// Fetches Vᵏ for the halo, fills the equations and factorises them.
+void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                            std::span<const InterfaceRole> roles, double time_step);
+
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows on Γ, and solves.
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces);
+
+/// Accepts Vᵏ⁺¹ as it was solved.
+void accept(std::vector<SubMeshState>& states, Index s);
+
+/// Fetches Vᵏ⁺¹ for the halo and accepts Vᵏ⁺¹, the vertices of Γ moved to the centroids of their edge neighbours (paper, eq.
+/// correction). Every sub-mesh at a vertex finds the same bits.
+void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
+
+}  // namespace seamflow

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/topology.h"
+#include "solvers/geometry.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// ‖ΔV‖ at every vertex that may move, 0 at the others, in 1/length; #V. Runs in parallel.
+std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                      Laplacian laplacian);
+
+/// The largest finite one of them.
+double largest_curvature(const std::vector<double>& curvature);
+
+}  // namespace seamflow

@@ -1,0 +1,100 @@
+#include "engine/task_graph.h"
+
+#include <atomic>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+#include <oneapi/tbb/flow_graph.h>
+
+namespace seamflow {
+
+namespace {
+
+namespace flow = oneapi::tbb::flow;
+
+/// The failure of the task with the lowest number.
+class FirstFailure {
+  public:
+    void record(TaskGraph::Node node, std::exception_ptr failure)
+    {
+        const std::lock_guard lock(mutex_);
+        if (!failure_ || node < node_)
+            failure_ = std::move(failure), node_ = node;
+        failed_.store(true, std::memory_order_release);
+    }
+
+    [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
+
+    /// Forgets the failure, if there is one, by throwing it.
+    void rethrow()
+    {
+        failed_.store(false, std::memory_order_release);
+        if (auto failure = std::exchange(failure_, nullptr))
+            std::rethrow_exception(failure);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::atomic<bool> failed_{false};
+    std::exception_ptr failure_;
+    TaskGraph::Node node_ = -1;
+};
+
+}  // namespace
+
+class TaskGraph::Nodes {
+  public:
+    ~Nodes() { graph.wait_for_all(); }
+
+    flow::graph graph;
+    std::deque<flow::continue_node<flow::continue_msg>> nodes;
+    FirstFailure failure;
+};
+
+TaskGraph::TaskGraph()
+    : nodes_(std::make_unique<Nodes>())
+{
+}
+
+TaskGraph::~TaskGraph() = default;
+
+TaskGraph::Node TaskGraph::add_root()
+{
+    nodes_->nodes.emplace_back(nodes_->graph, [](const flow::continue_msg& message) { return message; });
+    return static_cast<Node>(nodes_->nodes.size()) - 1;
+}
+
+TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priority)
+{
+    const auto node = static_cast<Node>(nodes_->nodes.size());
+    // Exceptions stay inside: a flow graph that one has left starts its next run with wrong counts.
+    auto guarded = [failure = &nodes_->failure, node, body = std::move(body)](const flow::continue_msg& message) {
+        if (failure->failed())
+            return message;
+        try {
+            body();
+        } catch (...) {
+            failure->record(node, std::current_exception());
+        }
+        return message;
+    };
+    nodes_->nodes.emplace_back(nodes_->graph, std::move(guarded),
+                               priority == Priority::High ? flow::node_priority_t{1} : flow::no_priority);
+    return node;
+}
+
+void TaskGraph::add_dependency(Node before, Node after)
+{
+    flow::make_edge(nodes_->nodes[at(before)], nodes_->nodes[at(after)]);
+}
+
+void TaskGraph::run(Node root)
+{
+    nodes_->nodes[at(root)].try_put(flow::continue_msg());
+    nodes_->graph.wait_for_all();
+    nodes_->failure.rethrow();
+}
+
+}  // namespace seamflow

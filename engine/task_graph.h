@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// A graph of tasks with fixed dependencies, built once and run as often as wanted (a oneTBB flow graph of continue nodes).
+/// Belongs to the arena in which it is constructed.
+///
+/// Tasks may throw: the tasks after it in time are then skipped, and `run` throws what the task with the lowest number
+/// among those that failed has thrown. The graph can be run again.
+class TaskGraph {
+  public:
+    /// Number of a task or of a root.
+    using Node = Index;
+    /// Which of the tasks that are ready starts first.
+    enum class Priority { Normal, High };
+
+    TaskGraph();
+    ~TaskGraph();
+    TaskGraph(const TaskGraph&) = delete;
+    TaskGraph& operator=(const TaskGraph&) = delete;
+
+    /// A place to start from. A run reaches the tasks behind one root.
+    Node add_root();
+
+    /// A task that starts as soon as all tasks and the root before it are done.
+    Node add_task(std::function<void()> body, Priority priority);
+
+    /// Makes `after` wait for `before`.
+    void add_dependency(Node before, Node after);
+
+    /// Runs all tasks behind a root and waits for them.
+    /// @throws whatever a task has thrown.
+    void run(Node root);
+
+  private:
+    class Nodes;
+    std::unique_ptr<Nodes> nodes_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace seamflow {
+
+/// The threads that a flow runs on. While it lives, BLAS and OpenMP stay single-threaded on them: the parallelism is in the tasks, and
+/// libraries that start threads of their own inside each task slow all of them down.
+class Workers {
+  public:
+    /// @param threads their number, the calling thread included; 0: the arena of the caller with the limits it has.
+    explicit Workers(int threads);
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    /// Runs `work` so that everything parallel in it uses these threads.
+    void execute(const std::function<void()>& work);
+
+    /// How many there are.
+    [[nodiscard]] int threads() const;
+
+  private:
+    class Arena;
+    std::unique_ptr<Arena> arena_;
+};
+
+}  // namespace seamflow

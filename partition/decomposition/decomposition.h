@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/decomposition/sub_mesh.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// What one sub-mesh sends to another: the rows `source` of the sender's positions become the rows `target` of the
+/// receiver's. Both are local indices; entries correspond.
+struct Transfer {
+    Index from = -1;
+    Index to = -1;
+    std::vector<Index> source;
+    std::vector<Index> target;
+};
+
+/// A mesh cut into sub-meshes, and everything that has to pass between them between two steps.
+struct Decomposition {
+    std::vector<SubMesh> sub_meshes;
+    /// For each sub-mesh, those with which it shares a vertex of Γ, in ascending order.
+    std::vector<std::vector<Index>> adjacency;
+    /// For each receiving sub-mesh, what fills its halo: Vᵏ before step k + 1, and Vᵏ⁺¹ before the correction of Γ.
+    /// Senders are adjacent to the receiver, in ascending order.
+    std::vector<std::vector<Transfer>> halo;
+    /// Number of vertices on Γ, each counted once.
+    Index n_interface_vertices = 0;
+};
+
+/// The faces of every sub-mesh, in ascending order.
+/// @param labels #F, each in 0 to n_parts - 1.
+std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts);
+
+/// Joins sub-meshes made by make_sub_mesh: who shares which vertex of Γ, and what fills the halos.
+Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
+                      std::span<const Index> labels);
+
+/// Cuts a mesh into its sub-meshes, one after the other.
+/// @param labels #F, each in 0 to n_parts - 1, every value used; each part connected and with one fan of faces around
+///        each of its vertices (see cut_into and cut_by_labels).
+Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts);
+
+}  // namespace seamflow

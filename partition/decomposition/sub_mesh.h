@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The part Γ of a sub-mesh's vertices that it shares with other sub-meshes and that may move, with all that the
+/// equations there need: the fan of its own faces on one side, the complement fan of all others on the other side.
+/// Every array has one entry or one list per vertex of Γ. Vertices are local (see SubMesh).
+struct SubMeshInterface {
+    /// In ascending order.
+    std::vector<Index> vertices;
+    /// The neighbours v_{i-1} and v_{i+1} along the sub-mesh's boundary.
+    std::vector<Index> before;
+    std::vector<Index> after;
+    /// The own faces around the vertex, as indices into SubMesh::faces.
+    IndexLists own_faces;
+    /// The other faces around the vertex, as indices into `halo_faces`.
+    IndexLists complement_faces;
+    /// The edge neighbours, in ascending order of their global indices.
+    IndexLists neighbours;
+    /// All sub-meshes at the vertex, in ascending order, this one among them, and its index in each.
+    IndexLists sharing;
+    IndexLists index_in_sharing;
+    /// The faces of other sub-meshes that touch Γ, one list of vertices each.
+    IndexLists halo_faces;
+
+    [[nodiscard]] Index size() const { return static_cast<Index>(vertices.size()); }
+};
+
+/// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
+/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ.
+struct SubMesh {
+    /// The faces, as indices into the whole mesh, in ascending order.
+    std::vector<Index> faces;
+    Index n_vertices = 0;
+    Index n_halo = 0;
+    /// n_vertices + n_halo; ascending within each of the two groups.
+    std::vector<Index> local_to_global;
+    /// The vertices of every face.
+    IndexLists face_vertices;
+    /// One entry per half-edge of the sub-mesh (numbered like face_vertices.values): the half-edge of the other face at
+    /// the same edge, or -1 on the sub-mesh's own boundary.
+    std::vector<Index> twin;
+    /// n_vertices: 1 where a vertex stays where it is: on the boundary of the whole mesh, or not manifold.
+    std::vector<std::uint8_t> fixed;
+    /// n_vertices: 1 where this sub-mesh speaks for the vertex when the whole is put together; exactly one sub-mesh
+    /// does so for each vertex that may move.
+    std::vector<std::uint8_t> owned;
+    SubMeshInterface interface;
+};
+
+/// Cuts out the sub-mesh of the given faces. `interface.sharing` and `index_in_sharing` are left empty: they need all
+/// sub-meshes (see decompose). May be called for several sub-meshes at once.
+/// @param labels #F, the sub-mesh of every face.
+/// @param faces the faces of one sub-mesh in ascending order. They must form one fan around each vertex of Γ.
+SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
+                      std::vector<Index> faces);
+
+/// The local index of a vertex among the sub-mesh's own vertices, or -1.
+Index local_index(const SubMesh& sub_mesh, Index global_vertex);
+
+}  // namespace seamflow

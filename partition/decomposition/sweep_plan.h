@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+
+namespace seamflow {
+
+/// What a sub-mesh does at a vertex of Γ in a sweep.
+enum class InterfaceRole : std::uint8_t {
+    /// It is the first to solve there: its row is a transmission condition against the complement fan.
+    Leads,
+    /// Another sub-mesh has solved there before: it takes over that Vᵏ⁺¹.
+    Follows,
+};
+
+/// One pass over all sub-meshes, colour by colour: who leads where on Γ, and what crosses it after which colour.
+struct SweepPlan {
+    /// #sub-meshes; a sub-mesh solves after all adjacent ones of lower rank. Adjacent sub-meshes have different ranks.
+    std::vector<Index> rank;
+    /// For each sub-mesh, its role at each vertex of its Γ.
+    std::vector<std::vector<InterfaceRole>> roles;
+    /// For each receiving sub-mesh, the Vᵏ⁺¹ on Γ that it takes over, available as soon as the sender (of lower rank)
+    /// has solved. Senders in ascending order.
+    std::vector<std::vector<Transfer>> traces;
+};
+
+/// Plans the sweep in which sub-meshes solve in ascending order of `rank`.
+/// @param rank #sub-meshes, different for adjacent sub-meshes.
+SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank);
+
+}  // namespace seamflow

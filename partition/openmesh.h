@@ -1,0 +1,66 @@
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// A mesh of OpenMesh: OpenMesh::PolyMesh_ArrayKernelT or TriMesh_ArrayKernelT with any traits. This header includes
+/// nothing of OpenMesh; whoever has such a mesh has included it already.
+template <class Mesh>
+concept OpenMeshMesh = requires(Mesh& mesh, const Mesh& constant, typename Mesh::VertexHandle v, typename Mesh::FaceHandle f,
+                                typename Mesh::Point point) {
+    { constant.n_vertices() } -> std::convertible_to<std::size_t>;
+    constant.vertices();
+    constant.faces();
+    constant.fv_range(f);
+    { v.idx() } -> std::convertible_to<int>;
+    point[0];
+    constant.point(v);
+    mesh.set_point(v, point);
+};
+
+/// A copy of an OpenMesh mesh, without the elements that are marked as deleted.
+template <OpenMeshMesh Mesh>
+PolygonMesh to_polygon_mesh(const Mesh& source)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(static_cast<Eigen::Index>(source.n_vertices()), 3);
+    std::vector<Index> number(source.n_vertices(), -1);
+    Index count = 0;
+    for (const auto v : source.vertices()) {
+        for (int c = 0; c < 3; ++c)
+            mesh.vertices(count, c) = static_cast<double>(source.point(v)[static_cast<unsigned>(c)]);
+        number[at(v.idx())] = count++;
+    }
+    mesh.vertices.conservativeResize(count, 3);
+    std::vector<Index> corners;
+    for (const auto f : source.faces()) {
+        corners.clear();
+        for (const auto v : source.fv_range(f))
+            corners.push_back(number[at(v.idx())]);
+        mesh.add_face(corners);
+    }
+    return mesh;
+}
+
+/// Gives the vertices of an OpenMesh mesh new positions.
+/// @param positions one row per vertex that is not marked as deleted, in the mesh's order; rounded to the mesh's own scalar.
+template <OpenMeshMesh Mesh>
+void set_positions(Mesh& mesh, const Points& positions)
+{
+    using Scalar = std::remove_cvref_t<decltype(typename Mesh::Point()[0])>;
+    Index row = 0;
+    for (const auto v : mesh.vertices()) {
+        typename Mesh::Point point;
+        for (int c = 0; c < 3; ++c)
+            point[static_cast<unsigned>(c)] = static_cast<Scalar>(positions(row, c));
+        mesh.set_point(v, point);
+        ++row;
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,50 @@
+#include "solvers/degenerate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+void require_length(const PolygonMesh& mesh, const Topology& topology, Index f)
+{
+    const auto corners = mesh.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Index start = corners[k];
+        const Index end = corners[(k + 1) % corners.size()];
+        const bool matters = topology.kind[at(start)] == VertexKind::Interior || topology.kind[at(end)] == VertexKind::Interior;
+        const double length = (mesh.vertices.row(end) - mesh.vertices.row(start)).norm();
+        if (matters && !std::isnormal(length))
+            throw InputError("vertices " + std::to_string(start) + " and " + std::to_string(end) +
+                             " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
+                             " and lie at the same place: merge them, or move one");
+    }
+}
+
+void require_area(const PolygonMesh& mesh, const Topology& topology, Index f)
+{
+    const auto corners = mesh.face(f);
+    const bool matters = std::any_of(corners.begin(), corners.end(),
+                                     [&](Index v) { return topology.kind[at(v)] == VertexKind::Interior; });
+    if (matters && !std::isnormal(area(corners, mesh.vertices)))
+        throw InputError("face " + std::to_string(f) +
+                         " (numbered from 0) has no area: remove it, move one of its vertices, or use the Laplacian fujiwara, "
+                         "which does not divide by areas");
+}
+
+}  // namespace
+
+void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (laplacian == Laplacian::Fujiwara)
+            require_length(mesh, topology, f);
+        else
+            require_area(mesh, topology, f);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// One position or vector, a row of Points.
+using Point = Eigen::RowVector3d;
+
+/// Vector area ½ Σ vᵢ × vᵢ₊₁ of a polygon, planar or not, in length² (paper, section Discrete Laplacians). Taken
+/// relative to the first corner, so that an offset of the whole mesh costs no precision.
+inline Point vector_area(std::span<const Index> corners, const Points& positions)
+{
+    const Point origin = positions.row(corners[0]);
+    Point sum = Point::Zero();
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        sum += (positions.row(corners[k]) - origin).cross(positions.row(corners[k + 1]) - origin);
+    return 0.5 * sum;
+}
+
+/// |f|: length of the vector area, in length².
+inline double area(std::span<const Index> corners, const Points& positions)
+{
+    return vector_area(corners, positions).norm();
+}
+
+/// Mean of a polygon's corners.
+inline Point centroid(std::span<const Index> corners, const Points& positions)
+{
+    Point sum = Point::Zero();
+    for (const Index v : corners)
+        sum += positions.row(v);
+    return sum / static_cast<double>(corners.size());
+}
+
+/// bₖ = ½ (vₖ₊₁ - vₖ₋₁) of a polygon's corner k. With E the polygon's edge vectors as rows, d0 its exterior derivative and R
+/// the matrix of the paper (eqs. R_start to R_end), the rows of d0ᵀ R E are these bₖ: R E maps to centroid minus edge midpoint.
+inline Point corner_bisector(std::span<const Index> corners, std::size_t k, const Points& positions)
+{
+    const std::size_t p = corners.size();
+    return 0.5 * (positions.row(corners[k + 1 == p ? 0 : k + 1]) - positions.row(corners[k == 0 ? p - 1 : k - 1]));
+}
+
+/// The faces that a Laplacian is assembled from: those of a sub-mesh or of a whole mesh.
+struct FaceView {
+    std::span<const Index> offsets;
+    std::span<const Index> vertices;
+    /// As SubMesh::twin and Topology::twin.
+    std::span<const Index> twin;
+    Index n_vertices = 0;
+
+    [[nodiscard]] Index n_faces() const { return static_cast<Index>(offsets.size()) - 1; }
+
+    /// The vertices of face f.
+    [[nodiscard]] std::span<const Index> face(Index f) const
+    {
+        return vertices.subspan(at(offsets[at(f)]), at(offsets[at(f) + 1] - offsets[at(f)]));
+    }
+};
+
+}  // namespace seamflow

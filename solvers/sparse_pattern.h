@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// Place of one entry in a matrix. Ordered by column, then row.
+struct MatrixEntry {
+    Index column = 0;
+    Index row = 0;
+    friend auto operator<=>(const MatrixEntry&, const MatrixEntry&) = default;
+};
+
+/// Which entries of a square matrix may be different from zero, by columns. Values are kept apart, in an array with one
+/// number per entry in the same order.
+struct SparsePattern {
+    /// n + 1.
+    std::vector<Index> column_offsets{0};
+    /// The rows of each column's entries, ascending.
+    std::vector<Index> rows;
+
+    [[nodiscard]] Index n() const { return static_cast<Index>(column_offsets.size()) - 1; }
+    [[nodiscard]] Index n_entries() const { return static_cast<Index>(rows.size()); }
+
+    /// Position of an entry among the values.
+    /// @pre the pattern has it.
+    [[nodiscard]] Index slot(MatrixEntry entry) const;
+};
+
+/// The pattern of an n by n matrix with these entries, in any order and as often as they come.
+/// @throws ComputationError if there are 2³¹ or more entries.
+SparsePattern make_pattern(Index n, std::vector<MatrixEntry> entries);
+
+}  // namespace seamflow

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "solvers/sparse_pattern.h"
+
+namespace seamflow {
+
+/// Three right-hand sides or solutions, n by 3, one contiguous column per coordinate.
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor>;
+
+/// LU factorisation of sparse matrices of one pattern by UMFPACK: analysed once, factorised for each set of values, a
+/// factor used for three right-hand sides. Different objects may be used by different threads at the same time.
+class UmfpackSolver {
+  public:
+    /// Analyses the pattern, which must outlive the solver.
+    /// @throws ComputationError if UMFPACK fails (memory).
+    explicit UmfpackSolver(const SparsePattern& pattern);
+    ~UmfpackSolver();
+    UmfpackSolver(UmfpackSolver&&) noexcept;
+    UmfpackSolver& operator=(UmfpackSolver&&) noexcept;
+
+    /// @param values one per entry of the pattern; must stay as they are until the solve.
+    /// @throws ComputationError if the matrix is singular or memory runs out.
+    void factorise(std::span<const double> values);
+
+    /// Solves for three right-hand sides, then gives the factor's memory back.
+    /// @pre factorise has been called since the last solve.
+    /// @throws ComputationError if UMFPACK fails.
+    void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution);
+
+  private:
+    class Backend;
+    template <class Interface>
+    class BackendFor;
+    std::unique_ptr<Backend> backend_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,101 @@
+#include "tests/support/reference_data.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+namespace seamflow::testing {
+
+namespace {
+
+using nlohmann::json;
+
+json parse(const std::filesystem::path& path)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw std::runtime_error("cannot open " + path.string());
+    return json::parse(file);
+}
+
+Points points_from(const json& rows)
+{
+    Points points(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t v = 0; v < rows.size(); ++v)
+        for (std::size_t c = 0; c < 3; ++c)
+            points(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(c)) = rows[v][c].get<double>();
+    return points;
+}
+
+PolygonMesh mesh_from(const json& data)
+{
+    PolygonMesh mesh;
+    mesh.vertices = points_from(data.at("vertices"));
+    for (const json& face : data.at("faces"))
+        mesh.add_face(face.get<std::vector<Index>>());
+    return mesh;
+}
+
+Row row_from(const json& coefficients)
+{
+    Row row;
+    for (const auto& [column, value] : coefficients.items())
+        row[std::stoi(column)] = value.get<double>();
+    return row;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> reference_files(const std::string& folder)
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SEAMFLOW_TEST_DATA) / folder))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+ReferenceOperators read_operators(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceOperators reference;
+    reference.mesh = mesh_from(data);
+    reference.boundary = data.at("boundary").get<std::vector<Index>>();
+    reference.face_area = data.at("face_area").get<std::vector<double>>();
+    reference.labels = data.at("labels").get<std::vector<Index>>();
+    for (const auto& [name, entries] : data.at("laplacian").items())
+        for (const json& entry : entries)
+            reference.laplacian[laplacian_named(name).value()][entry[0].get<Index>()][entry[1].get<Index>()] +=
+                entry[2].get<double>();
+    for (const json& row : data.at("interface_rows"))
+        reference.interface_rows.push_back({row.at("vertex").get<Index>(), row.at("sub_mesh").get<Index>(),
+                                            row_from(row.at("normal_derivative")),
+                                            row_from(row.at("tangential_derivative"))});
+    return reference;
+}
+
+ReferenceFlow read_flow(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceFlow reference;
+    reference.mesh = mesh_from(data);
+    FlowOptions& options = reference.options = FlowOptions::plain();
+    options.laplacian = laplacian_named(data.at("laplacian").get<std::string>()).value();
+    options.time_step = data.at("time_step").get<double>();
+    options.steps = static_cast<int>(data.at("positions_after_step").size());
+    options.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
+    options.correction = data.at("correction").get<bool>() ? Correction::Centroid : Correction::None;
+    if (data.at("conditions") == "none")
+        options.subdomains = 1;
+    else
+        options.labels = data.at("labels").get<std::vector<Index>>();
+    if (!data.at("p").is_null())
+        options.p = data.at("p").get<double>();
+    for (const json& positions : data.at("positions_after_step"))
+        reference.positions_after_step.push_back(points_from(positions));
+    return reference;
+}
+
+}  // namespace seamflow::testing
