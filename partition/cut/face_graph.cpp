@@ -63,7 +63,7 @@ std::vector<Index> arc_weights(const std::vector<double>& lengths)
     const double scale = std::min(mean_arc_weight * n_arcs, max_weight_sum - n_arcs) / total;
     std::vector<Index> weights(lengths.size());
     std::transform(lengths.begin(), lengths.end(), weights.begin(),
-                   [&](double length) { return std::max(Index{1}, static_cast<Index>(length * scale)); });
+                   [&](double length) { return std::max(Index{1}, static_cast<Index>(length * scale + 0.5)); });
     return weights;
 }
 
