@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "partition/polygon_mesh.h"
 
@@ -29,8 +30,12 @@ struct MeshFile {
 
 /// Reads OBJ, OFF, PLY or STL; the format follows from the extension (upper or lower case), the encoding from the file
 /// itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal coordinates
-/// become one vertex, numbered in order of appearance.
-/// @throws InputError naming file, line or byte or element, reason and remedy; nothing is skipped in silence.
+/// become one vertex, numbered in order of appearance. What a file holds besides a surface (texture coordinates,
+/// normals, colours, materials, groups, points and lines) is passed over. A file with vertices but without faces is
+/// read.
+/// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
+///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
+///         that is not finite, a face of less than three corners or one that names a vertex twice.
 MeshFile read_mesh(const std::filesystem::path& path);
 
 /// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
@@ -41,12 +46,16 @@ FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& sou
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
 /// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
 /// a temporary name beside `path` and renamed.
-/// @throws OutputError naming the file; also for a mesh that the format cannot hold (STL: faces of more than three
-///         sides, vertices without faces).
+/// @param mesh valid (see require_valid) and not without vertices.
+/// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
+///         more than three sides, vertices without faces, two corners of a face in one place, and in binary files
+///         also coordinates beyond single precision).
+/// @throws OptionError for an encoding that the format does not have.
 void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind);
 
 /// As above, with one colour and one label per face, for looking at a cut. Each face gets the properties red, green,
-/// blue (uchar) and label (int).
+/// blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the golden
+/// section, so that they differ clearly; negative labels are grey. The file is binary little-endian.
 /// @param labels #F; the label of every face.
 /// @throws OutputError naming the file.
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels);

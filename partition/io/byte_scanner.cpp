@@ -1,0 +1,45 @@
+#include "partition/io/byte_scanner.h"
+
+namespace seamflow
+{
+
+ByteScanner::ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset,
+                         std::endian order)
+    : path_(path.string())
+    , file_(file)
+    , order_(order)
+    , last_(offset)
+    , next_(offset)
+{
+}
+
+void ByteScanner::enter(std::string_view element, std::uint64_t i)
+{
+    element_ = element;
+    i_ = i;
+}
+
+void ByteScanner::require_end()
+{
+    last_ = file_.find_first_not_of(std::string_view("\0 \t\r\n", 5), next_);
+    if (last_ == std::string_view::npos)
+        return;
+    element_ = {};
+    fail("the file goes on where, by its header, it should end; correct the counts in the header or export the mesh "
+         "again");
+}
+
+std::string ByteScanner::position() const
+{
+    const std::string byte = "byte " + std::to_string(last_);
+    if (element_.empty())
+        return path_ + ": " + byte;
+    return path_ + ": " + std::string(element_) + " " + std::to_string(i_) + " (numbered from 0), " + byte;
+}
+
+void ByteScanner::fail_at_end() const
+{
+    fail("the file ends too early; it has been cut off, or a number in it is wrong: export or copy the mesh again");
+}
+
+}  // namespace seamflow

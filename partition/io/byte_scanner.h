@@ -1,0 +1,64 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "partition/io/byte_order.h"
+#include "partition/io/input_position.h"
+
+namespace seamflow
+{
+
+/// Walks through binary data in memory number by number.
+class ByteScanner final : public InputPosition
+{
+  public:
+    /// @param path for messages only.
+    /// @param file the whole file; has to outlive the scanner, as has what is given to `enter`.
+    /// @param offset where to begin.
+    ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset, std::endian order);
+
+    /// Says, for messages, which element (numbered from 0) the following bytes belong to.
+    void enter(std::string_view element, std::uint64_t i);
+
+    /// @throws InputError if the file ends first.
+    template <class Number>
+    Number read()
+    {
+        return from_bytes<Number>(take(sizeof(Number)), order_);
+    }
+
+    /// Passes over n bytes, and gives the first of them.
+    /// @throws InputError if the file ends first.
+    const char* take(std::size_t n)
+    {
+        last_ = next_;
+        if (n > remaining())
+            fail_at_end();
+        next_ += n;
+        return file_.data() + last_;
+    }
+
+    [[nodiscard]] std::size_t remaining() const { return file_.size() - next_; }
+
+    /// @throws InputError if anything but padding (zeros, blanks, line ends) is left.
+    void require_end();
+
+  private:
+    [[nodiscard]] std::string position() const override;
+    [[noreturn]] void fail_at_end() const;
+
+    std::string path_;
+    std::string_view file_;
+    std::endian order_;
+    std::size_t last_;
+    std::size_t next_;
+    std::string_view element_;
+    std::uint64_t i_ = 0;
+};
+
+}  // namespace seamflow

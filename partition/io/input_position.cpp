@@ -1,0 +1,27 @@
+#include "partition/io/input_position.h"
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+void InputPosition::fail(const std::string& complaint) const
+{
+    throw InputError(position() + ": " + complaint);
+}
+
+std::string in_quotes(std::string_view text)
+{
+    constexpr std::size_t longest = 40;
+    std::string result = "'";
+    for (const char c : text.substr(0, longest))
+        result += c >= ' ' && c <= '~' ? c : '?';
+    return result + (text.size() > longest ? "…'" : "'");
+}
+
+std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural)
+{
+    return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace seamflow
+{
+
+/// Where a reader stands in its file; every complaint about the file begins with it.
+class InputPosition
+{
+  public:
+    virtual ~InputPosition() = default;
+
+    /// @param complaint what is wrong, a semicolon, and what to do about it.
+    /// @throws InputError "path:line: complaint" for text, "path: element, byte: complaint" for binary data.
+    [[noreturn]] void fail(const std::string& complaint) const;
+
+  protected:
+    InputPosition() = default;
+    InputPosition(const InputPosition&) = default;
+    InputPosition& operator=(const InputPosition&) = default;
+
+  private:
+    [[nodiscard]] virtual std::string position() const = 0;
+};
+
+/// A piece of a file in quotation marks, for a message: shortened, and with '?' for what cannot be printed.
+std::string in_quotes(std::string_view text);
+
+/// "1 vertex", "3 vertices": a count and the word for what is counted.
+std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
+
+}  // namespace seamflow

@@ -1,0 +1,143 @@
+#include "partition/io/mesh_io.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "partition/errors.h"
+#include "partition/io/input_file.h"
+#include "partition/io/obj.h"
+#include "partition/io/off.h"
+#include "partition/io/output_file.h"
+#include "partition/io/ply.h"
+#include "partition/io/stl.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+std::optional<FileFormat> format_of(const std::filesystem::path& path)
+{
+    using Entry = std::pair<std::string_view, FileFormat>;
+    constexpr std::array<Entry, 4> formats = {Entry{".obj", FileFormat::Obj}, Entry{".off", FileFormat::Off},
+                                              Entry{".ply", FileFormat::Ply}, Entry{".stl", FileFormat::Stl}};
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    for (const auto& [name, format] : formats)
+        if (name == extension)
+            return format;
+    return std::nullopt;
+}
+
+std::string unknown_extension(const std::filesystem::path& path)
+{
+    return path.string() + ": the extension '" + path.extension().string() +
+           "' is none of .obj, .off, .ply, .stl; give the file the extension of its format";
+}
+
+MeshFile read_known(const std::filesystem::path& path, FileFormat format)
+{
+    const InputFile file(path);
+    switch (format) {
+    case FileFormat::Obj:
+        return {read_obj(path, file.content()), {format, Encoding::Ascii}};
+    case FileFormat::Off:
+        return {read_off(path, file.content()), {format, Encoding::Ascii}};
+    case FileFormat::Ply:
+        return read_ply(path, file.content());
+    case FileFormat::Stl:
+        break;
+    }
+    const Encoding encoding = stl_encoding(file.content());
+    return {read_stl(path, file.content(), encoding), {FileFormat::Stl, encoding}};
+}
+
+void require_kind_exists(const FileKind& kind)
+{
+    const bool text_only = kind.format == FileFormat::Obj || kind.format == FileFormat::Off;
+    if (text_only && kind.encoding != Encoding::Ascii)
+        throw OptionError("encoding must be Ascii for OBJ and OFF files");
+    if (kind.format == FileFormat::Stl && kind.encoding == Encoding::BinaryBigEndian)
+        throw OptionError("encoding must be Ascii or BinaryLittleEndian for STL files");
+}
+
+/// Whatever is written can be read again.
+void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh)
+{
+    if (mesh.n_vertices() == 0)
+        throw OutputError(path.string() + ": cannot be written: the mesh has no vertices; write one that has");
+    try {
+        require_valid(mesh);
+    } catch (const InputError& error) {
+        throw OutputError(path.string() + ": cannot be written: " + error.what());
+    }
+}
+
+}  // namespace
+
+MeshFile read_mesh(const std::filesystem::path& path)
+{
+    const auto format = format_of(path);
+    if (!format)
+        throw InputError(unknown_extension(path));
+    try {
+        return read_known(path, *format);
+    } catch (const std::bad_alloc&) {
+        throw InputError(path.string() + ": there is not enough memory for this mesh; close other programs or use a "
+                                         "machine with more");
+    }
+}
+
+FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source)
+{
+    const auto format = format_of(path);
+    if (!format)
+        throw OptionError(unknown_extension(path));
+    if (*format == source.format)
+        return source;
+    const bool text_only = *format == FileFormat::Obj || *format == FileFormat::Off;
+    return {*format, text_only ? Encoding::Ascii : Encoding::BinaryLittleEndian};
+}
+
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind)
+{
+    require_kind_exists(kind);
+    require_readable(path, mesh);
+    if (kind.format == FileFormat::Stl)
+        require_fits_stl(path, mesh, kind.encoding);
+    OutputFile file(path);
+    switch (kind.format) {
+    case FileFormat::Obj:
+        write_obj(file, mesh);
+        break;
+    case FileFormat::Off:
+        write_off(file, mesh);
+        break;
+    case FileFormat::Ply:
+        write_ply(file, mesh, kind.encoding);
+        break;
+    case FileFormat::Stl:
+        write_stl(file, mesh, kind.encoding);
+        break;
+    }
+    file.commit();
+}
+
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels)
+{
+    require_readable(path, mesh);
+    if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
+        throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(labels.size()) +
+                          " labels for " + std::to_string(mesh.n_faces()) + " faces; give one label for each face");
+    OutputFile file(path);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, labels);
+    file.commit();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,133 @@
+#include "partition/io/output_file.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+std::filesystem::path folder_of(const std::filesystem::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+/// A name that no other file of this program has; should another program have it, the next one will do.
+std::filesystem::path temporary_name(const std::filesystem::path& target)
+{
+    static std::atomic<unsigned> counter = 0;
+    return folder_of(target) / (".seamflow-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+}
+
+/// Follows symbolic links.
+std::filesystem::path target_of(const std::filesystem::path& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_symlink(path, error))
+        return path;
+    const auto target = std::filesystem::weakly_canonical(path, error);
+    return error ? path : target;
+}
+
+/// Some file systems cannot do it: that is no reason to fail.
+int synchronise(int descriptor)
+{
+    const bool done = ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+    return done ? 0 : errno;
+}
+
+/// So that the new name survives a power cut as well. The file is complete in any case: errors do not matter.
+void synchronise_folder(const std::filesystem::path& folder)
+{
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+        return;
+    synchronise(descriptor);
+    ::close(descriptor);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : path_(path)
+    , target_(target_of(path))
+    , buffer_(std::size_t{1} << 20)
+{
+    struct stat old = {};
+    const bool replaces = ::stat(target_.c_str(), &old) == 0;
+    if (replaces && S_ISDIR(old.st_mode))
+        fail(EISDIR);
+    if (replaces && !S_ISREG(old.st_mode))
+        throw OutputError(path_.string() + ": is not a regular file; choose another name");
+    do {
+        temporary_ = temporary_name(target_);
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ < 0)
+        fail(errno);
+    if (replaces)
+        static_cast<void>(::fchmod(descriptor_, old.st_mode & 07777U));
+}
+
+OutputFile::~OutputFile()
+{
+    if (descriptor_ >= 0)
+        ::close(descriptor_);
+    if (!temporary_.empty())
+        ::unlink(temporary_.c_str());
+}
+
+void OutputFile::fail(int error) const
+{
+    throw OutputError(path_.string() + ": cannot be written: " + std::generic_category().message(error) +
+                      "; check that the folder exists, that you may write there, and that there is room left");
+}
+
+void OutputFile::text(std::string_view text)
+{
+    while (!text.empty()) {
+        make_room(1);
+        const std::size_t n = std::min(text.size(), buffer_.size() - used_);
+        std::copy_n(text.data(), n, buffer_.data() + used_);
+        used_ += n;
+        text.remove_prefix(n);
+    }
+}
+
+void OutputFile::flush()
+{
+    for (std::size_t done = 0; done < used_;) {
+        const ssize_t n = ::write(descriptor_, buffer_.data() + done, used_ - done);
+        if (n < 0 && errno != EINTR)
+            fail(errno);
+        done += n > 0 ? static_cast<std::size_t>(n) : 0;
+    }
+    used_ = 0;
+}
+
+void OutputFile::commit()
+{
+    flush();
+    if (const int error = synchronise(descriptor_); error != 0)
+        fail(error);
+    if (::close(std::exchange(descriptor_, -1)) != 0)
+        fail(errno);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+        fail(errno);
+    temporary_.clear();
+    synchronise_folder(folder_of(target_));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "partition/io/byte_order.h"
+
+namespace seamflow
+{
+
+/// A file that appears whole or not at all: written under a temporary name in the folder of its target, and renamed by
+/// `commit`. Without `commit` nothing remains of it, and a file that was there before remains as it was. A file that is
+/// replaced hands on its permissions; a symbolic link stays, and the file it points to is replaced.
+class OutputFile
+{
+  public:
+    /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
+    explicit OutputFile(const std::filesystem::path& path);
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+    ~OutputFile();
+
+    /// @throws OutputError, as all functions of this class, if the file cannot be written.
+    void text(std::string_view text);
+
+    /// A whole number in decimal.
+    void number(std::integral auto value) { append_chars(value); }
+
+    /// A number with the fewest digits (at most 17) that read back to the same value, independently of the locale.
+    void number(std::floating_point auto value)
+    {
+        if (std::abs(value) < 1e17f)
+            append_chars(value);
+        else
+            append_chars(value, std::chars_format::scientific);
+    }
+
+    /// The bytes of a number.
+    template <class Number>
+    void binary(Number value, std::endian order)
+    {
+        const auto bytes = to_bytes(value, order);
+        text({bytes.data(), bytes.size()});
+    }
+
+    /// Writes what is left to the disk and gives the file its name. To be called once, at the end.
+    void commit();
+
+  private:
+    [[noreturn]] void fail(int error) const;
+    void flush();
+    void make_room(std::size_t n)
+    {
+        if (buffer_.size() - used_ < n)
+            flush();
+    }
+
+    void append_chars(auto... value_and_format)
+    {
+        make_room(longest_number);
+        char* const first = buffer_.data() + used_;
+        used_ +=
+            static_cast<std::size_t>(std::to_chars(first, first + longest_number, value_and_format...).ptr - first);
+    }
+
+    static constexpr std::size_t longest_number = 32;
+
+    std::filesystem::path path_;
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+    std::vector<char> buffer_;
+    std::size_t used_ = 0;
+};
+
+}  // namespace seamflow

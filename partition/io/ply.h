@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "partition/io/mesh_io.h"
+#include "partition/io/output_file.h"
+
+namespace seamflow
+{
+
+/// Reads PLY in any of its three encodings: x, y and z of the element `vertex`, of whatever types and in whatever
+/// order, and the list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements,
+/// edges among them, are passed over. In a text file each element stands on a line of its own; after the last element
+/// of a binary file only padding (zeros, blanks, line ends) is accepted.
+/// @param path for messages only.
+/// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file);
+
+/// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.
+/// @param labels #F, or empty; if given, each face has the properties red, green, blue (uchar) and label (int) too.
+/// @throws OutputError
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, std::span<const Index> labels = {});
+
+}  // namespace seamflow

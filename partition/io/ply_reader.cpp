@@ -1,0 +1,336 @@
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "partition/errors.h"
+#include "partition/io/byte_scanner.h"
+#include "partition/io/mesh_builder.h"
+#include "partition/io/ply.h"
+#include "partition/io/ply_header.h"
+#include "partition/io/text_scanner.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+/// What a property means to the mesh.
+enum class Role {
+    X,
+    Y,
+    Z,
+    Corners,
+    /// Nothing that this reader has a use for.
+    Other
+};
+
+/// The numbers of a text file, one after another.
+class TextSource
+{
+  public:
+    explicit TextSource(const TextScanner& after_header)
+        : scanner_(after_header)
+    {
+    }
+
+    [[nodiscard]] const InputPosition& position() const { return scanner_; }
+
+    void begin_element(const PlyElement& element, std::uint64_t i)
+    {
+        if (!scanner_.next_line())
+            scanner_.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(element.count) +
+                          " elements " + in_quotes(element.name) +
+                          "; it has been cut off, or the header is wrong: export or copy the mesh again");
+    }
+
+    void end_element()
+    {
+        if (scanner_.has_token())
+            scanner_.fail("the line goes on with " + in_quotes(scanner_.peek()) +
+                          " after all the properties that the header declares; correct the header or the line");
+    }
+
+    double real(PlyType) { return scanner_.real("a coordinate"); }
+
+    std::int64_t integer(PlyType) { return scanner_.integer("a whole number"); }
+
+    void pass_over(PlyType, std::int64_t n)
+    {
+        for (; n > 0; --n)
+            if (scanner_.token().empty())
+                scanner_.fail("the line has fewer numbers than the header declares; add what is missing or export the "
+                              "mesh again");
+    }
+
+    /// A list so long ends with the line at the latest.
+    void require_room(PlyType, std::int64_t) const {}
+
+    void finish()
+    {
+        if (scanner_.next_line())
+            scanner_.fail("the file goes on after all the elements that its header announces; correct the counts in "
+                          "the header");
+    }
+
+  private:
+    TextScanner scanner_;
+};
+
+/// The numbers of a binary file, one after another.
+class BinarySource
+{
+  public:
+    BinarySource(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
+                 Encoding encoding)
+        : scanner_(path, file, file.size() - after_header.rest().size(),
+                   encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little)
+    {
+    }
+
+    [[nodiscard]] const InputPosition& position() const { return scanner_; }
+
+    void begin_element(const PlyElement& element, std::uint64_t i) { scanner_.enter(element.name, i); }
+
+    void end_element() {}
+
+    double real(PlyType type)
+    {
+        const double value = type == PlyType::Float64   ? scanner_.read<double>()
+                             : type == PlyType::Float32 ? double{scanner_.read<float>()}
+                                                        : static_cast<double>(integer(type));
+        if (!std::isfinite(value))
+            scanner_.fail("a coordinate is not a finite number; remove the vertex or mend it");
+        return value;
+    }
+
+    std::int64_t integer(PlyType type);
+
+    void pass_over(PlyType type, std::int64_t n)
+    {
+        require_room(type, n);
+        scanner_.take(static_cast<std::size_t>(n) * size_in_bytes(type));
+    }
+
+    void require_room(PlyType type, std::int64_t n) const
+    {
+        if (static_cast<std::uint64_t>(n) > scanner_.remaining() / size_in_bytes(type))
+            scanner_.fail("a list of " + std::to_string(n) +
+                          " numbers goes past the end of the file; it has been cut off, or the length is wrong: export "
+                          "or copy the mesh again");
+    }
+
+    void finish() { scanner_.require_end(); }
+
+  private:
+    ByteScanner scanner_;
+};
+
+std::int64_t BinarySource::integer(PlyType type)
+{
+    switch (type) {
+    case PlyType::Int8:
+        return scanner_.read<std::int8_t>();
+    case PlyType::UInt8:
+        return scanner_.read<std::uint8_t>();
+    case PlyType::Int16:
+        return scanner_.read<std::int16_t>();
+    case PlyType::UInt16:
+        return scanner_.read<std::uint16_t>();
+    case PlyType::Int32:
+        return scanner_.read<std::int32_t>();
+    case PlyType::UInt32:
+        return scanner_.read<std::uint32_t>();
+    case PlyType::Float32:
+    case PlyType::Float64:
+        break;
+    }
+    scanner_.fail("a number that should be whole has a type with decimals; correct the header");
+}
+
+/// Reads the elements that follow the header, in their order.
+template <class Source>
+class ElementReader
+{
+  public:
+    ElementReader(Source& source, const PlyHeader& header)
+        : source_(source)
+        , builder_(source.position())
+        , n_vertices_(static_cast<std::int64_t>(header.element("vertex")->count))
+    {
+        const PlyElement* const faces = header.element("face");
+        builder_.reserve(static_cast<std::uint64_t>(n_vertices_), faces != nullptr ? faces->count : 0);
+    }
+
+    void read(const PlyElement& element);
+
+    PolygonMesh finish()
+    {
+        source_.finish();
+        return builder_.finish();
+    }
+
+  private:
+    void read_property(const PlyProperty& property, Role role);
+    std::int64_t read_length(const PlyProperty& property);
+    void read_corners(const PlyProperty& property);
+
+    Source& source_;
+    MeshBuilder builder_;
+    std::int64_t n_vertices_;
+    std::array<double, 3> point_{};
+    std::vector<Index> corners_;
+};
+
+std::vector<Role> roles_of(const PlyElement& element)
+{
+    std::vector<Role> roles;
+    for (const PlyProperty& property : element.properties) {
+        Role role = Role::Other;
+        if (element.name == "vertex")
+            role = property.name == "x"   ? Role::X
+                   : property.name == "y" ? Role::Y
+                   : property.name == "z" ? Role::Z
+                                          : Role::Other;
+        else if (element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index"))
+            role = Role::Corners;
+        roles.push_back(role);
+    }
+    return roles;
+}
+
+template <class Source>
+void ElementReader<Source>::read(const PlyElement& element)
+{
+    const std::vector<Role> roles = roles_of(element);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        source_.begin_element(element, i);
+        for (std::size_t p = 0; p < roles.size(); ++p)
+            read_property(element.properties[p], roles[p]);
+        source_.end_element();
+        if (element.name == "vertex")
+            builder_.add_vertex(point_[0], point_[1], point_[2]);
+        else if (element.name == "face")
+            builder_.add_face(corners_);
+    }
+}
+
+template <class Source>
+void ElementReader<Source>::read_property(const PlyProperty& property, Role role)
+{
+    switch (role) {
+    case Role::X:
+        point_[0] = source_.real(property.type);
+        break;
+    case Role::Y:
+        point_[1] = source_.real(property.type);
+        break;
+    case Role::Z:
+        point_[2] = source_.real(property.type);
+        break;
+    case Role::Corners:
+        read_corners(property);
+        break;
+    case Role::Other:
+        source_.pass_over(property.type, property.length_type ? read_length(property) : 1);
+        break;
+    }
+}
+
+template <class Source>
+std::int64_t ElementReader<Source>::read_length(const PlyProperty& property)
+{
+    const std::int64_t n = source_.integer(*property.length_type);
+    if (n < 0)
+        source_.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
+                                "; export the mesh again");
+    source_.require_room(property.type, n);
+    return n;
+}
+
+template <class Source>
+void ElementReader<Source>::read_corners(const PlyProperty& property)
+{
+    corners_.clear();
+    for (std::int64_t n = read_length(property); n > 0; --n)
+        corners_.push_back(builder_.vertex(source_.integer(property.type), n_vertices_));
+}
+
+/// A complaint about a line of the header.
+[[noreturn]] void refuse(const TextScanner& scanner, std::size_t line, const std::string& complaint)
+{
+    throw InputError(scanner.position_of(line) + ": " + complaint);
+}
+
+void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
+{
+    const PlyElement* const vertices = header.element("vertex");
+    if (vertices == nullptr || vertices->count == 0)
+        scanner.fail("the file has no vertices; export the mesh again");
+    std::size_t n_found = 0;
+    for (std::size_t p = 0; const Role role : roles_of(*vertices)) {
+        const PlyProperty& property = vertices->properties[p++];
+        if (role != Role::Other && property.length_type)
+            refuse(scanner, property.line, "a coordinate must be one number, not a list; correct the header");
+        n_found += role != Role::Other ? 1 : 0;
+    }
+    if (n_found < 3)
+        refuse(scanner, vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
+}
+
+void require_corners(const TextScanner& scanner, const PlyElement& faces)
+{
+    std::size_t n_found = 0;
+    for (std::size_t p = 0; const Role role : roles_of(faces)) {
+        const PlyProperty& property = faces.properties[p++];
+        if (role != Role::Corners)
+            continue;
+        if (!property.length_type || !is_integer(property.type))
+            refuse(
+                scanner, property.line,
+                "the corners of a face must be a list of whole numbers; correct the header or export the mesh again");
+        ++n_found;
+    }
+    if (n_found != 1)
+        refuse(scanner, faces.line,
+               "the faces must have one list named vertex_indices or vertex_index, but have " +
+                   std::to_string(n_found) + "; correct the header or export the mesh again");
+}
+
+void require_surface(const TextScanner& scanner, const PlyHeader& header)
+{
+    require_coordinates(scanner, header);
+    const PlyElement* const faces = header.element("face");
+    const PlyElement* const strips = header.element("tristrips");
+    if (faces != nullptr && faces->count > 0)
+        require_corners(scanner, *faces);
+    else if (strips != nullptr && strips->count > 0)
+        refuse(scanner, strips->line, "triangle strips cannot be read; export the mesh with faces instead of strips");
+}
+
+template <class Source>
+PolygonMesh read_elements(Source source, const PlyHeader& header)
+{
+    ElementReader<Source> reader(source, header);
+    for (const PlyElement& element : header.elements)
+        reader.read(element);
+    return reader.finish();
+}
+
+}  // namespace
+
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file)
+{
+    TextScanner scanner(path, file, {.comment = '\0', .first_line_end_decides = true});
+    const PlyHeader header = read_ply_header(scanner);
+    require_surface(scanner, header);
+    const FileKind kind{FileFormat::Ply, header.encoding};
+    if (header.encoding == Encoding::Ascii)
+        return {read_elements(TextSource(scanner), header), kind};
+    return {read_elements(BinarySource(scanner, path, file, header.encoding), header), kind};
+}
+
+}  // namespace seamflow

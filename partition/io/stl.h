@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "partition/io/mesh_io.h"
+#include "partition/io/output_file.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow
+{
+
+/// The encoding of an STL file. Binary, if its size is the one that the count of facets in a binary file calls for,
+/// whatever it begins with; text, if it begins with the word `solid` and holds no byte 0 early on; else binary.
+Encoding stl_encoding(std::string_view file);
+
+/// Reads STL in that encoding. Corners with equal coordinates become one vertex, numbered in order of appearance;
+/// normals, names and attributes are passed over, and several solids become one mesh. After the facets of a binary file
+/// only padding (zeros, blanks, line ends) is accepted.
+/// @param path for messages only.
+/// @throws InputError naming line, or facet and byte; also for a facet of which two corners coincide.
+PolygonMesh read_stl(const std::filesystem::path& path, std::string_view file, Encoding encoding);
+
+/// Checks that STL can hold the mesh: triangles only, no vertex without faces, no two corners of a face in the same
+/// place, and for the binary encoding all coordinates within, and corners distinct in, single precision.
+/// Vertices that coincide without having a face in common are one vertex when the file is read again: STL has points
+/// only, and no numbers for them.
+/// @throws OutputError naming the face or vertex, and the remedy.
+void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
+
+/// Writes STL with unit normals (0 0 0 where a face has no area).
+/// @pre require_fits_stl
+/// @throws OutputError
+void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding);
+
+}  // namespace seamflow

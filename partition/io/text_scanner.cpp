@@ -1,0 +1,192 @@
+#include "partition/io/text_scanner.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <system_error>
+
+namespace seamflow
+{
+
+namespace
+{
+
+bool is_blank(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/// CR if the first line ends so and there is no LF in the text, or none that counts; else LF.
+char line_break_of(std::string_view text, bool first_line_end_decides)
+{
+    const auto first = text.find_first_of("\r\n");
+    if (first == std::string_view::npos || text[first] == '\n')
+        return '\n';
+    const auto feed = text.find('\n', first);
+    return feed == std::string_view::npos || (first_line_end_decides && feed > first + 1) ? '\r' : '\n';
+}
+
+/// The beginning of a number: a plus sign is passed over, for from_chars does not know it.
+const char* after_plus(const char* first, const char* last)
+{
+    return last - first > 1 && *first == '+' && first[1] != '-' ? first + 1 : first;
+}
+
+/// from_chars, but correctly rounded to a zero where from_chars only says "out of range".
+std::from_chars_result parse(const char* first, const char* last, double& value)
+{
+    auto result = std::from_chars(first, last, value);
+    if (result.ec != std::errc::result_out_of_range)
+        return result;
+    long double wide = 0;
+    result = std::from_chars(first, last, wide);
+    if (std::abs(wide) <= std::numeric_limits<double>::max())
+        value = static_cast<double>(wide);
+    else
+        result.ec = std::errc::result_out_of_range;
+    return result;
+}
+
+}  // namespace
+
+TextScanner::TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax)
+    : path_(path.string())
+    , syntax_(syntax)
+    , line_break_(line_break_of(text, syntax.first_line_end_decides))
+    , cursor_(text.data())
+    , line_end_(text.data())
+    , next_(text.data())
+    , end_(text.data() + text.size())
+{
+    if (text.starts_with("\xEF\xBB\xBF"))
+        next_ += 3;
+}
+
+std::string TextScanner::position_of(std::size_t line) const
+{
+    return path_ + ":" + std::to_string(line);
+}
+
+void TextScanner::load_line()
+{
+    ++line_;
+    cursor_ = next_;
+    const auto* const line_break =
+        static_cast<const char*>(std::memchr(next_, line_break_, static_cast<std::size_t>(end_ - next_)));
+    line_end_ = line_break != nullptr ? line_break : end_;
+    next_ = line_break != nullptr ? line_break + 1 : end_;
+    while (cursor_ < line_end_ && is_blank(*cursor_))
+        ++cursor_;
+    while (cursor_ < line_end_ && is_blank(line_end_[-1]))
+        --line_end_;
+    continued_ = syntax_.continuation && cursor_ < line_end_ && line_end_[-1] == '\\' && *cursor_ != syntax_.comment;
+    if (continued_)
+        --line_end_;
+}
+
+void TextScanner::skip_blanks()
+{
+    while (true) {
+        while (cursor_ < line_end_ && is_blank(*cursor_))
+            ++cursor_;
+        if (cursor_ < line_end_ || !continued_ || next_ == end_)
+            break;
+        load_line();
+    }
+    if (cursor_ < line_end_ && *cursor_ == syntax_.comment && syntax_.comment != '\0') {
+        cursor_ = line_end_;
+        continued_ = false;
+    }
+}
+
+bool TextScanner::next_line()
+{
+    while (continued_ && next_ < end_)
+        load_line();
+    cursor_ = line_end_;
+    continued_ = false;
+    while (next_ < end_) {
+        load_line();
+        skip_blanks();
+        if (cursor_ < line_end_)
+            return true;
+    }
+    return false;
+}
+
+bool TextScanner::ends_token(const char* c) const
+{
+    return c == line_end_ || is_blank(*c) || (*c == syntax_.comment && syntax_.comment != '\0');
+}
+
+bool TextScanner::has_token()
+{
+    skip_blanks();
+    return cursor_ < line_end_;
+}
+
+std::string_view TextScanner::peek()
+{
+    skip_blanks();
+    return rest_of_token();
+}
+
+std::string_view TextScanner::rest_of_token() const
+{
+    const char* last = cursor_;
+    while (!ends_token(last))
+        ++last;
+    return {cursor_, static_cast<std::size_t>(last - cursor_)};
+}
+
+std::string_view TextScanner::token()
+{
+    const auto result = peek();
+    skip(result.size());
+    return result;
+}
+
+double TextScanner::real(const char* what)
+{
+    skip_blanks();
+    double value = 0;
+    const auto [last, error] = parse(after_plus(cursor_, line_end_), line_end_, value);
+    if (error != std::errc() || !ends_token(last) || !std::isfinite(value))
+        fail_at_number(what, "a finite number such as 1.5 or -2e-3");
+    cursor_ = last;
+    return value;
+}
+
+std::int64_t TextScanner::integer_before_slash(const char* what)
+{
+    skip_blanks();
+    std::int64_t value = 0;
+    const auto [last, error] = std::from_chars(after_plus(cursor_, line_end_), line_end_, value);
+    if (error != std::errc() || (!ends_token(last) && *last != '/'))
+        fail_at_number(what, "a whole number");
+    cursor_ = last;
+    return value;
+}
+
+std::int64_t TextScanner::integer(const char* what)
+{
+    skip_blanks();
+    const char* const first = cursor_;
+    const auto value = integer_before_slash(what);
+    if (!ends_token(cursor_)) {
+        cursor_ = first;
+        fail_at_number(what, "a whole number");
+    }
+    return value;
+}
+
+void TextScanner::fail_at_number(const char* what, const char* form)
+{
+    const auto found = peek();
+    if (found.empty())
+        fail(std::string("expected ") + what + ", but the line ends; add what is missing or export the mesh again");
+    fail(std::string("expected ") + what + ", but found " + in_quotes(found) + "; write " + form);
+}
+
+}  // namespace seamflow

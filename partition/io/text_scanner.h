@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "partition/io/input_position.h"
+
+namespace seamflow
+{
+
+/// What besides blanks and line ends has a meaning of its own in a text format.
+struct TextSyntax {
+    /// From this character to the end of the line is a comment; 0: there are no comments.
+    char comment = '#';
+    /// Whether a backslash at the end of a line joins it to the next.
+    bool continuation = false;
+    /// Whether the first line end shows what ends all lines, for binary data may follow the text.
+    bool first_line_end_decides = false;
+};
+
+/// Walks through a text in memory line by line, and through a line token by token, counting lines. Lines end with LF,
+/// CR LF, or (on very old systems) CR; the last one need not end. Tokens are separated by blanks and tabs. A byte order
+/// mark at the beginning is passed over. Independent of the locale; allocates nothing.
+class TextScanner final : public InputPosition
+{
+  public:
+    /// @param path for messages only.
+    /// @param text has to outlive the scanner.
+    TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax = {});
+
+    /// Goes to the next line with a token, whatever is left of the present one. False at the end of the text.
+    bool next_line();
+
+    /// The next token of the line; empty if there is none left.
+    std::string_view token();
+
+    /// The token that `token` would give.
+    [[nodiscard]] std::string_view peek();
+
+    /// Whether a token of the line is left.
+    [[nodiscard]] bool has_token();
+
+    /// What is left of the token from which a number has just been read; empty if it is used up.
+    [[nodiscard]] std::string_view rest_of_token() const;
+
+    /// Passes over n characters of the token that `peek` or `rest_of_token` gives.
+    void skip(std::size_t n) { cursor_ += n; }
+
+    /// The next token as a finite number, correctly rounded. Too small to be represented, it is a zero.
+    /// @param what is expected ("a coordinate"), for the message.
+    /// @throws InputError if there is no token left or it is no finite number.
+    double real(const char* what);
+
+    /// The next token, or its beginning up to a slash, as a whole number.
+    /// @throws InputError as for `real`.
+    std::int64_t integer_before_slash(const char* what);
+
+    /// The next token as a whole number.
+    /// @throws InputError as for `real`.
+    std::int64_t integer(const char* what);
+
+    /// The text after the present line.
+    [[nodiscard]] std::string_view rest() const { return {next_, static_cast<std::size_t>(end_ - next_)}; }
+
+    /// The number of the present line, from 1.
+    [[nodiscard]] std::size_t line() const { return line_; }
+
+    /// "path:line" of any line.
+    [[nodiscard]] std::string position_of(std::size_t line) const;
+
+  private:
+    [[nodiscard]] std::string position() const override { return position_of(line_); }
+    [[nodiscard]] bool ends_token(const char* c) const;
+    void load_line();
+    void skip_blanks();
+    [[noreturn]] void fail_at_number(const char* what, const char* form);
+
+    std::string path_;
+    TextSyntax syntax_;
+    char line_break_ = '\n';
+    /// The line without its end; from cursor_ on it is still to be read.
+    const char* cursor_;
+    const char* line_end_;
+    /// The next line, and the end of the text.
+    const char* next_;
+    const char* end_;
+    bool continued_ = false;
+    std::size_t line_ = 0;
+};
+
+}  // namespace seamflow
