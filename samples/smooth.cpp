@@ -79,7 +79,8 @@ ExitStatus smooth(int argc, char** argv)
     const FileKind kind = kind_for_writing(command.output, file.kind);
     require_storable(file.mesh, command.output, kind);
     if (command.every_step)
-        require_storable(file.mesh, command.every_step->path(1), kind_for_writing(command.every_step->path(1), kind));
+        require_storable(file.mesh, command.every_step->path(1),
+                         kind_for_writing(command.every_step->path(1), file.kind));
 
     const StepObserver on_step = make_observer(command, file, run.write_seconds);
     const FlowReport report = mean_curvature_flow(file.mesh, command.options, on_step);

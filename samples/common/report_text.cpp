@@ -85,6 +85,7 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 
 void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
+    out << "flow       " << run.laplacian << ", time step " << digits(report.time_step, 10) << '\n';
     print_cut(out, report);
     print_times(out, run, report.seconds);
     out << "threads    " << report.threads << '\n';
