@@ -1,0 +1,104 @@
+#include "samples/common/command_line.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+/// An option whose text `parse` turns into the target's value; what it throws names the option.
+template <class Target, class Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& names, Target& target, Parse parse, const std::string& type,
+                        const std::string& description)
+{
+    const auto store = [&target, parse, names](const std::string& text) {
+        try {
+            target = parse(text);
+        } catch (const OptionError& error) {
+            throw CLI::ValidationError(names, error.what());
+        }
+    };
+    return app.add_option_function<std::string>(names, store, description)->type_name(type);
+}
+
+std::string described(const RealLimits& limits)
+{
+    std::ostringstream text;
+    text << "a finite number";
+    if (std::isfinite(limits.least))
+        text << (limits.above_least ? " above " : " from ") << limits.least;
+    if (limits.most < std::numeric_limits<double>::max())
+        text << (std::isfinite(limits.least) ? " to " : " up to ") << limits.most;
+    return text.str();
+}
+
+}  // namespace
+
+RealLimits positive()
+{
+    return {0.0, std::numeric_limits<double>::max(), true};
+}
+
+double parse_real(std::string_view text, const RealLimits& limits)
+{
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const bool number = error == std::errc() && rest == end && std::isfinite(value);
+    if (number && value <= limits.most && (limits.above_least ? value > limits.least : value >= limits.least))
+        return value;
+    throw OptionError("\"" + std::string(text) + "\" is not " + described(limits));
+}
+
+long long parse_integer(std::string_view text, long long least, long long most)
+{
+    long long value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && rest == end && value >= least && value <= most)
+        return value;
+    throw OptionError("\"" + std::string(text) + "\" is not a whole number from " + std::to_string(least) + " to " +
+                      std::to_string(most));
+}
+
+CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
+                      const std::string& description)
+{
+    const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };
+    return add_parsed(app, names, target, parse, "NUMBER", description);
+}
+
+CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const RealLimits& limits,
+                      const std::string& description)
+{
+    const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };
+    return add_parsed(app, names, target, parse, "NUMBER", description);
+}
+
+CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
+                         const std::string& description)
+{
+    const auto parse = [least](const std::string& text) {
+        return static_cast<int>(parse_integer(text, least, std::numeric_limits<int>::max()));
+    };
+    return add_parsed(app, names, target, parse, "INTEGER", description);
+}
+
+std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
+{
+    try {
+        app.parse(argc, argv);
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? ExitStatus::Success : ExitStatus::WrongUsage;
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "samples/common/exit_status.h"
+
+namespace seamflow
+{
+
+/// The limits of a number on the command line.
+struct RealLimits {
+    double least;
+    double most;
+    /// Whether `least` itself is refused.
+    bool above_least = false;
+};
+
+/// Every finite number above 0.
+RealLimits positive();
+
+/// Reads the whole of `text` as a finite decimal number ("0.05", "1e-3"; not "0.05x", "nan", "inf" or "").
+/// @throws OptionError saying what was expected.
+double parse_real(std::string_view text, const RealLimits& limits);
+
+/// As above, for a whole number.
+long long parse_integer(std::string_view text, long long least, long long most);
+
+/// Adds an option that takes one number and stores it in `target`.
+CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
+                      const std::string& description);
+CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const RealLimits& limits,
+                      const std::string& description);
+
+/// As above, for a whole number from `least` to the largest that fits the target.
+CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
+                         const std::string& description);
+
+/// Adds an option that takes one of several words and stores what the word stands for in `target`.
+template <class Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& names, Value& target,
+                        const std::vector<std::pair<std::string, Value>>& choices, const std::string& description)
+{
+    std::string words;
+    for (const auto& choice : choices)
+        words += (words.empty() ? "" : "|") + choice.first;
+    const auto store = [&target, choices, names, words](const std::string& word) {
+        for (const auto& [name, value] : choices)
+            if (name == word) {
+                target = value;
+                return;
+            }
+        throw CLI::ValidationError(names, "\"" + word + "\" is none of " + words);
+    };
+    return app.add_option_function<std::string>(names, store, description)->type_name(words);
+}
+
+/// Parses the command line.
+/// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
+std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv);
+
+}  // namespace seamflow

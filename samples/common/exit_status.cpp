@@ -1,0 +1,48 @@
+#include "samples/common/exit_status.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+ExitStatus tell(const char* program, const char* message, ExitStatus status)
+{
+    std::cout.flush();
+    std::cerr << program << ": " << message << '\n';
+    return status;
+}
+
+ExitStatus guarded(const char* program, const std::function<ExitStatus()>& body)
+{
+    try {
+        return body();
+    } catch (const OptionError& error) {
+        return tell(program, error.what(), ExitStatus::WrongUsage);
+    } catch (const InputError& error) {
+        return tell(program, error.what(), ExitStatus::UnusableInput);
+    } catch (const OutputError& error) {
+        return tell(program, error.what(), ExitStatus::OutputNotWritten);
+    } catch (const std::bad_alloc&) {
+        return tell(program, "the memory of this machine does not suffice", ExitStatus::ComputationFailed);
+    } catch (const std::exception& error) {
+        return tell(program, error.what(), ExitStatus::ComputationFailed);
+    } catch (...) {
+        return tell(program, "failed for an unknown reason", ExitStatus::ComputationFailed);
+    }
+}
+
+}  // namespace
+
+int run_program(const char* program, const std::function<ExitStatus()>& body)
+{
+    return static_cast<int>(guarded(program, body));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+namespace seamflow
+{
+
+/// How the programs end. Scripts rely on these numbers.
+enum class ExitStatus : int {
+    Success = 0,
+    WrongUsage = 2,
+    UnusableInput = 3,
+    ComputationFailed = 4,
+    OutputNotWritten = 5,
+};
+
+/// Runs the body of a program and turns what it throws into an exit status, with one message on standard error:
+/// OptionError → WrongUsage, InputError → UnusableInput, OutputError → OutputNotWritten; ComputationError, running out
+/// of memory and anything else → ComputationFailed.
+/// @param program the name that begins the message.
+/// @returns the status, for main to return.
+int run_program(const char* program, const std::function<ExitStatus()>& body);
+
+}  // namespace seamflow

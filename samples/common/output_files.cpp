@@ -1,0 +1,110 @@
+#include "samples/common/output_files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include <unistd.h>
+
+#include "partition/errors.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, std::string_view reason)
+{
+    throw OutputError(path.string() + ": cannot be written, " + std::string(reason));
+}
+
+fs::path directory_of(const fs::path& path)
+{
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+void write_and_flush(const fs::path& path, const std::string& text)
+{
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file << text << std::flush;
+    if (!file)
+        refuse(path, std::strerror(errno));
+}
+
+bool has_isolated_vertices(const PolygonMesh& mesh)
+{
+    std::vector<bool> used(static_cast<std::size_t>(mesh.n_vertices()), false);
+    for (const Index v : mesh.face_vertices)
+        used[static_cast<std::size_t>(v)] = true;
+    return std::find(used.begin(), used.end(), false) != used.end();
+}
+
+}  // namespace
+
+void require_writable(const fs::path& path)
+{
+    std::error_code ignored;
+    const fs::path directory = directory_of(path);
+    if (path.empty() || fs::is_directory(path, ignored))
+        refuse(path, "for that is the name of a directory");
+    if (!fs::is_directory(directory, ignored))
+        refuse(path, "for there is no directory " + directory.string());
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+        return;  // a device or pipe: seen when written to
+    if (access(directory.c_str(), W_OK | X_OK) != 0)
+        refuse(path, "for its directory may not be written to: " + std::string(std::strerror(errno)));
+}
+
+void require_different(const std::vector<fs::path>& paths)
+{
+    std::vector<fs::path> resolved;
+    for (const fs::path& path : paths) {
+        std::error_code error;
+        fs::path place = fs::weakly_canonical(path, error);
+        resolved.push_back(error ? fs::absolute(path).lexically_normal() : place);
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        if (std::find(resolved.begin(), resolved.begin() + static_cast<std::ptrdiff_t>(i), resolved[i]) !=
+            resolved.begin() + static_cast<std::ptrdiff_t>(i))
+            throw OptionError(paths[i].string() + " is named for two different files");
+}
+
+void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileKind& kind)
+{
+    if (kind.format != FileFormat::Stl)
+        return;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (mesh.face(f).size() > 3)
+            refuse(path, "for STL holds triangles only, and face " + std::to_string(f) + " has " +
+                             std::to_string(mesh.face(f).size()) + " sides; choose .obj, .off or .ply");
+    if (has_isolated_vertices(mesh))
+        refuse(path, "for STL cannot hold vertices without faces; choose .obj, .off or .ply");
+}
+
+void write_text(const fs::path& path, const std::string& text)
+{
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+        return write_and_flush(path, text);
+    const fs::path temporary = path.string() + ".part" + std::to_string(getpid());
+    try {
+        write_and_flush(temporary, text);
+        fs::rename(temporary, path, error);
+    } catch (const OutputError&) {
+        fs::remove(temporary, error);
+        throw;
+    }
+    if (error) {
+        const std::string reason = error.message();
+        fs::remove(temporary, error);
+        refuse(path, reason);
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "partition/io/mesh_io.h"
+
+/// What can be known about results before the long work begins, so that nobody waits an hour for a mistyped name.
+namespace seamflow
+{
+
+/// @throws OutputError if no file can be made at that place: its directory does not exist or may not be written to, or
+///         the path names a directory.
+void require_writable(const std::filesystem::path& path);
+
+/// @throws OptionError if two of the files are the same one.
+void require_different(const std::vector<std::filesystem::path>& paths);
+
+/// @throws OutputError for a mesh that a file of that kind cannot hold (see write_mesh).
+void require_storable(const PolygonMesh& mesh, const std::filesystem::path& path, const FileKind& kind);
+
+/// Writes a text file, whole or not at all.
+/// @throws OutputError naming the file.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace seamflow

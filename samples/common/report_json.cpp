@@ -1,0 +1,111 @@
+#include "samples/common/report_json.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/common/peak_memory.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json numbers(const std::vector<double>& values)
+{
+    Json list = Json::array();
+    for (const double value : values)
+        list.push_back(number(value));
+    return list;
+}
+
+void add_distance(Json& json, const VertexDistance& distance)
+{
+    json["v_mean"] = number(distance.mean / distance.mean_edge);
+    json["v_rms"] = number(distance.rms / distance.mean_edge);
+    json["v_max"] = number(distance.max / distance.mean_edge);
+    json["v_mean_absolute"] = number(distance.mean);
+    json["v_rms_absolute"] = number(distance.rms);
+    json["v_max_absolute"] = number(distance.max);
+    json["mean_edge"] = number(distance.mean_edge);
+}
+
+Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
+{
+    return {{"read", number(run.read_seconds)},       {"cut", number(seconds.cut)},
+            {"analyse", number(seconds.analyse)},     {"assemble", number(seconds.assemble)},
+            {"factorise", number(seconds.factorise)}, {"solve", number(seconds.solve)},
+            {"correct", number(seconds.correct)},     {"step", number(seconds.step)},
+            {"total", number(seconds.total)},         {"write", number(run.write_seconds)}};
+}
+
+Json steps_json(const std::vector<StepReport>& steps)
+{
+    Json list = Json::array();
+    for (const StepReport& step : steps) {
+        Json json{{"seconds", number(step.seconds)},
+                  {"max_mean_curvature_before", number(step.max_mean_curvature_before)},
+                  {"max_mean_curvature_after", number(step.max_mean_curvature_after)}};
+        if (step.distance)
+            add_distance(json, *step.distance);
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+/// Names of files need not be valid UTF-8, JSON must.
+std::string text_of(const Json& json)
+{
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
+{
+    Json json;
+    json["input"] = run.input;
+    json["output"] = run.output;
+    json["arguments"] = run.arguments;
+    json["vertices"] = report.vertices;
+    json["faces"] = report.faces;
+    json["mean_edge"] = number(run.mean_edge);
+    json["subdomains"] = report.subdomains;
+    json["subdomain_vertices"] = report.subdomain_vertices;
+    json["subdomain_faces"] = report.subdomain_faces;
+    json["subdomain_colors"] = report.subdomain_colors;
+    json["colors"] = report.colors;
+    json["interface_vertices"] = report.interface_vertices;
+    json["repaired_faces"] = report.repaired_faces;
+    json["non_manifold_vertices"] = report.non_manifold_vertices;
+    json["laplacian"] = run.laplacian;
+    json["time_step"] = number(report.time_step);
+    json["threads"] = report.threads;
+    json["p"] = numbers(report.p);
+    json["seconds"] = seconds_json(run, report.seconds);
+    json["steps"] = steps_json(report.steps);
+    json["remarks"] = report.remarks;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    return text_of(json);
+}
+
+std::string compare_report_json(const Comparison& comparison)
+{
+    Json json;
+    json["reference"] = comparison.reference;
+    json["candidate"] = comparison.candidate;
+    json["vertices"] = comparison.vertices;
+    json["faces"] = comparison.faces;
+    add_distance(json, comparison.distance);
+    return text_of(json);
+}
+
+}  // namespace seamflow

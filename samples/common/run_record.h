@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "partition/metrics/vertex_distance.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow
+{
+
+/// What `smooth` knows about its run beyond the FlowReport.
+struct RunRecord {
+    std::string input;
+    std::string output;
+    /// As the user typed them.
+    std::vector<std::string> arguments;
+    /// Name of the Laplacian.
+    std::string laplacian;
+    /// Mean edge length of the input, in units of length.
+    double mean_edge = 0.0;
+    /// Wall-clock time for reading all inputs and for writing all results, the report excepted.
+    double read_seconds = 0.0;
+    double write_seconds = 0.0;
+};
+
+/// What `compare` found.
+struct Comparison {
+    std::string reference;
+    std::string candidate;
+    Index vertices = 0;
+    Index faces = 0;
+    VertexDistance distance;
+};
+
+}  // namespace seamflow

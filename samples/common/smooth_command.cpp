@@ -1,0 +1,109 @@
+#include "samples/common/smooth_command.h"
+
+#include "partition/errors.h"
+#include "partition/io/mesh_io.h"
+#include "samples/common/command_line.h"
+#include "samples/common/output_files.h"
+
+namespace seamflow
+{
+
+namespace
+{
+
+void add_flow_options(CLI::App& app, SmoothCommand& command)
+{
+    FlowOptions& options = command.options;
+    // Options take effect in the order in which they are added here: --plain first, so that the others refine it.
+    app.add_flag_callback(
+        "--plain", [&options] { options = FlowOptions::plain(); }, "the paper to the letter, without improvements");
+    add_choice<Laplacian>(app, "--laplacian", options.laplacian,
+                          {{"fujiwara", Laplacian::Fujiwara},
+                           {"alexa-wardetzky", Laplacian::AlexaWardetzky},
+                           {"ptackova-velho", Laplacian::PtackovaVelho}},
+                          "discrete Laplacian [fujiwara]");
+    auto* time_step = app.add_option_group("Time step", "one of");
+    add_real(*time_step, "--time-step", options.time_step, positive(), "in length²");
+    add_real(*time_step, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths");
+    time_step->require_option(1);
+    add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
+    auto* subdomains =
+        add_integer(app, "--subdomains", options.subdomains, 0, "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
+    app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
+        ->excludes(subdomains)
+        ->type_name("FILE");
+    add_choice<Coloring>(app, "--coloring", options.coloring,
+                         {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
+                         "order of the sub-meshes in a step [greedy]");
+    add_choice<Conditions>(app, "--conditions", options.conditions, {{"adapted-robin", Conditions::AdaptedRobin}},
+                           "what holds between sub-meshes [adapted-robin]");
+    add_real(app, "--p", options.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]");
+    app.add_flag_callback(
+        "--no-correction", [&options] { options.correction = Correction::None; },
+        "leave the vertices of the interface where the step puts them");
+    add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
+                      "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
+    add_integer(app, "--threads", options.threads, 0, "number of threads; 0: all cores [0]");
+    app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
+}
+
+void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
+{
+    app.add_option("INPUT", command.input, "mesh: .obj, .off, .ply or .stl")->required()->type_name("");
+    app.add_option("OUTPUT", command.output, "smoothed mesh")->required()->type_name("");
+    app.add_option("--every-step", every_step, "also write the mesh after every step; %d is its number")
+        ->type_name("PATTERN");
+    app.add_option("--parts", command.parts, "write the cut: faces with colours and labels")->type_name("PARTS.ply");
+    app.add_option("--report", command.report, "write times, sizes and distances")->type_name("REPORT.json");
+}
+
+void require_consistent(bool plain, const SmoothCommand& command)
+{
+    if (plain && command.options.sweep != FlowOptions::plain().sweep)
+        throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
+    kind_for_writing(command.output, FileKind{});
+    if (command.every_step)
+        kind_for_writing(command.every_step->path(1), FileKind{});
+    if (!command.parts.empty() && kind_for_writing(command.parts, FileKind{}).format != FileFormat::Ply)
+        throw OptionError("--parts " + command.parts.string() + ": the cut is written as .ply only");
+}
+
+/// Also keeps every result but OUTPUT from replacing one of the inputs.
+void require_usable_files(const SmoothCommand& command)
+{
+    std::vector<std::filesystem::path> results;
+    for (int step = 1; command.every_step && step <= command.options.steps; ++step)
+        results.push_back(command.every_step->path(step));
+    for (const auto& path : {command.parts, command.report})
+        if (!path.empty())
+            results.push_back(path);
+    std::vector<std::filesystem::path> files = results;
+    files.push_back(command.input);
+    if (!command.labels.empty())
+        files.push_back(command.labels);
+    require_different(files);
+    results.push_back(command.output);
+    require_different(results);
+    for (const auto& path : results)
+        require_writable(path);
+}
+
+}  // namespace
+
+std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command)
+{
+    CLI::App app("Smooths a mesh by mean curvature flow, cut into sub-meshes that are solved in parallel.", "smooth");
+    std::string every_step;
+    add_files(app, command, every_step);
+    add_flow_options(app, command);
+    if (const auto end = parse_command_line(app, argc, argv))
+        return end;
+    command.arguments.assign(argv + 1, argv + argc);
+    if (!every_step.empty())
+        command.every_step.emplace(every_step);
+    require_consistent(app.count("--plain") > 0, command);
+    require_usable_files(command);
+    return std::nullopt;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/flow_options.h"
+#include "samples/common/exit_status.h"
+#include "samples/common/step_pattern.h"
+
+namespace seamflow
+{
+
+/// The command line of `smooth`.
+struct SmoothCommand {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    /// All of it but `labels`, and `time_step` where `time_step_edges` is given.
+    FlowOptions options;
+    /// The time step in squared mean edge lengths of the input.
+    std::optional<double> time_step_edges;
+    /// Files; empty: none.
+    std::filesystem::path labels;
+    std::filesystem::path parts;
+    std::filesystem::path report;
+    /// Where to write the mesh after every step.
+    std::optional<StepPattern> every_step;
+    /// As the user typed it.
+    std::vector<std::string> arguments;
+};
+
+/// Parses the command line and checks that the results can be written where it says.
+/// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
+/// @throws OptionError, OutputError (see output_files.h).
+std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command);
+
+}  // namespace seamflow

@@ -1,0 +1,59 @@
+// Makes a mesh to try things on.
+
+#include <iostream>
+#include <limits>
+
+#include "partition/io/mesh_io.h"
+#include "samples/common/command_line.h"
+#include "samples/common/meshes.h"
+#include "samples/common/output_files.h"
+
+using namespace seamflow;
+
+namespace
+{
+
+std::string listed_kinds()
+{
+    std::string text = "kind of mesh:";
+    for (const MeshKind& kind : mesh_kinds())
+        text.append("\n").append(kind.name).append(": ").append(kind.description);
+    return text;
+}
+
+ExitStatus generate(int argc, char** argv)
+{
+    CLI::App app("Makes a mesh to try things on.", "generate");
+    std::string kind;
+    std::filesystem::path output;
+    Index vertices = 10'000;
+    MeshVariation variation;
+    const RealLimits any{-1e6, 1e6};
+    const RealLimits not_negative{0.0, 1e6};
+    int seed = 1;
+    app.add_option("KIND", kind, listed_kinds())->required()->type_name("");
+    app.add_option("OUTPUT", output, "the mesh: .obj, .off, .ply or .stl")->required()->type_name("");
+    add_integer(app, "--vertices", vertices, 100, "about so many vertices [10000]");
+    auto* seed_option = add_integer(app, "--seed", seed, 0, "of everything drawn at random [1]");
+    add_real(app, "--amplitude", variation.amplitude, any, "height of the waves [that of the kind]");
+    add_real(app, "--noise", variation.noise, not_negative, "in mean vertex distances [that of the kind]");
+    if (const auto end = parse_command_line(app, argc, argv))
+        return *end;
+    if (seed_option->count() > 0)
+        variation.seed = static_cast<std::uint32_t>(seed);
+    const FileKind file_kind = kind_for_writing(output, FileKind{});
+    require_writable(output);
+
+    const PolygonMesh mesh = make_mesh(kind, vertices, variation);
+    write_mesh(output, mesh, file_kind);
+    std::cout << output.string() << ": " << mesh.n_vertices() << " vertices, " << mesh.n_faces() << " faces"
+              << std::endl;
+    return ExitStatus::Success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return run_program("generate", [&] { return generate(argc, argv); });
+}

@@ -1,0 +1,102 @@
+// Smooths a mesh: reads it, cuts it into sub-meshes, runs the flow and writes the result.
+//
+// What runs in each step, for every sub-mesh at once (one task graph, no barrier in between):
+//
+//     assemble and factorise ──► solve ──► correct the interface
+//                                  ▲         ▲
+//           solve of the adjacent ─┘         └─ solve of all sub-meshes around
+//           sub-meshes of lower colour
+
+#include <iostream>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "partition/io/mesh_io.h"
+#include "samples/common/label_file.h"
+#include "samples/common/output_files.h"
+#include "samples/common/report_json.h"
+#include "samples/common/report_text.h"
+#include "samples/common/smooth_command.h"
+#include "samples/common/stopwatch.h"
+
+using namespace seamflow;
+
+namespace
+{
+
+/// What the command line leaves to be taken from the input.
+void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double mean_edge)
+{
+    if (!command.labels.empty())
+        command.options.labels = read_labels(command.labels, mesh.n_faces());
+    if (!command.time_step_edges)
+        return;
+    if (mean_edge <= 0.0)
+        throw InputError(command.input.string() + ": has no edges of any length to measure --time-step-edges by");
+    command.options.time_step = *command.time_step_edges * mean_edge * mean_edge;
+}
+
+/// Prints every step, and writes it where --every-step asks for that.
+StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double& write_seconds)
+{
+    const FileKind kind = command.every_step ? kind_for_writing(command.every_step->path(1), input.kind) : FileKind{};
+    PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
+    return [&command, &write_seconds, kind, snapshot](const StepState& state) mutable {
+        print_step(std::cout, state.report, state.step, command.options.steps);
+        if (!command.every_step)
+            return;
+        const Stopwatch watch;
+        snapshot.vertices = state.positions;
+        write_mesh(command.every_step->path(state.step), snapshot, kind);
+        write_seconds += watch.seconds();
+    };
+}
+
+void write_results(const SmoothCommand& command, const PolygonMesh& mesh, const FileKind& kind,
+                   const FlowReport& report)
+{
+    write_mesh(command.output, mesh, kind);
+    if (!command.parts.empty())
+        write_labelled_ply(command.parts, mesh, report.labels);
+}
+
+ExitStatus smooth(int argc, char** argv)
+{
+    SmoothCommand command;
+    if (const auto end = parse_smooth_command(argc, argv, command))
+        return *end;
+    RunRecord run{.input = command.input.string(),
+                  .output = command.output.string(),
+                  .arguments = command.arguments,
+                  .laplacian = std::string(name_of(command.options.laplacian))};
+
+    const Stopwatch reading;
+    MeshFile file = read_mesh(command.input);
+    run.mean_edge = mean_edge_length(file.mesh);
+    complete_options(command, file.mesh, run.mean_edge);
+    run.read_seconds = reading.seconds();
+    print_input(std::cout, run, file.mesh);
+    const FileKind kind = kind_for_writing(command.output, file.kind);
+    require_storable(file.mesh, command.output, kind);
+    if (command.every_step)
+        require_storable(file.mesh, command.every_step->path(1),
+                         kind_for_writing(command.every_step->path(1), file.kind));
+
+    const StepObserver on_step = make_observer(command, file, run.write_seconds);
+    const FlowReport report = mean_curvature_flow(file.mesh, command.options, on_step);
+
+    const Stopwatch writing;
+    write_results(command, file.mesh, kind, report);
+    run.write_seconds += writing.seconds();
+    if (!command.report.empty())
+        write_text(command.report, smooth_report_json(run, report));
+    print_summary(std::cout, run, report);
+    return ExitStatus::Success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return run_program("smooth", [&] { return smooth(argc, argv); });
+}

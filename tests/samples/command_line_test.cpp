@@ -1,0 +1,25 @@
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "samples/common/command_line.h"
+
+using namespace seamflow;
+
+TEST_CASE("numbers are read strictly")
+{
+    CHECK(parse_real("0.05", positive()) == 0.05);
+    CHECK(parse_real("1e-3", positive()) == 1e-3);
+    CHECK(parse_real("-2", {-2.0, 5.0}) == -2.0);
+    for (const char* text : {"", " 1", "0.05x", "nan", "inf", "-inf", "1e999", "0", "-1", "0x10", "1,5", "."})
+        CHECK_THROWS_AS(parse_real(text, positive()), OptionError);
+}
+
+TEST_CASE("whole numbers are read strictly")
+{
+    CHECK(parse_integer("12", 0, 100) == 12);
+    CHECK(parse_integer("010", 0, 100) == 10);
+    for (const char* text : {"", "1.5", "1e2", "-1", "101", "12a", "99999999999999999999"})
+        CHECK_THROWS_AS(parse_integer(text, 0, 100), OptionError);
+}

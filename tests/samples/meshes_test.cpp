@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "partition/topology.h"
+#include "samples/common/meshes.h"
+
+using namespace seamflow;
+
+namespace
+{
+
+constexpr std::array<Index, 5> sizes{100, 137, 1000, 2500, 9999};
+
+std::size_t at(Index i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+Index euler_characteristic(const PolygonMesh& mesh, const Topology& topology)
+{
+    const auto boundary = std::count(topology.twin.begin(), topology.twin.end(), -1);
+    const auto edges = (mesh.n_corners() + static_cast<Index>(boundary)) / 2;
+    return mesh.n_vertices() - edges + mesh.n_faces();
+}
+
+Index expected_characteristic(std::string_view kind)
+{
+    if (kind == "noisy-sphere")
+        return 2;
+    return kind.ends_with("cylinder") ? 0 : 1;
+}
+
+bool oriented_alike(const PolygonMesh& mesh, const Topology& topology)
+{
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        if (const Index twin = topology.twin[at(h)];
+            twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)])
+            return false;
+    return true;
+}
+
+std::map<std::size_t, Index> faces_by_sides(const PolygonMesh& mesh)
+{
+    std::map<std::size_t, Index> count;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        ++count[mesh.face(f).size()];
+    return count;
+}
+
+using Vector2 = Eigen::RowVector2d;
+
+double cross(const Vector2& a, const Vector2& b)
+{
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+bool segments_cross(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d)
+{
+    return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
+}
+
+/// Whether no two edges of a face cross, seen along z.
+bool simple_from_above(const PolygonMesh& mesh, Index f)
+{
+    const auto corners = mesh.face(f);
+    const auto point = [&](std::size_t k) -> Vector2 {
+        return mesh.vertices.row(corners[k % corners.size()]).head<2>();
+    };
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (segments_cross(point(i), point(i + 1), point(j), point(j + 1)))
+                return false;
+    return true;
+}
+
+/// Area of a face seen along z, positive if it runs counter-clockwise.
+double area_from_above(const PolygonMesh& mesh, Index f)
+{
+    const auto corners = mesh.face(f);
+    double doubled = 0.0;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        doubled += cross(mesh.vertices.row(corners[k]).head<2>(),
+                         mesh.vertices.row(corners[(k + 1) % corners.size()]).head<2>());
+    return doubled / 2.0;
+}
+
+}  // namespace
+
+TEST_CASE("every kind of mesh is valid, manifold, oriented and of about the size asked for")
+{
+    for (const MeshKind& kind : mesh_kinds())
+        for (const Index wanted : sizes) {
+            CAPTURE(std::string(kind.name));
+            CAPTURE(wanted);
+            const PolygonMesh mesh = make_mesh(kind.name, wanted);
+            CHECK_NOTHROW(require_valid(mesh));
+            CHECK(std::abs(mesh.n_vertices() - wanted) <= 0.1 * wanted);
+            const Topology topology = make_topology(mesh);
+            CHECK(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold) == 0);
+            CHECK(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::Isolated) == 0);
+            CHECK(euler_characteristic(mesh, topology) == expected_characteristic(kind.name));
+            CHECK(oriented_alike(mesh, topology));
+        }
+}
+
+TEST_CASE("the same arguments give the same mesh, another seed another one")
+{
+    for (const MeshKind& kind : mesh_kinds()) {
+        CAPTURE(std::string(kind.name));
+        const MeshVariation noisy{.seed = 7, .amplitude = {}, .noise = 0.2};
+        const PolygonMesh once = make_mesh(kind.name, 500, noisy);
+        const PolygonMesh again = make_mesh(kind.name, 500, noisy);
+        CHECK(once.vertices == again.vertices);
+        CHECK(once.face_vertices == again.face_vertices);
+        CHECK(once.face_offsets == again.face_offsets);
+        const PolygonMesh other = make_mesh(kind.name, 500, {.seed = 8, .amplitude = {}, .noise = 0.2});
+        CHECK(once.vertices != other.vertices);
+    }
+}
+
+TEST_CASE("height fields cover the unit square with simple faces of positive area")
+{
+    for (const char* kind : {"triangles", "quads", "hexagons", "mixed"}) {
+        CAPTURE(kind);
+        const PolygonMesh mesh = make_mesh(kind, 2000);
+        double area = 0.0;
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            CHECK(simple_from_above(mesh, f));
+            CHECK(area_from_above(mesh, f) > 0.0);
+            area += area_from_above(mesh, f);
+        }
+        CHECK(area == doctest::Approx(1.0));
+        CHECK(mesh.vertices.col(2).maxCoeff() <= 0.1);
+        CHECK(mesh.vertices.col(2).minCoeff() >= -0.1);
+    }
+}
+
+TEST_CASE("the mixed mesh stays simple at its largest jitter, and has faces of three to nine sides")
+{
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+        MixedPolygonsShape shape{.surface = {.seed = seed}, .jitter = 0.24, .changed = 1.0};
+        const PolygonMesh mesh = make_mixed_polygons(3000, shape);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            CHECK(simple_from_above(mesh, f));
+        const auto count = faces_by_sides(mesh);
+        for (std::size_t sides = 3; sides <= 9; ++sides)
+            CHECK(count.count(sides) == 1);
+        const Topology topology = make_topology(mesh);
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (topology.kind[at(v)] == VertexKind::Interior)
+                CHECK(topology.corners_at(v).size() >= 3);
+    }
+}
+
+TEST_CASE("the honeycomb is prevalently hexagonal")
+{
+    const PolygonMesh mesh = make_hexagons(5000);
+    const auto count = faces_by_sides(mesh);
+    CHECK(count.at(6) > 0.95 * mesh.n_faces());
+    CHECK(count.at(6) + count.at(4) == mesh.n_faces());
+}
+
+TEST_CASE("a ring of pentagons joins the two levels of a cylinder")
+{
+    const PolygonMesh mesh = make_two_level_cylinder(7280);
+    auto count = faces_by_sides(mesh);
+    CHECK(count[5] + count[4] == mesh.n_faces());
+    const Topology topology = make_topology(mesh);
+    // The boundary is one coarse and one fine ring.
+    CHECK(std::count(topology.twin.begin(), topology.twin.end(), -1) == 3 * count[5]);
+    CHECK(mesh.vertices.col(2).minCoeff() == doctest::Approx(-mesh.vertices.col(2).maxCoeff()));
+}
+
+TEST_CASE("flat options give flat meshes and round tubes")
+{
+    CHECK(make_hexagons(500, {.amplitude = 0.0}).vertices.col(2).isZero(0.0));
+    const PolygonMesh tube = make_cylinder(500, {.radius = 2.0, .amplitude = 0.0});
+    CHECK(((tube.vertices.leftCols<2>().rowwise().norm().array() - 2.0).abs() < 1e-14).all());
+    const PolygonMesh ball = make_noisy_sphere(500, {.radius = 3.0, .amplitude = 0.0, .noise = 0.0});
+    CHECK(((ball.vertices.rowwise().norm().array() - 3.0).abs() < 1e-14).all());
+}
+
+TEST_CASE("extreme tubes keep their size")
+{
+    for (const double height : {0.01, 1000.0})
+        for (const Index wanted : {100, 5000}) {
+            CAPTURE(height);
+            CHECK(std::abs(make_cylinder(wanted, {.height = height}).n_vertices() - wanted) <= 0.1 * wanted);
+            CHECK(std::abs(make_two_level_cylinder(wanted, {.height = height}).n_vertices() - wanted) <= 0.1 * wanted);
+        }
+}
+
+TEST_CASE("arguments outside their limits are refused")
+{
+    CHECK_THROWS_AS(make_mesh("dodecahedron", 1000), OptionError);
+    CHECK_THROWS_AS(make_mesh("quads", 99), OptionError);
+    CHECK_THROWS_AS(make_mesh("noisy-sphere", 1000, {.seed = {}, .amplitude = {}, .noise = -1.0}), OptionError);
+    CHECK_THROWS_AS(make_mesh("cylinder", 1000, {.seed = {}, .amplitude = 1.5, .noise = {}}), OptionError);
+    CHECK_THROWS_AS(make_quads(1000, {.amplitude = std::nan("")}), OptionError);
+    CHECK_THROWS_AS(make_mixed_polygons(1000, {.surface = {}, .jitter = 0.5}), OptionError);
+}

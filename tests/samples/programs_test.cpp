@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "tests/samples/temporary_directory.h"
+
+using namespace seamflow;
+using Json = nlohmann::json;
+
+namespace
+{
+
+/// A small mesh with its own directory, and the programs, run with a shell in that directory.
+struct Workshop {
+    TemporaryDirectory directory;
+
+    Workshop() { REQUIRE(run(GENERATE " mixed mesh.obj --vertices 900") == 0); }
+
+    /// @returns the exit status; what the program says is in the file `said`.
+    [[nodiscard]] int run(const std::string& command) const
+    {
+        const std::string line = "cd '" + (directory / "").string() + "' && " + command + " >said 2>&1";
+        const int status = std::system(line.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    [[nodiscard]] int smooth(const std::string& arguments) const { return run(SMOOTH " " + arguments); }
+
+    [[nodiscard]] std::string said() const { return content_of(directory / "said"); }
+    [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(directory / name); }
+    [[nodiscard]] Json json(const std::string& name) const { return Json::parse(content_of(directory / name)); }
+
+    [[nodiscard]] std::ptrdiff_t count_lines(const std::string& name, const std::string& start) const
+    {
+        std::ifstream file(directory / name);
+        std::ptrdiff_t count = 0;
+        for (std::string line; std::getline(file, line);)
+            count += line.starts_with(start) ? 1 : 0;
+        return count;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("help and success end with 0")
+{
+    const Workshop w;
+    for (const char* program : {SMOOTH, COMPARE, GENERATE})
+        CHECK(w.run(std::string(program) + " --help") == 0);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
+    CHECK(w.has("out.obj"));
+    CHECK(w.run(COMPARE " mesh.obj out.obj --report distance.json") == 0);
+    CHECK(w.json("distance.json")["v_mean"].get<double>() > 0.0);
+    CHECK(w.json("distance.json")["mean_edge"].get<double>() > 0.0);
+}
+
+TEST_CASE("wrong usage ends with 2 and writes nothing")
+{
+    const Workshop w;
+    for (const char* arguments : {
+             "",
+             "mesh.obj",
+             "mesh.obj out.obj",
+             "mesh.obj out.obj --time-step 0.05x",
+             "mesh.obj out.obj --time-step nan",
+             "mesh.obj out.obj --time-step 0",
+             "mesh.obj out.obj --time-step -1",
+             "mesh.obj out.obj --time-step",
+             "mesh.obj out.obj --time-step 1 --time-step-edges 1",
+             "mesh.obj out.obj --time-step 1 --p 0",
+             "mesh.obj out.obj --time-step 1 --steps -1",
+             "mesh.obj out.obj --time-step 1 --steps 1.5",
+             "mesh.obj out.obj --time-step 1 --subdomains 99999999999",
+             "mesh.obj out.obj --time-step 1 --subdomains 2 --labels labels.txt",
+             "mesh.obj out.obj --time-step 1 --laplacian cotan",
+             "mesh.obj out.obj --time-step 1 --laplacian 1",
+             "mesh.obj out.obj --time-step 1 --coloring best",
+             "mesh.obj out.obj --time-step 1 --conditions none",
+             "mesh.obj out.obj --time-step 1 --plain --sweep alternating",
+             "mesh.obj out.obj --time-step 1 --every-step step.obj",
+             "mesh.obj out.obj --time-step 1 --every-step %d%s.obj",
+             "mesh.obj out.obj --time-step 1 --parts parts.obj",
+             "mesh.obj out.obj --time-step 1 --report out.obj",
+             "mesh.obj out.obj --time-step 1 --report mesh.obj",
+             "mesh.obj out.xyz --time-step 1",
+             "mesh.obj out.obj more.obj --time-step 1",
+             "mesh.obj out.obj --time-step 1 --speed 3",
+         }) {
+        CAPTURE(arguments);
+        CHECK(w.smooth(arguments) == 2);
+        CHECK_FALSE(w.said().empty());
+        CHECK_FALSE(w.has("out.obj"));
+    }
+    CHECK(w.run(COMPARE " mesh.obj") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --report mesh.obj") == 2);
+    CHECK(w.run(GENERATE " dodecahedron out.obj") == 2);
+    CHECK(w.run(GENERATE " quads out.obj --vertices many") == 2);
+    CHECK(w.run(GENERATE " quads out.xyz") == 2);
+}
+
+TEST_CASE("unusable input ends with 3")
+{
+    const Workshop w;
+    (void)w.directory.file("broken.obj", "v 0 0 0\nv 1 0\n");
+    (void)w.directory.file("few.txt", "0\n1\n");
+    CHECK(w.smooth("nothing.obj out.obj --time-step 1") == 3);
+    CHECK(w.smooth("broken.obj out.obj --time-step 1") == 3);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --labels nothing.txt") == 3);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --labels few.txt") == 3);
+    CHECK(w.said().find("few.txt") != std::string::npos);
+    REQUIRE(w.run(GENERATE " mixed smaller.obj --vertices 500") == 0);
+    REQUIRE(w.run(GENERATE " mixed other.obj --vertices 900 --seed 2") == 0);
+    CHECK(w.run(COMPARE " mesh.obj nothing.obj") == 3);
+    CHECK(w.run(COMPARE " mesh.obj smaller.obj") == 3);
+    CHECK(w.said().find("vertices") != std::string::npos);
+    CHECK(w.run(COMPARE " mesh.obj other.obj") == 3);
+    CHECK_FALSE(w.has("out.obj"));
+}
+
+TEST_CASE("output that cannot be written ends with 5, before the work begins")
+{
+    const Workshop w;
+    CHECK(w.smooth("mesh.obj nowhere/out.obj --time-step 1") == 5);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --report nowhere/report.json") == 5);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --parts nowhere/parts.ply") == 5);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --every-step nowhere/%d.obj") == 5);
+    CHECK(w.smooth("mesh.obj out.stl --time-step 1") == 5);
+    CHECK(w.said().find("step 1") == std::string::npos);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --report nowhere/report.json") == 5);
+    CHECK(w.run(GENERATE " quads nowhere/out.obj") == 5);
+    CHECK_FALSE(w.has("out.obj"));
+}
+
+TEST_CASE("the report of smooth has its keys")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 2 --plain --subdomains 2 --steps 3 --threads 1 "
+                     "--laplacian ptackova-velho --reference --report report.json") == 0);
+    const Json report = w.json("report.json");
+    for (const char* key : {"vertices", "faces", "subdomains", "colors", "laplacian", "time_step", "threads", "p",
+                            "seconds", "steps", "peak_memory_bytes", "subdomain_vertices", "interface_vertices",
+                            "repaired_faces", "remarks", "mean_edge", "input", "output"})
+        CHECK_MESSAGE(report.contains(key), key);
+    for (const char* key :
+         {"read", "cut", "analyse", "assemble", "factorise", "solve", "correct", "step", "total", "write"})
+        CHECK_MESSAGE(report["seconds"][key].is_number(), key);
+    REQUIRE(report["steps"].size() == 3);
+    for (const char* key :
+         {"seconds", "max_mean_curvature_before", "max_mean_curvature_after", "v_mean", "v_rms", "v_max"})
+        CHECK_MESSAGE(report["steps"][2][key].is_number(), key);
+    CHECK(report["laplacian"] == "ptackova-velho");
+    CHECK(report["threads"] == 1);
+    CHECK(report["p"].size() == report["subdomains"].get<std::size_t>());
+    const double edge = report["mean_edge"].get<double>();
+    CHECK(report["time_step"].get<double>() == doctest::Approx(2.0 * edge * edge));
+    CHECK(w.count_lines("said", "step ") == 3);
+    CHECK(w.said().find("V_mean") != std::string::npos);
+}
+
+TEST_CASE("a time step given before --plain stays")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step 0.003 --steps 2 --plain --report report.json") == 0);
+    CHECK(w.json("report.json")["time_step"] == 0.003);
+    CHECK(w.json("report.json")["steps"].size() == 2);
+    CHECK_FALSE(w.json("report.json")["steps"][0].contains("v_mean"));
+}
+
+TEST_CASE("--every-step writes the mesh after each step, the last as OUTPUT")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3 --steps 3 --every-step step_%02d.obj") == 0);
+    CHECK_FALSE(w.has("step_00.obj"));
+    CHECK(w.has("step_01.obj"));
+    CHECK(content_of(w.directory / "step_02.obj") != content_of(w.directory / "step_03.obj"));
+    CHECK(content_of(w.directory / "step_03.obj") == content_of(w.directory / "out.obj"));
+    CHECK_FALSE(w.has("step_04.obj"));
+}
+
+TEST_CASE("--labels cuts as told and --parts writes the cut")
+{
+    const Workshop w;
+    const auto faces = w.count_lines("mesh.obj", "f ");
+    std::string labels;
+    for (std::ptrdiff_t f = 0; f < faces; ++f)
+        labels += 3 * f < faces ? "0\n" : "1\n";
+    (void)w.directory.file("labels.txt", labels);
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3 --labels labels.txt --coloring label --p 3.5 --no-correction "
+                     "--parts parts.ply --report report.json") == 0);
+    CHECK(w.json("report.json")["subdomains"] == 2);
+    CHECK(w.json("report.json")["p"] == Json::array({3.5, 3.5}));
+    CHECK(w.count_lines("parts.ply", "element face " + std::to_string(faces)) == 1);
+    CHECK(w.count_lines("parts.ply", "property int label") == 1);
+}

@@ -1,0 +1,45 @@
+#include <limits>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "samples/common/report_json.h"
+
+using namespace seamflow;
+using Json = nlohmann::json;
+
+TEST_CASE("the numbers of a report read back to the same double")
+{
+    FlowReport report;
+    report.time_step = 0.1 + 0.2;
+    report.p = {1.0 / 3.0, 6.2993055940947205};
+    StepReport step;
+    step.max_mean_curvature_after = 1e-300;
+    step.distance = VertexDistance{0.1, 0.2, 0.3, 0.7};
+    report.steps = {step, StepReport{}};
+    const Json json = Json::parse(smooth_report_json(RunRecord{}, report));
+    CHECK(json["time_step"].get<double>() == report.time_step);
+    CHECK(json["p"].get<std::vector<double>>() == report.p);
+    CHECK(json["steps"][0]["max_mean_curvature_after"].get<double>() == 1e-300);
+    CHECK(json["steps"][0]["v_mean"].get<double>() == 0.1 / 0.7);
+    CHECK(json["steps"][0]["v_max_absolute"].get<double>() == 0.3);
+    CHECK_FALSE(json["steps"][1].contains("v_mean"));
+    CHECK(json["peak_memory_bytes"].get<std::int64_t>() > 0);
+}
+
+TEST_CASE("a report is valid JSON whatever happened")
+{
+    FlowReport report;
+    report.time_step = std::numeric_limits<double>::quiet_NaN();
+    report.p = {std::numeric_limits<double>::infinity()};
+    RunRecord run;
+    run.input = "\xff.obj";
+    report.remarks = {"a \"remark\"\n"};
+    const Json json = Json::parse(smooth_report_json(run, report));
+    CHECK(json["time_step"].is_null());
+    CHECK(json["p"][0].is_null());
+    CHECK(json["remarks"][0] == "a \"remark\"\n");
+    const Json without_edges = Json::parse(compare_report_json(Comparison{}));
+    CHECK(without_edges["v_mean"].is_null());
+    CHECK(without_edges["v_mean_absolute"] == 0.0);
+}
