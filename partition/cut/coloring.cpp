@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 
 namespace seamflow
 {

@@ -1,6 +1,6 @@
 #include "partition/cut/components.h"
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 
 namespace seamflow
 {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 #include "partition/cut/compact.h"
 #include "partition/cut/components.h"
 #include "partition/cut/face_graph.h"

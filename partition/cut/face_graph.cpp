@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 
 namespace seamflow
 {

@@ -7,7 +7,7 @@
 
 #include <metis.h>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 #include "partition/errors.h"
 
 namespace seamflow

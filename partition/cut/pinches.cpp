@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 
 namespace seamflow
 {

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 #include "partition/cut/compact.h"
 #include "partition/cut/pieces.h"
 #include "partition/cut/pinches.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "partition/cut/at.h"
+#include "partition/index.h"
 
 namespace seamflow
 {
