@@ -9,7 +9,8 @@ namespace seamflow {
 
 namespace {
 
-/// Factorising and solving costs least per vertex in blocks of this size or less; smaller ones have more interface for no gain.
+/// Factorising and solving costs least per vertex in blocks of this size or less; smaller ones have more interface for
+/// no gain.
 constexpr double vertices_per_sub_mesh = 2'500.0;
 
 double total_area(const PolygonMesh& mesh)
@@ -31,7 +32,8 @@ SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step)
     choice.count = static_cast<Index>(std::max(1.0, std::min(most_by_width, most_by_cost)));
     const std::string number = std::to_string(choice.count) + (choice.count == 1 ? " sub-mesh" : " sub-meshes");
     if (most_by_width < most_by_cost)
-        choice.reason = number + " chosen: more would be narrower than 10 √dt, where the result drifts from the undecomposed flow";
+        choice.reason =
+            number + " chosen: more would be narrower than 10 √dt, where the result drifts from the undecomposed flow";
     else
         choice.reason = number + " chosen: about 2,500 vertices in each cost least";
     return choice;

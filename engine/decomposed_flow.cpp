@@ -86,7 +86,8 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
     const double time_step = options.time_step;
     const bool corrected = options.correction == Correction::Centroid;
     const auto task = [this](Index s, auto body, TaskGraph::Priority priority) {
-        return graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); }, priority);
+        return graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); },
+                               priority);
     };
 
     const TaskGraph::Node root = graph_.add_root();

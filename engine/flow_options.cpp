@@ -7,11 +7,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 template <class Value>
 void require(bool holds, const char* field, Value value, const char* limits)

@@ -6,8 +6,7 @@
 #include "partition/polygon_mesh.h"
 #include "solvers/laplacian/laplacian.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// How the sub-meshes are coloured. Sub-meshes of one colour are independent; colours are solved in turn.
 enum class Coloring {

@@ -9,8 +9,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Seconds. `assemble` to `correct` are summed over all tasks and threads; the others are wall-clock time.
 struct PhaseSeconds {

@@ -48,9 +48,9 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
     if (cut.n_parts > 1 && options.steps > 0) {
         const double width = width_in_diffusion_lengths(mesh, cut.n_parts, options.time_step);
         if (width < good_width_in_diffusion_lengths)
-            report.remarks.push_back(
-                "The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
-                " √dt on average, 10 are good): the result may drift from the undecomposed flow; use fewer sub-meshes.");
+            report.remarks.push_back("The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
+                                     " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
+                                     "use fewer sub-meshes.");
     }
 }
 

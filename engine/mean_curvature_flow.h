@@ -4,8 +4,7 @@
 #include "engine/flow_report.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Smooths a mesh by mean curvature flow: `options.steps` backward Euler steps (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq.
 /// MCFbackwardEuler), decomposed into sub-meshes. Boundary vertices stay where they are, bit for bit; vertices without

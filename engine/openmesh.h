@@ -5,8 +5,9 @@
 
 namespace seamflow {
 
-/// Smooths a mesh of OpenMesh: see mean_curvature_flow for a PolygonMesh. Points are computed in double precision, whatever the
-/// mesh's own scalar is, and rounded once at the end. The mesh's other properties (normals, too) stay as they are.
+/// Smooths a mesh of OpenMesh: see mean_curvature_flow for a PolygonMesh. Points are computed in double precision,
+/// whatever the mesh's own scalar is, and rounded once at the end. The mesh's other properties (normals, too) stay as
+/// they are.
 template <OpenMeshMesh Mesh>
 FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {})
 {

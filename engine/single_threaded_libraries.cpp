@@ -8,8 +8,8 @@ namespace seamflow {
 
 namespace {
 
-/// A function of a library that may or may not be loaded. Looked up by name, because which BLAS stands behind libblas, and whether
-/// OpenMP is there at all, is decided when the program starts.
+/// A function of a library that may or may not be loaded. Looked up by name, because which BLAS stands behind libblas,
+/// and whether OpenMP is there at all, is decided when the program starts.
 template <class Function>
 Function* find_function(const char* name)
 {

@@ -2,8 +2,8 @@
 
 namespace seamflow {
 
-/// Keeps BLAS on one thread for the whole process while at least one of these lives, and then gives it back the number of
-/// threads that it had. Does nothing for a BLAS that is not OpenBLAS.
+/// Keeps BLAS on one thread for the whole process while at least one of these lives, and then gives it back the number
+/// of threads that it had. Does nothing for a BLAS that is not OpenBLAS.
 class SingleThreadedBlas {
   public:
     SingleThreadedBlas();

@@ -16,8 +16,8 @@ struct SubMeshSeconds {
     double correct = 0.0;
 };
 
-/// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read the states of the
-/// senders that a Transfer names, and write to their own alone.
+/// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read
+/// the states of the senders that a Transfer names, and write to their own alone.
 struct SubMeshState {
     SubMeshState(const SubMesh& sub_mesh, Laplacian laplacian, const Points& positions);
 
@@ -42,8 +42,8 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
 /// Accepts Vᵏ⁺¹ as it was solved.
 void accept(std::vector<SubMeshState>& states, Index s);
 
-/// Fetches Vᵏ⁺¹ for the halo and accepts Vᵏ⁺¹, the vertices of Γ moved to the centroids of their edge neighbours (paper, eq.
-/// correction). Every sub-mesh at a vertex finds the same bits.
+/// Fetches Vᵏ⁺¹ for the halo and accepts Vᵏ⁺¹, the vertices of Γ moved to the centroids of their edge neighbours
+/// (paper, eq. correction). Every sub-mesh at a vertex finds the same bits.
 void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
 }  // namespace seamflow

@@ -2,35 +2,30 @@
 
 #include <stdexcept>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// A mesh, a label file or any other data that cannot be used as it is. The message names the file and the line,
 /// or the element, and says what to do. The programs answer it with exit status 3.
-class InputError : public std::runtime_error
-{
+class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
 /// An option outside its limits (a time step of zero, say). The programs answer it with exit status 2.
-class OptionError : public std::invalid_argument
-{
+class OptionError : public std::invalid_argument {
   public:
     using std::invalid_argument::invalid_argument;
 };
 
 /// The flow itself failed: a singular system, a result that is not finite. The message names the sub-mesh.
 /// The programs answer it with exit status 4.
-class ComputationError : public std::runtime_error
-{
+class ComputationError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
 /// A result could not be written. The message names the file. The programs answer it with exit status 5.
-class OutputError : public std::runtime_error
-{
+class OutputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };

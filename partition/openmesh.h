@@ -11,13 +11,18 @@ namespace seamflow {
 /// A mesh of OpenMesh: OpenMesh::PolyMesh_ArrayKernelT or TriMesh_ArrayKernelT with any traits. This header includes
 /// nothing of OpenMesh; whoever has such a mesh has included it already.
 template <class Mesh>
-concept OpenMeshMesh = requires(Mesh& mesh, const Mesh& constant, typename Mesh::VertexHandle v, typename Mesh::FaceHandle f,
-                                typename Mesh::Point point) {
-    { constant.n_vertices() } -> std::convertible_to<std::size_t>;
+concept OpenMeshMesh = requires(Mesh& mesh, const Mesh& constant, typename Mesh::VertexHandle v,
+                                typename Mesh::FaceHandle f, typename Mesh::Point point)
+{
+    {
+        constant.n_vertices()
+        } -> std::convertible_to<std::size_t>;
     constant.vertices();
     constant.faces();
     constant.fv_range(f);
-    { v.idx() } -> std::convertible_to<int>;
+    {
+        v.idx()
+        } -> std::convertible_to<int>;
     point[0];
     constant.point(v);
     mesh.set_point(v, point);
@@ -48,7 +53,8 @@ PolygonMesh to_polygon_mesh(const Mesh& source)
 }
 
 /// Gives the vertices of an OpenMesh mesh new positions.
-/// @param positions one row per vertex that is not marked as deleted, in the mesh's order; rounded to the mesh's own scalar.
+/// @param positions one row per vertex that is not marked as deleted, in the mesh's order; rounded to the mesh's own
+/// scalar.
 template <OpenMeshMesh Mesh>
 void set_positions(Mesh& mesh, const Points& positions)
 {

@@ -6,11 +6,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 void require_valid_offsets(const PolygonMesh& mesh)
 {

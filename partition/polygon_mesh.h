@@ -7,8 +7,7 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Positions, #V by 3, one vertex a row, in the unit of length of the input.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;

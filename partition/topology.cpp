@@ -4,11 +4,9 @@
 #include <array>
 #include <utility>
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 void list_corners(const PolygonMesh& mesh, Topology& topology)
 {

@@ -6,8 +6,7 @@
 
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Where a vertex lies in its mesh.
 enum class VertexKind : std::uint8_t {

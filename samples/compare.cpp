@@ -12,8 +12,7 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 void require_same(const char* what, Index reference, Index candidate)
 {

@@ -10,8 +10,7 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 std::string listed_kinds()
 {

@@ -21,8 +21,7 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 /// What the command line leaves to be taken from the input.
 void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double mean_edge)

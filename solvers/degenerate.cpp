@@ -16,7 +16,8 @@ void require_length(const PolygonMesh& mesh, const Topology& topology, Index f)
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
         const Index end = corners[(k + 1) % corners.size()];
-        const bool matters = topology.kind[at(start)] == VertexKind::Interior || topology.kind[at(end)] == VertexKind::Interior;
+        const bool matters =
+            topology.kind[at(start)] == VertexKind::Interior || topology.kind[at(end)] == VertexKind::Interior;
         const double length = (mesh.vertices.row(end) - mesh.vertices.row(start)).norm();
         if (matters && !std::isnormal(length))
             throw InputError("vertices " + std::to_string(start) + " and " + std::to_string(end) +
@@ -31,9 +32,10 @@ void require_area(const PolygonMesh& mesh, const Topology& topology, Index f)
     const bool matters = std::any_of(corners.begin(), corners.end(),
                                      [&](Index v) { return topology.kind[at(v)] == VertexKind::Interior; });
     if (matters && !std::isnormal(area(corners, mesh.vertices)))
-        throw InputError("face " + std::to_string(f) +
-                         " (numbered from 0) has no area: remove it, move one of its vertices, or use the Laplacian fujiwara, "
-                         "which does not divide by areas");
+        throw InputError(
+            "face " + std::to_string(f) +
+            " (numbered from 0) has no area: remove it, move one of its vertices, or use the Laplacian fujiwara, "
+            "which does not divide by areas");
 }
 
 }  // namespace

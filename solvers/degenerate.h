@@ -6,8 +6,8 @@
 
 namespace seamflow {
 
-/// Checks that the Laplacian's coefficients are finite at all vertices that may move: Fujiwara divides by the lengths of their edges,
-/// Alexa-Wardetzky and Ptáčková-Velho by the areas of their faces.
+/// Checks that the Laplacian's coefficients are finite at all vertices that may move: Fujiwara divides by the lengths
+/// of their edges, Alexa-Wardetzky and Ptáčková-Velho by the areas of their faces.
 /// @throws InputError naming the first edge without length or face without area, and what to do.
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian);
 

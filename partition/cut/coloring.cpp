@@ -8,11 +8,9 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// The labels around a vertex, ascending, each once.
 void labels_around(const Topology& topology, std::span<const Index> labels, Index v, std::vector<Index>& around)

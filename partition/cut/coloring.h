@@ -6,8 +6,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The neighbours of each node, ascending, each in the other's list too.
 using Adjacency = std::vector<std::vector<Index>>;

@@ -4,11 +4,9 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// Labels so large that a table of them would waste memory.
 Index compact_sparse(std::vector<Index>& labels)

@@ -4,8 +4,7 @@
 
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Renumbers labels, all of them at least 0, to 0, 1, 2 … without gaps, keeping their order.
 /// @returns the number of different labels.

@@ -2,11 +2,9 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// Gives `component` to all faces that hang together with the one on the stack.
 void flood(const PolygonMesh& mesh, const Topology& topology, Index id, std::vector<Index>& stack,

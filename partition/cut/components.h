@@ -5,8 +5,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The connected components of a mesh. Faces are connected through edges of exactly two faces: a shared vertex or an
 /// edge of three or more faces connects nothing.

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <numeric>
 
-#include "partition/index.h"
 #include "partition/cut/compact.h"
 #include "partition/cut/components.h"
 #include "partition/cut/face_graph.h"
 #include "partition/cut/metis.h"
 #include "partition/cut/repair.h"
 #include "partition/errors.h"
+#include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 std::string counted(Index n, const std::string& thing)
 {

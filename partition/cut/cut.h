@@ -7,8 +7,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// How the faces of a mesh are divided into sub-meshes.
 struct Cut {

@@ -5,11 +5,9 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// Marks all faces that hang together with f and have its label.
 void flood(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index f,

@@ -7,8 +7,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Checks that every part is a manifold with boundary. It must be connected through edges, and at each vertex its
 /// faces must form one fan within each umbrella of the mesh. (An umbrella is a fan of the whole mesh. An interior or

@@ -5,11 +5,9 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 constexpr double mean_arc_weight = 64;
 

@@ -6,8 +6,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The dual graph of a set of faces in compressed rows: one node per face, an arc each way between two faces that
 /// share edges. Arcs of a node are in ascending order of their targets; no arc is double, none leads to its own node.

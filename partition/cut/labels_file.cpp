@@ -7,11 +7,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// The line without its comment and without blanks at either end.
 std::string_view content(std::string_view line)

@@ -6,8 +6,7 @@
 
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Reads the labels of a mesh's faces from a text file: one whole number of at least 0 a line, in the order of the
 /// faces. Blank lines and whatever follows a # are skipped.

@@ -7,14 +7,12 @@
 
 #include <metis.h>
 
-#include "partition/index.h"
 #include "partition/errors.h"
+#include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 constexpr idx_t seed = 20230;
 /// With fewer nodes per part than this, k-way partitioning leaves parts empty and recursive bisection does not.

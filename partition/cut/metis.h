@@ -4,8 +4,7 @@
 
 #include "partition/cut/face_graph.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Divides the nodes of a connected graph into k parts of about equal weight with short boundaries (METIS). The same
 /// graph and k give the same parts each time. May be called from several threads, which then wait for each other.

@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <numeric>
 
-#include "partition/index.h"
 #include "partition/cut/components.h"
+#include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 constexpr Index settled = -1;
 constexpr Index unvisited = -2;
 
 /// The loose pieces of the suspect parts and what is done about them.
-class LoosePieces
-{
+class LoosePieces {
   public:
     LoosePieces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, std::size_t n_labels)
         : mesh_(mesh)

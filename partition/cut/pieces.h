@@ -6,8 +6,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Makes parts connected through edges: each keeps its largest piece (of equals the one with the lowest face), and
 /// every other piece goes to the neighbouring part with which it shares the longest boundary.

@@ -4,8 +4,7 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels)
     : mesh_(mesh)

@@ -9,12 +9,10 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Finds and mends pinched vertices: those at which the faces of one part form several fans within one umbrella.
-class PinchMender
-{
+class PinchMender {
   public:
     /// Mesh, topology and labels must outlive the object. @param n_labels all labels are below it.
     PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels);

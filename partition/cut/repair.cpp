@@ -3,23 +3,20 @@
 #include <numeric>
 #include <utility>
 
-#include "partition/index.h"
 #include "partition/cut/compact.h"
 #include "partition/cut/pieces.h"
 #include "partition/cut/pinches.h"
+#include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// Cuts by METIS need two or three rounds; a cut that needs more than this gets its pinched parts merged.
 constexpr int max_rounds = 12;
 
 /// Vertices to look at, each once.
-class VertexQueue
-{
+class VertexQueue {
   public:
     explicit VertexQueue(Index n_vertices)
         : queued_(at(n_vertices), true)

@@ -5,8 +5,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Makes every part a manifold with boundary: connected through edges, and with one fan of faces around each of its
 /// vertices (see first_defect). Moves faces between neighbouring parts, as few as it can; where that leads nowhere it

@@ -5,8 +5,7 @@
 
 #include "partition/index.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 UmbrellaWalker::UmbrellaWalker(const PolygonMesh& mesh, const Topology& topology)
     : mesh_(&mesh)

@@ -6,8 +6,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// All faces of a mesh that follow each other around a vertex, each sharing an edge at the vertex with the next. At
 /// an interior vertex it is closed and the only one, at an ordinary boundary vertex open and the only one.
@@ -18,8 +17,7 @@ struct Umbrella {
 };
 
 /// Walks around vertices, one after the other, without allocating memory for each.
-class UmbrellaWalker
-{
+class UmbrellaWalker {
   public:
     /// The mesh and its topology must outlive the walker.
     UmbrellaWalker(const PolygonMesh& mesh, const Topology& topology);

@@ -41,8 +41,8 @@ void list_sharing(const Topology& topology, std::span<const Index> labels, Index
 }
 
 /// For every vertex of the halo, the lowest of the adjacent sub-meshes that have it; these are the ones that send it.
-std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<const Index> labels,
-                                          Index s, const Decomposition& decomposition)
+std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<const Index> labels, Index s,
+                                          const Decomposition& decomposition)
 {
     const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
     const auto& adjacent = decomposition.adjacency[at(s)];
@@ -77,8 +77,7 @@ std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, In
     return faces;
 }
 
-Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
-                      std::span<const Index> labels)
+Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels)
 {
     Decomposition decomposition;
     decomposition.sub_meshes = std::move(sub_meshes);

@@ -11,8 +11,8 @@ namespace {
 /// Position, among the sub-meshes at a vertex of Γ, of the one that solves first.
 std::size_t leader_among(std::span<const Index> sharing, const std::vector<Index>& rank)
 {
-    const auto leader = std::min_element(sharing.begin(), sharing.end(),
-                                         [&](Index s, Index t) { return rank[at(s)] < rank[at(t)]; });
+    const auto leader =
+        std::min_element(sharing.begin(), sharing.end(), [&](Index s, Index t) { return rank[at(s)] < rank[at(t)]; });
     return static_cast<std::size_t>(leader - sharing.begin());
 }
 

@@ -5,8 +5,7 @@
 #include <bit>
 #include <cstring>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The bytes of a number in the given order.
 template <class Number>

@@ -1,7 +1,6 @@
 #include "partition/io/byte_scanner.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 ByteScanner::ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                          std::endian order)

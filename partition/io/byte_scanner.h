@@ -10,12 +10,10 @@
 #include "partition/io/byte_order.h"
 #include "partition/io/input_position.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Walks through binary data in memory number by number.
-class ByteScanner final : public InputPosition
-{
+class ByteScanner final : public InputPosition {
   public:
     /// @param path for messages only.
     /// @param file the whole file; has to outlive the scanner, as has what is given to `enter`.

@@ -11,11 +11,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error)
 {
@@ -24,8 +22,7 @@ namespace
 }
 
 /// An open file, closed at the end of its scope.
-class Descriptor
-{
+class Descriptor {
   public:
     explicit Descriptor(const std::filesystem::path& path)
         : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC))

@@ -5,12 +5,10 @@
 #include <memory>
 #include <string_view>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The whole of a file in memory.
-class InputFile
-{
+class InputFile {
   public:
     /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
     explicit InputFile(const std::filesystem::path& path);

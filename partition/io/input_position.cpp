@@ -2,8 +2,7 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 void InputPosition::fail(const std::string& complaint) const
 {

@@ -5,12 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Where a reader stands in its file; every complaint about the file begins with it.
-class InputPosition
-{
+class InputPosition {
   public:
     virtual ~InputPosition() = default;
 

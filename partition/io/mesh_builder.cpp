@@ -5,11 +5,9 @@
 #include <string>
 #include <utility>
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 constexpr std::size_t most = std::numeric_limits<Index>::max();
 

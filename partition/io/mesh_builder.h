@@ -7,12 +7,10 @@
 #include "partition/io/input_position.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Collects the vertices and faces that a reader finds, and checks each face on its way in.
-class MeshBuilder
-{
+class MeshBuilder {
   public:
     /// @param position of the reader, for messages; has to outlive the builder.
     /// @param first_number the number of the first vertex in this format, for messages.

@@ -15,11 +15,9 @@
 #include "partition/io/ply.h"
 #include "partition/io/stl.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 std::optional<FileFormat> format_of(const std::filesystem::path& path)
 {

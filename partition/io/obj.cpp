@@ -8,11 +8,9 @@
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// What a line of the file is about.
 enum class Statement {
@@ -37,8 +35,7 @@ struct ForwardReference {
     std::size_t line;
 };
 
-class ObjReader
-{
+class ObjReader {
   public:
     ObjReader(const std::filesystem::path& path, std::string_view text)
         : scanner_(path, text, {.comment = '#', .continuation = true})

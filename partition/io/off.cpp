@@ -9,19 +9,16 @@
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
 }
 
-class OffReader
-{
+class OffReader {
   public:
     OffReader(const std::filesystem::path& path, std::string_view text)
         : size_(static_cast<std::int64_t>(text.size()))

@@ -6,8 +6,7 @@
 #include "partition/io/output_file.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Reads text OFF, a vertex or a face a line: `OFF` and its variants with normals, colours or texture coordinates
 /// (NOFF, COFF, STOFF, STCNOFF, …), which are passed over as are the colours of faces; also a file that begins with the

@@ -13,11 +13,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 std::filesystem::path folder_of(const std::filesystem::path& file)
 {

@@ -11,14 +11,12 @@
 
 #include "partition/io/byte_order.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// A file that appears whole or not at all: written under a temporary name in the folder of its target, and renamed by
 /// `commit`. Without `commit` nothing remains of it, and a file that was there before remains as it was. A file that is
 /// replaced hands on its permissions; a symbolic link stays, and the file it points to is replaced.
-class OutputFile
-{
+class OutputFile {
   public:
     /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
     explicit OutputFile(const std::filesystem::path& path);

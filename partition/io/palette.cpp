@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// One channel of a colour of full saturation and brightness: a trapezium around the hue at which it is strongest.
 /// @param hue, strongest 0 to 1, once round the circle.

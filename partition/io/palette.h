@@ -5,8 +5,7 @@
 
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Red, green and blue, 0 to 255.
 using Colour = std::array<std::uint8_t, 3>;

@@ -7,8 +7,7 @@
 #include "partition/io/mesh_io.h"
 #include "partition/io/output_file.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Reads PLY in any of its three encodings: x, y and z of the element `vertex`, of whatever types and in whatever
 /// order, and the list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements,

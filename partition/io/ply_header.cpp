@@ -6,11 +6,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 struct NamedType {
     std::string_view name;

@@ -11,8 +11,7 @@
 #include "partition/io/mesh_io.h"
 #include "partition/io/text_scanner.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64.
 enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };

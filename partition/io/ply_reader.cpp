@@ -12,11 +12,9 @@
 #include "partition/io/ply_header.h"
 #include "partition/io/text_scanner.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// What a property means to the mesh.
 enum class Role {
@@ -29,8 +27,7 @@ enum class Role {
 };
 
 /// The numbers of a text file, one after another.
-class TextSource
-{
+class TextSource {
   public:
     explicit TextSource(const TextScanner& after_header)
         : scanner_(after_header)
@@ -81,8 +78,7 @@ class TextSource
 };
 
 /// The numbers of a binary file, one after another.
-class BinarySource
-{
+class BinarySource {
   public:
     BinarySource(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
                  Encoding encoding)
@@ -153,8 +149,7 @@ std::int64_t BinarySource::integer(PlyType type)
 
 /// Reads the elements that follow the header, in their order.
 template <class Source>
-class ElementReader
-{
+class ElementReader {
   public:
     ElementReader(Source& source, const PlyHeader& header)
         : source_(source)

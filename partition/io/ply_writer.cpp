@@ -5,11 +5,9 @@
 #include "partition/io/palette.h"
 #include "partition/io/ply.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 const char* name_of(Encoding encoding)
 {
@@ -32,8 +30,7 @@ bool has_long_face(const PolygonMesh& mesh)
     return false;
 }
 
-class PlyWriter
-{
+class PlyWriter {
   public:
     PlyWriter(OutputFile& file, const PolygonMesh& mesh, Encoding encoding)
         : file_(file)

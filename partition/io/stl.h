@@ -7,8 +7,7 @@
 #include "partition/io/output_file.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The encoding of an STL file. Binary, if its size is the one that the count of facets in a binary file calls for,
 /// whatever it begins with; text, if it begins with the word `solid` and holds no byte 0 early on; else binary.

@@ -11,11 +11,9 @@
 #include "partition/io/text_scanner.h"
 #include "partition/io/vertex_welder.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 // A binary file: a title, the number of facets, and for each facet its normal, three corners, and an attribute.
 constexpr std::size_t title_bytes = 80;
@@ -39,8 +37,7 @@ std::uint64_t declared_facets(std::string_view file)
 }
 
 /// Joins the corners of facets to vertices, and facets to a mesh.
-class FacetCollector
-{
+class FacetCollector {
   public:
     explicit FacetCollector(const InputPosition& position)
         : position_(position)
@@ -67,8 +64,7 @@ class FacetCollector
     VertexWelder welder_;
 };
 
-class TextReader
-{
+class TextReader {
   public:
     TextReader(const std::filesystem::path& path, std::string_view text)
         : scanner_(path, text, {.comment = '\0'})

@@ -13,11 +13,9 @@
 #include "partition/errors.h"
 #include "partition/io/stl.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason)
 {

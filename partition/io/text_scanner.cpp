@@ -6,11 +6,9 @@
 #include <limits>
 #include <system_error>
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 bool is_blank(char c)
 {

@@ -8,8 +8,7 @@
 
 #include "partition/io/input_position.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// What besides blanks and line ends has a meaning of its own in a text format.
 struct TextSyntax {
@@ -24,8 +23,7 @@ struct TextSyntax {
 /// Walks through a text in memory line by line, and through a line token by token, counting lines. Lines end with LF,
 /// CR LF, or (on very old systems) CR; the last one need not end. Tokens are separated by blanks and tabs. A byte order
 /// mark at the beginning is passed over. Independent of the locale; allocates nothing.
-class TextScanner final : public InputPosition
-{
+class TextScanner final : public InputPosition {
   public:
     /// @param path for messages only.
     /// @param text has to outlive the scanner.

@@ -3,11 +3,9 @@
 #include <bit>
 #include <cstdint>
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// Mixes the bits of the coordinates: multiplication carries them up, the shift brings them down again.
 std::size_t hash(const std::array<double, 3>& point)

@@ -6,13 +6,11 @@
 
 #include "partition/io/mesh_builder.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Gives points with equal coordinates the same vertex, numbered in the order in which they first appear. Positive and
 /// negative zero are equal; the vertex keeps the sign that came first.
-class VertexWelder
-{
+class VertexWelder {
   public:
     /// @param builder takes the vertices; has to outlive the welder.
     explicit VertexWelder(MeshBuilder& builder)

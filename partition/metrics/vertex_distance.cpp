@@ -6,8 +6,7 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 double mean_edge_length(const PolygonMesh& mesh)
 {

@@ -2,8 +2,7 @@
 
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Distances of corresponding vertices of two meshes (paper, section Evaluation): V_mean, V_RMS, V_max.
 struct VertexDistance {

@@ -7,11 +7,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// An option whose text `parse` turns into the target's value; what it throws names the option.
 template <class Target, class Parse>

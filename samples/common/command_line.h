@@ -12,8 +12,7 @@
 
 #include "samples/common/exit_status.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The limits of a number on the command line.
 struct RealLimits {

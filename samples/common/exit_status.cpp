@@ -6,11 +6,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 ExitStatus tell(const char* program, const char* message, ExitStatus status)
 {

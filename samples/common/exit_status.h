@@ -2,8 +2,7 @@
 
 #include <functional>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// How the programs end. Scripts rely on these numbers.
 enum class ExitStatus : int {

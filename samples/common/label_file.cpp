@@ -10,11 +10,9 @@
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 std::string_view trimmed(std::string_view line)
 {

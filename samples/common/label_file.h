@@ -5,8 +5,7 @@
 
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Reads the sub-mesh of every face: one whole number of at least 0 a line, in the order of the faces. Space around the
 /// numbers and empty lines at the end do not matter.

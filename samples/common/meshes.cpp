@@ -6,11 +6,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 template <class Shape>
 Shape varied(Shape shape, const MeshVariation& variation)

@@ -13,8 +13,7 @@
 /// - give manifold meshes of simple faces, oriented alike, without vertices that no face uses,
 /// - give the same mesh for the same arguments everywhere, up to the last bits of the platform's sin and cos,
 /// - throw OptionError for an argument outside its limits.
-namespace seamflow
-{
+namespace seamflow {
 
 /// The surface z = amplitude · cos(2π waves x) · cos(2π waves y) over the unit square.
 struct HeightFieldShape {

@@ -11,11 +11,9 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 namespace fs = std::filesystem;
 

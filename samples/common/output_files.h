@@ -7,8 +7,7 @@
 #include "partition/io/mesh_io.h"
 
 /// What can be known about results before the long work begins, so that nobody waits an hour for a mistyped name.
-namespace seamflow
-{
+namespace seamflow {
 
 /// @throws OutputError if no file can be made at that place: its directory does not exist or may not be written to, or
 ///         the path names a directory.

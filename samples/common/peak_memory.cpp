@@ -2,8 +2,7 @@
 
 #include <sys/resource.h>
 
-namespace seamflow
-{
+namespace seamflow {
 
 std::int64_t peak_memory_bytes()
 {

@@ -2,8 +2,7 @@
 
 #include <cstdint>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The most memory that this process has held so far (its peak resident set), in bytes.
 std::int64_t peak_memory_bytes();

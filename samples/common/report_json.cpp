@@ -6,11 +6,9 @@
 
 #include "samples/common/peak_memory.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 using Json = nlohmann::ordered_json;
 

@@ -5,8 +5,7 @@
 #include "engine/flow_report.h"
 #include "samples/common/run_record.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// REPORT.json of `smooth`. All numbers read back to the same double; a number that is not finite becomes null.
 /// v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh, v_mean_absolute and so on in units

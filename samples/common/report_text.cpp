@@ -7,11 +7,9 @@
 
 #include "samples/common/peak_memory.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 std::string digits(double value, int significant = 6)
 {

@@ -5,8 +5,7 @@
 #include "engine/flow_report.h"
 #include "samples/common/run_record.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// What was read.
 void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh);

@@ -6,8 +6,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// What `smooth` knows about its run beyond the FlowReport.
 struct RunRecord {

@@ -5,11 +5,9 @@
 #include "samples/common/command_line.h"
 #include "samples/common/output_files.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 void add_flow_options(CLI::App& app, SmoothCommand& command)
 {

@@ -9,8 +9,7 @@
 #include "samples/common/exit_status.h"
 #include "samples/common/step_pattern.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The command line of `smooth`.
 struct SmoothCommand {

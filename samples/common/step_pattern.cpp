@@ -4,8 +4,7 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 StepPattern::StepPattern(std::string_view pattern)
 {

@@ -2,12 +2,10 @@
 
 #include <chrono>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Wall-clock time since it was made, in seconds.
-class Stopwatch
-{
+class Stopwatch {
   public:
     [[nodiscard]] double seconds() const
     {

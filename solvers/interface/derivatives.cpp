@@ -72,8 +72,8 @@ std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, co
                        interface.before[at(i)], interface.after[at(i)], positions);
 }
 
-void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i, const Conormal& conormal,
-                           std::span<double> row)
+void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
+                           const Conormal& conormal, std::span<double> row)
 {
     std::fill(row.begin(), row.end(), 0.0);
     auto place = stencils.corner_places[i].begin();

@@ -43,8 +43,8 @@ std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, co
 /// The row of ∂n at the i-th vertex of Γ, linear in the positions with α and ‖N‖ held: (Σ_f (e_i - Σ_{k∈f} e_k / p_f)
 /// - α (e_after - e_before)) / ‖N‖, in 1/length. Applied to the positions it was made from it gives the conormal.
 /// @param row receives one coefficient per vertex of the stencil.
-void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i, const Conormal& conormal,
-                           std::span<double> row);
+void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
+                           const Conormal& conormal, std::span<double> row);
 
 /// The row of ∂t at the i-th vertex of Γ (paper, eq. tangentialDerivative), in 1/length², lengths held: 2 / (l₁ + l₂) ·
 /// ((v - v_before) / l₁ + (v - v_after) / l₂).

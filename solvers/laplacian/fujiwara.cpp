@@ -33,8 +33,7 @@ class FujiwaraAssembler final : public LaplacianAssembler {
         std::vector<MatrixEntry> entries;
         entries.reserve(4 * edges_.size());
         for (const Edge& e : edges_)
-            entries.insert(entries.end(),
-                           {{e.start, e.start}, {e.end, e.start}, {e.end, e.end}, {e.start, e.end}});
+            entries.insert(entries.end(), {{e.start, e.start}, {e.end, e.start}, {e.end, e.end}, {e.start, e.end}});
         return entries;
     }
 

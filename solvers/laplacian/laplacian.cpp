@@ -3,11 +3,9 @@
 #include <array>
 #include <utility>
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 constexpr std::array<std::pair<Laplacian, std::string_view>, 3> names{{
     {Laplacian::Fujiwara, "fujiwara"},

@@ -3,8 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// The discrete Laplacians Δ (Laplace-de Rham sign: positive semi-definite, the negative of Laplace-Beltrami; unit
 /// 1/length²).

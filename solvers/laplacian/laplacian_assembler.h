@@ -11,8 +11,8 @@
 
 namespace seamflow {
 
-/// Adds one Laplacian to the values of a matrix, again and again as the mesh moves. Which entries it touches, and in which
-/// order, depends on the faces alone: `entries` lists them once, and `add` then finds each value's place in a
+/// Adds one Laplacian to the values of a matrix, again and again as the mesh moves. Which entries it touches, and in
+/// which order, depends on the faces alone: `entries` lists them once, and `add` then finds each value's place in a
 /// list of slots made from them, without searching.
 class LaplacianAssembler {
   public:
@@ -24,7 +24,8 @@ class LaplacianAssembler {
     /// values[slots[i]] += factor · (contribution to the i-th of `entries`).
     /// @param positions at least #V by 3.
     /// @param slots one place per entry. Entries that are not wanted all point to one place that nobody reads.
-    virtual void add(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values) = 0;
+    virtual void add(const Points& positions, double factor, std::span<const Index> slots,
+                     std::span<double> values) = 0;
 };
 
 /// The assembler of one Laplacian on the given faces, which must outlive it.
@@ -37,8 +38,8 @@ struct LaplacianMatrix {
     std::vector<double> values;
 };
 
-/// The Laplacian of all vertices, boundary vertices included (there with the paper's half-edge weights; a flow that holds the
-/// boundary fixed never uses these rows). Rows sum to zero.
+/// The Laplacian of all vertices, boundary vertices included (there with the paper's half-edge weights; a flow that
+/// holds the boundary fixed never uses these rows). Rows sum to zero.
 LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FaceView& faces, const Points& positions);
 
 }  // namespace seamflow

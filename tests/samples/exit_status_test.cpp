@@ -9,8 +9,7 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 /// The exit status of a body that throws, and what it wrote to standard error.
 template <class Error>

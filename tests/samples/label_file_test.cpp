@@ -6,8 +6,7 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 /// The message with which a label file for three faces is refused.
 std::string refusal(const TemporaryDirectory& directory, const std::string& content)

@@ -12,8 +12,7 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 constexpr std::array<Index, 5> sizes{100, 137, 1000, 2500, 9999};
 

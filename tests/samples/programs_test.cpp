@@ -11,8 +11,7 @@
 using namespace seamflow;
 using Json = nlohmann::json;
 
-namespace
-{
+namespace {
 
 /// A small mesh with its own directory, and the programs, run with a shell in that directory.
 struct Workshop {

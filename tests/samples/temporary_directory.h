@@ -6,12 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// A fresh, empty directory that goes away with this object.
-class TemporaryDirectory
-{
+class TemporaryDirectory {
   public:
     TemporaryDirectory()
     {

@@ -1,7 +1,7 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include "partition/topology.h"
 #include "solvers/laplacian/laplacian_assembler.h"
@@ -22,7 +22,8 @@ std::map<Index, testing::Row> rows_of(const LaplacianMatrix& matrix)
 {
     std::map<Index, testing::Row> rows;
     for (Index column = 0; column < matrix.pattern.n(); ++column)
-        for (Index i = matrix.pattern.column_offsets[at(column)]; i < matrix.pattern.column_offsets[at(column) + 1]; ++i)
+        for (Index i = matrix.pattern.column_offsets[at(column)]; i < matrix.pattern.column_offsets[at(column) + 1];
+             ++i)
             rows[matrix.pattern.rows[at(i)]][column] = matrix.values[at(i)];
     return rows;
 }

@@ -6,11 +6,9 @@
 #include <numbers>
 #include <random>
 
-namespace seamflow::test
-{
+namespace seamflow::test {
 
-namespace
-{
+namespace {
 
 void add_quad(PolygonMesh& mesh, const std::array<Index, 4>& q, bool as_triangles)
 {

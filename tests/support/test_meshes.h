@@ -7,8 +7,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-namespace seamflow::test
-{
+namespace seamflow::test {
 
 /// A flat grid of m by n unit squares in the plane z = 0.
 PolygonMesh quad_grid(Index m, Index n);

@@ -6,8 +6,7 @@
 
 #include "partition/errors.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 Grid grid_of(Index vertices, double aspect)
 {

@@ -7,8 +7,7 @@
 #include "partition/polygon_mesh.h"
 
 /// What several of the generators use.
-namespace seamflow
-{
+namespace seamflow {
 
 /// A grid of vertices, numbered row by row.
 struct Grid {

@@ -5,11 +5,9 @@
 
 #include "samples/common/meshes/random_numbers.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 std::size_t n_cells(const Grid& grid)
 {

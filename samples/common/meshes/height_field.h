@@ -3,8 +3,7 @@
 #include "samples/common/meshes.h"
 #include "samples/common/meshes/building.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// @throws OptionError naming the field.
 void require_valid(const HeightFieldShape& shape);

@@ -5,16 +5,13 @@
 #include "samples/common/meshes/height_field.h"
 #include "samples/common/meshes/random_numbers.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// Draws the faces, cell by cell. A face is a run of one to three cells to the right or upwards, with or without one
 /// half of the cell after them.
-class FaceDraw
-{
+class FaceDraw {
   public:
     FaceDraw(const Grid& grid, const MixedPolygonsShape& shape, RandomNumbers& random, PolygonMesh& mesh)
         : grid_(grid)

@@ -6,11 +6,9 @@
 #include "samples/common/meshes/building.h"
 #include "samples/common/meshes/random_numbers.h"
 
-namespace seamflow
-{
+namespace seamflow {
 
-namespace
-{
+namespace {
 
 /// A circle of latitude with evenly spaced vertices, numbered from `first` on.
 struct Latitude {

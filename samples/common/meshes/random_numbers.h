@@ -3,13 +3,11 @@
 #include <cstdint>
 #include <random>
 
-namespace seamflow
-{
+namespace seamflow {
 
 /// Numbers drawn from the bits of a Mersenne twister: unlike the distributions of the standard library, the same on
 /// every platform.
-class RandomNumbers
-{
+class RandomNumbers {
   public:
     explicit RandomNumbers(std::uint32_t seed)
         : bits_(seed)

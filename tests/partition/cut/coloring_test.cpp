@@ -10,8 +10,7 @@
 using namespace seamflow;
 using namespace seamflow::test;
 
-namespace
-{
+namespace {
 
 Adjacency ring(Index n)
 {

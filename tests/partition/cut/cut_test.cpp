@@ -12,8 +12,7 @@
 using namespace seamflow;
 using namespace seamflow::test;
 
-namespace
-{
+namespace {
 
 void check_sound(const NamedMesh& m, const Cut& cut)
 {

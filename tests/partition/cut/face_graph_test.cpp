@@ -10,8 +10,7 @@
 using namespace seamflow;
 using namespace seamflow::test;
 
-namespace
-{
+namespace {
 
 std::vector<Index> all_faces(const PolygonMesh& mesh)
 {

@@ -9,12 +9,10 @@
 
 using namespace seamflow;
 
-namespace
-{
+namespace {
 
 /// A file in the folder for temporary files that goes away with the object.
-class TemporaryFile
-{
+class TemporaryFile {
   public:
     explicit TemporaryFile(const std::string& text) { std::ofstream(path_) << text; }
     ~TemporaryFile() { std::filesystem::remove(path_); }

@@ -11,8 +11,7 @@
 using namespace seamflow;
 using namespace seamflow::test;
 
-namespace
-{
+namespace {
 
 FaceGraph graph_of(const PolygonMesh& mesh)
 {

@@ -10,8 +10,7 @@
 using namespace seamflow;
 using namespace seamflow::test;
 
-namespace
-{
+namespace {
 
 /// Repairs and checks all that repair promises whatever the labels.
 std::vector<Index> checked_repair(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& given)

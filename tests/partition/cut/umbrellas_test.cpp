@@ -8,8 +8,7 @@
 using namespace seamflow;
 using namespace seamflow::test;
 
-namespace
-{
+namespace {
 
 std::vector<Index> sorted(std::vector<Index> values)
 {
