@@ -1,0 +1,46 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "engine/choose_subdomains.h"
+#include "engine/mean_curvature_flow.h"
+#include "samples/common/meshes.h"
+
+using namespace seamflow;
+
+TEST_CASE("small meshes and large time steps are not cut")
+{
+    CHECK(choose_subdomains(make_quads(1000), 1e-8).count == 1);
+    CHECK(choose_subdomains(make_quads(20000), 1.0).count == 1);
+    CHECK(choose_subdomains(PolygonMesh{}, 1.0).count == 1);
+}
+
+TEST_CASE("sub-meshes get a few thousand vertices each, but are no narrower than 10 √dt")
+{
+    const PolygonMesh mesh = make_quads(50000);
+    const SubdomainChoice by_cost = choose_subdomains(mesh, 1e-8);
+    CHECK(by_cost.count == mesh.n_vertices() / 2500);
+    const SubdomainChoice by_width = choose_subdomains(mesh, 1e-3);
+    CHECK(by_width.count > 1);
+    CHECK(by_width.count < by_cost.count);
+    CHECK(width_in_diffusion_lengths(mesh, by_width.count, 1e-3) >= good_width_in_diffusion_lengths);
+    CHECK(width_in_diffusion_lengths(mesh, by_width.count + 1, 1e-3) < good_width_in_diffusion_lengths);
+    CHECK(by_width.reason != by_cost.reason);
+}
+
+TEST_CASE("the choice and its reason are in the report, and so is a warning of narrow sub-meshes")
+{
+    FlowOptions options;
+    options.time_step = 1e-6;
+    PolygonMesh mesh = make_quads(6000);
+    const FlowReport chosen = mean_curvature_flow(mesh, options);
+    CHECK(chosen.subdomains == 2);
+    REQUIRE(chosen.remarks.size() == 1);
+    CHECK(chosen.remarks[0].find("2 sub-meshes chosen") == 0);
+
+    options.subdomains = 40;
+    options.time_step = 1e-3;
+    const FlowReport narrow = mean_curvature_flow(mesh, options);
+    REQUIRE(narrow.remarks.size() == 1);
+    CHECK(narrow.remarks[0].find("narrow") != std::string::npos);
+}

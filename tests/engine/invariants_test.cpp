@@ -1,0 +1,144 @@
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/topology.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::all_laplacians;
+using test::flowed;
+using test::largest_difference;
+
+namespace {
+
+PolygonMesh flat(PolygonMesh mesh)
+{
+    mesh.vertices.col(2).setZero();
+    return mesh;
+}
+
+/// A bumpy height field of each kind.
+std::vector<PolygonMesh> height_fields()
+{
+    return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900)};
+}
+
+FlowOptions options_for(Laplacian laplacian, Index subdomains)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = 0.002;
+    options.steps = 3;
+    options.subdomains = subdomains;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("a flat mesh stays flat whatever the cut")
+{
+    for (const PolygonMesh& mesh : height_fields())
+        for (const Laplacian laplacian : all_laplacians)
+            for (const Index subdomains : {1, 2, 5, 16}) {
+                CAPTURE(name_of(laplacian));
+                CAPTURE(subdomains);
+                const Points result = flowed(flat(mesh), options_for(laplacian, subdomains));
+                CHECK(result.allFinite());
+                CHECK(result.col(2).cwiseAbs().maxCoeff() == 0.0);
+            }
+}
+
+TEST_CASE("with Alexa-Wardetzky a flat mesh of triangles does not move at all without the correction")
+{
+    const PolygonMesh mesh = flat(make_triangles(900));
+    for (const Index subdomains : {1, 2, 5, 16}) {
+        FlowOptions options = options_for(Laplacian::AlexaWardetzky, subdomains);
+        options.correction = Correction::None;
+        CHECK(largest_difference(flowed(mesh, options), mesh.vertices) <= 1e-12);
+    }
+}
+
+TEST_CASE("moving the input rigidly moves the result alike")
+{
+    const Eigen::Matrix3d rotation =
+        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+    const Eigen::RowVector3d shift(3.0, -1.0, 2.0);
+    const auto moved = [&](const Points& points) { return Points((points * rotation.transpose()).rowwise() + shift); };
+    for (const PolygonMesh& mesh : height_fields())
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(name_of(laplacian));
+            const FlowOptions options = options_for(laplacian, 6);
+            PolygonMesh moved_mesh = mesh;
+            moved_mesh.vertices = moved(mesh.vertices);
+            CHECK(largest_difference(flowed(moved_mesh, options), moved(flowed(mesh, options))) <= 1e-9);
+        }
+}
+
+TEST_CASE("scaling by s, with dt s² and p / s, scales the result")
+{
+    for (const double s : {1e-3, 7.0, 1e4})
+        for (const PolygonMesh& mesh : height_fields())
+            for (const Laplacian laplacian : all_laplacians) {
+                CAPTURE(name_of(laplacian));
+                CAPTURE(s);
+                FlowOptions options = options_for(laplacian, 6);
+                options.p = 20.0;
+                const Points expected = s * flowed(mesh, options);
+                PolygonMesh scaled = mesh;
+                scaled.vertices *= s;
+                options.time_step *= s * s;
+                options.p = 20.0 / s;
+                CHECK(largest_difference(flowed(scaled, options), expected) <= 1e-9 * s);
+            }
+}
+
+TEST_CASE("boundary vertices and vertices without faces stay to the bit")
+{
+    for (PolygonMesh mesh : height_fields()) {
+        mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
+        mesh.vertices.row(mesh.n_vertices() - 1) << 0.1, 0.2, 0.3;
+        const Topology topology = make_topology(mesh);
+        for (const Laplacian laplacian : all_laplacians) {
+            const Points result = flowed(mesh, options_for(laplacian, 6));
+            int moved = 0;
+            for (Index v = 0; v < mesh.n_vertices(); ++v)
+                if (topology.kind[at(v)] == VertexKind::Interior)
+                    moved += (result.row(v) - mesh.vertices.row(v)).norm() > 0.0 ? 1 : 0;
+                else
+                    CHECK(result.row(v) == mesh.vertices.row(v));
+            CHECK(moved > 700);
+        }
+    }
+}
+
+TEST_CASE("components that nothing joins flow as they do alone")
+{
+    const PolygonMesh first = make_triangles(400);
+    const PolygonMesh second = make_hexagons(400);
+    const PolygonMesh both = test::side_by_side({first, second});
+    for (const Laplacian laplacian : all_laplacians) {
+        const Points result = flowed(both, options_for(laplacian, 2));
+        const Points offset_first = both.vertices.topRows(first.n_vertices());
+        PolygonMesh alone = first;
+        alone.vertices = offset_first;
+        CHECK(largest_difference(result.topRows(first.n_vertices()), flowed(alone, options_for(laplacian, 1))) <=
+              1e-12);
+    }
+}
+
+TEST_CASE("the flow shrinks the height of a bump, decomposed and not, to about the same")
+{
+    for (const PolygonMesh& mesh : height_fields())
+        for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::PtackovaVelho}) {
+            CAPTURE(name_of(laplacian));
+            const double before = mesh.vertices.col(2).norm();
+            const double undecomposed = flowed(mesh, options_for(laplacian, 1)).col(2).norm();
+            const double decomposed = flowed(mesh, options_for(laplacian, 4)).col(2).norm();
+            CHECK(undecomposed < 0.8 * before);
+            CHECK(decomposed == doctest::Approx(undecomposed).epsilon(0.05));
+        }
+}

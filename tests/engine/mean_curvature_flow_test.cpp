@@ -1,0 +1,196 @@
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/surface_curvature.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+FlowOptions options_for(Index subdomains)
+{
+    FlowOptions options;
+    options.time_step = 0.001;
+    options.steps = 2;
+    options.subdomains = subdomains;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("the report tells what was done")
+{
+    PolygonMesh mesh = make_quads(2000);
+    FlowOptions options = options_for(6);
+    options.reference = true;
+    int calls = 0;
+    const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
+        CHECK(state.step == ++calls);
+        CHECK(state.positions.rows() == mesh.n_vertices());
+    });
+    CHECK(calls == 2);
+    CHECK(report.vertices == mesh.n_vertices());
+    CHECK(report.faces == mesh.n_faces());
+    CHECK(report.subdomains == 6);
+    CHECK(report.p.size() == 6);
+    CHECK(*std::min_element(report.p.begin(), report.p.end()) > 1.0);
+    CHECK(report.subdomain_faces.size() == 6);
+    CHECK(std::accumulate(report.subdomain_faces.begin(), report.subdomain_faces.end(), 0) == mesh.n_faces());
+    CHECK(report.labels.size() == at(mesh.n_faces()));
+    CHECK(*std::max_element(report.subdomain_colors.begin(), report.subdomain_colors.end()) + 1 == report.colors);
+    CHECK(report.interface_vertices > 50);
+    CHECK(report.time_step == 0.001);
+    REQUIRE(report.steps.size() == 2);
+    const auto curvature_of = [&](const PolygonMesh& surface) {
+        return largest_curvature(
+            measure_curvature(surface, make_topology(surface), surface.vertices, options.laplacian));
+    };
+    CHECK(report.steps[0].max_mean_curvature_before == curvature_of(make_quads(2000)));
+    CHECK(report.steps[1].max_mean_curvature_after == curvature_of(mesh));
+    CHECK(report.steps[1].max_mean_curvature_before == report.steps[0].max_mean_curvature_after);
+    REQUIRE(report.steps[1].distance);
+    CHECK(report.steps[1].distance->mean > 0.0);
+    CHECK(report.steps[1].distance->max < mean_edge_length(mesh));
+    const PhaseSeconds& seconds = report.seconds;
+    for (const double phase :
+         {seconds.cut, seconds.analyse, seconds.assemble, seconds.factorise, seconds.solve, seconds.correct})
+        CHECK(phase > 0.0);
+    CHECK(seconds.total >= seconds.cut + seconds.analyse + seconds.step);
+}
+
+TEST_CASE("one sub-mesh is the undecomposed flow to the bit")
+{
+    const PolygonMesh mesh = make_hexagons(1000);
+    for (const Laplacian laplacian : test::all_laplacians) {
+        FlowOptions options = options_for(1);
+        options.laplacian = laplacian;
+        options.reference = true;
+        PolygonMesh flowing = mesh;
+        const FlowReport report = mean_curvature_flow(flowing, options);
+        CHECK(report.colors == 1);
+        CHECK(report.steps.back().distance->max == 0.0);
+    }
+}
+
+TEST_CASE("sweeps alternate with more than two sub-meshes, unless told otherwise")
+{
+    const PolygonMesh mesh = make_triangles(2000);
+    const auto result = [&](Index subdomains, Sweep sweep) {
+        FlowOptions options = options_for(subdomains);
+        options.sweep = sweep;
+        return test::flowed(mesh, options);
+    };
+    CHECK(result(8, Sweep::Automatic) == result(8, Sweep::Alternating));
+    CHECK(result(8, Sweep::Automatic) != result(8, Sweep::Fixed));
+    CHECK(result(2, Sweep::Automatic) == result(2, Sweep::Fixed));
+    CHECK(result(2, Sweep::Automatic) != result(2, Sweep::Alternating));
+}
+
+TEST_CASE("the plain options are the paper's: a fixed sweep")
+{
+    CHECK(FlowOptions::plain().sweep == Sweep::Fixed);
+    CHECK(FlowOptions::plain().correction == Correction::Centroid);
+    CHECK_FALSE(FlowOptions::plain().p);
+}
+
+TEST_CASE("zero steps leave the mesh as it is")
+{
+    const PolygonMesh mesh = make_triangles(400);
+    FlowOptions options = options_for(4);
+    options.steps = 0;
+    CHECK(test::flowed(mesh, options) == mesh.vertices);
+}
+
+TEST_CASE("meshes with nothing to move come out as they went in")
+{
+    PolygonMesh nothing;
+    CHECK(mean_curvature_flow(nothing, options_for(4)).subdomains == 0);
+
+    PolygonMesh points;
+    points.vertices = Points::Random(5, 3);
+    CHECK(test::flowed(points, options_for(4)) == points.vertices);
+
+    PolygonMesh triangle;
+    triangle.vertices = Points::Random(3, 3);
+    triangle.add_face(std::vector<Index>{0, 1, 2});
+    for (const Index subdomains : {0, 1, 2, 100})
+        CHECK(test::flowed(triangle, options_for(subdomains)) == triangle.vertices);
+}
+
+TEST_CASE("non-manifold meshes flow, with their non-manifold vertices fixed, and the report says so")
+{
+    for (PolygonMesh mesh : {test::hourglass(), test::three_wings(), test::bow_tie()}) {
+        const Points before = mesh.vertices;
+        const Topology topology = make_topology(mesh);
+        FlowReport report = mean_curvature_flow(mesh, options_for(2));
+        CHECK(mesh.vertices.allFinite());
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            if (topology.kind[at(v)] == VertexKind::NonManifold)
+                CHECK(mesh.vertices.row(v) == before.row(v));
+        CHECK((report.non_manifold_vertices > 0) ==
+              (report.remarks.size() > 0 && report.remarks.back().find("manifold") != std::string::npos));
+    }
+}
+
+TEST_CASE("options outside their limits are refused by name")
+{
+    PolygonMesh mesh = make_triangles(400);
+    const auto refused = [&](auto change, const char* name) {
+        FlowOptions options = options_for(2);
+        change(options);
+        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains(name), OptionError);
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, nan, infinity}) {
+        refused([&](FlowOptions& o) { o.time_step = bad; }, "time_step");
+        refused([&](FlowOptions& o) { o.p = bad; }, "p is");
+    }
+    refused([](FlowOptions& o) { o.steps = -1; }, "steps");
+    refused([](FlowOptions& o) { o.subdomains = -1; }, "subdomains");
+    refused([](FlowOptions& o) { o.threads = -1; }, "threads");
+}
+
+TEST_CASE("labels that do not fit the mesh are refused")
+{
+    PolygonMesh mesh = make_triangles(400);
+    FlowOptions options = options_for(0);
+    options.labels = {0, 1, 2};
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), InputError);
+    options.labels.assign(at(mesh.n_faces()), 0);
+    options.labels[7] = -3;
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("face 7"), InputError);
+}
+
+TEST_CASE("geometry that a Laplacian would divide by zero on is refused with the element's number")
+{
+    PolygonMesh mesh = make_triangles(400);
+    const Index v = mesh.n_vertices() / 2;
+    const Index f = make_topology(mesh).face_of[at(make_topology(mesh).corners_at(v)[0])];
+    mesh.vertices.row(mesh.face(f)[0]) = mesh.vertices.row(mesh.face(f)[1]);
+    for (const Laplacian laplacian : test::all_laplacians) {
+        FlowOptions options = options_for(4);
+        options.laplacian = laplacian;
+        CHECK_THROWS_AS(mean_curvature_flow(mesh, options), InputError);
+    }
+}
+
+TEST_CASE("a computation that fails names the sub-mesh and leaves the last complete step")
+{
+    // Coordinates whose squares overflow: finite input, equations that are not.
+    PolygonMesh mesh = make_triangles(400);
+    mesh.vertices *= 1e200;
+    const Points before = mesh.vertices;
+    FlowOptions options = options_for(4);
+    options.laplacian = Laplacian::AlexaWardetzky;
+    options.p = 1.0;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), std::runtime_error);
+    CHECK(mesh.vertices == before);
+}
