@@ -19,10 +19,10 @@ Shape varied(Shape shape, const MeshVariation& variation)
     return shape;
 }
 
-template <class Shape, PolygonMesh (*make)(Index, const Shape&)>
+template <class Shape, PolygonMesh (*Make)(Index, const Shape&)>
 PolygonMesh make_varied(Index vertices, const MeshVariation& variation)
 {
-    return make(vertices, varied(Shape{}, variation));
+    return Make(vertices, varied(Shape{}, variation));
 }
 
 PolygonMesh make_mixed_varied(Index vertices, const MeshVariation& variation)
