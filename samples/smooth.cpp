@@ -12,7 +12,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
-#include "samples/common/label_file.h"
+#include "partition/cut/labels_file.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"

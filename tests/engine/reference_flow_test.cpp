@@ -7,11 +7,11 @@ using namespace seamflow;
 
 TEST_CASE("the flows of the paper's authors are reproduced, undecomposed and in two, three and four sub-meshes")
 {
-    const auto files = testing::reference_files("flow");
+    const auto files = test::reference_files("flow");
     REQUIRE(files.size() >= 27);
     for (const auto& file : files) {
         CAPTURE(file.filename().string());
-        testing::ReferenceFlow reference = testing::read_flow(file);
+        test::ReferenceFlow reference = test::read_flow(file);
         int steps = 0;
         mean_curvature_flow(reference.mesh, reference.options, [&](const StepState& state) {
             CAPTURE(state.step);

@@ -18,9 +18,9 @@ FaceView view(const PolygonMesh& mesh, const Topology& topology)
     return {mesh.face_offsets, mesh.face_vertices, topology.twin, mesh.n_vertices()};
 }
 
-std::map<Index, testing::Row> rows_of(const LaplacianMatrix& matrix)
+std::map<Index, test::Row> rows_of(const LaplacianMatrix& matrix)
 {
-    std::map<Index, testing::Row> rows;
+    std::map<Index, test::Row> rows;
     for (Index column = 0; column < matrix.pattern.n(); ++column)
         for (Index i = matrix.pattern.column_offsets[at(column)]; i < matrix.pattern.column_offsets[at(column) + 1];
              ++i)
@@ -32,10 +32,10 @@ std::map<Index, testing::Row> rows_of(const LaplacianMatrix& matrix)
 
 TEST_CASE("the Laplacians are those of the paper's authors, boundary rows included")
 {
-    const auto files = testing::reference_files("operators");
+    const auto files = test::reference_files("operators");
     REQUIRE(files.size() == 4);
     for (const auto& file : files) {
-        const testing::ReferenceOperators reference = testing::read_operators(file);
+        const test::ReferenceOperators reference = test::read_operators(file);
         const Topology topology = make_topology(reference.mesh);
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(file.filename().string());
@@ -43,7 +43,7 @@ TEST_CASE("the Laplacians are those of the paper's authors, boundary rows includ
             auto rows = rows_of(laplacian_matrix(laplacian, view(reference.mesh, topology), reference.mesh.vertices));
             const auto& expected_rows = reference.laplacian.at(laplacian);
             for (Index v = 0; v < reference.mesh.n_vertices(); ++v) {
-                const testing::Row& expected = expected_rows.at(v);
+                const test::Row& expected = expected_rows.at(v);
                 double largest = 0.0;
                 for (const auto& [column, value] : expected)
                     largest = std::max(largest, std::abs(value));

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace seamflow::testing {
+namespace seamflow::test {
 
 namespace {
 
@@ -98,4 +98,4 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
     return reference;
 }
 
-}  // namespace seamflow::testing
+}  // namespace seamflow::test

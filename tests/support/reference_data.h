@@ -8,7 +8,7 @@
 #include "engine/flow_options.h"
 #include "partition/polygon_mesh.h"
 
-namespace seamflow::testing {
+namespace seamflow::test {
 
 /// The files of tests/data/FOLDER, sorted by name.
 std::vector<std::filesystem::path> reference_files(const std::string& folder);
@@ -46,4 +46,4 @@ struct ReferenceFlow {
 
 ReferenceFlow read_flow(const std::filesystem::path& path);
 
-}  // namespace seamflow::testing
+}  // namespace seamflow::test

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace seamflow {
+namespace seamflow::test {
 
 /// A fresh, empty directory that goes away with this object.
 class TemporaryDirectory {
@@ -45,4 +45,4 @@ inline std::string content_of(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-}  // namespace seamflow
+}  // namespace seamflow::test
