@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow
+{
+
+/// How the faces of a mesh are divided into sub-meshes.
+struct Cut {
+    /// #F: the part each face belongs to, from 0 to n_parts - 1; each label occurs. Unless there is but one part, each
+    /// part is a manifold with boundary (see first_defect).
+    std::vector<Index> labels;
+    /// 0 for a mesh without faces.
+    Index n_parts = 0;
+    /// How many faces had to be moved to other parts to make every part a manifold.
+    Index repaired_faces = 0;
+    /// What the user should know about the cut, one sentence each.
+    std::vector<std::string> remarks;
+};
+
+/// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
+inline constexpr Index min_faces_per_part = 12;
+
+/// Cuts a mesh into k parts of about equal numbers of unknowns with short interfaces. k = 1: all faces have label 0,
+/// even where the mesh has several connected components. k > 1: every part lies within one component, so that there are
+/// at least as many parts as components; there may be fewer than k on a small mesh. A remark says when it is not k.
+/// @throws OptionError if k < 1, ComputationError if METIS fails.
+Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k);
+
+/// Cuts a mesh as given. Gaps in the labels are closed, keeping their order, and parts that are no manifolds with
+/// boundary are repaired (see repair); remarks tell of both. If all labels are equal the mesh is not cut at all.
+/// @param labels #F, at least 0.
+/// @throws InputError if there are not as many labels as faces, or one is negative.
+Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels);
+
+}  // namespace seamflow

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow
+{
+
+/// The dual graph of a set of faces in compressed rows: one node per face, an arc each way between two faces that
+/// share edges. Arcs of a node are in ascending order of their targets; no arc is double, none leads to its own node.
+struct FaceGraph {
+    /// #nodes + 1; the arcs of node i are those from offsets[i] to offsets[i + 1] - 1.
+    std::vector<Index> offsets{0};
+    /// #arcs; the node an arc leads to.
+    std::vector<Index> targets;
+    /// #arcs, at least 1: the length of all shared edges, in a unit in which the mean is about 64. Equal both ways.
+    std::vector<Index> arc_weights;
+    /// #nodes: the number of triangles the face could be split into, which is about its share of the unknowns.
+    std::vector<Index> node_weights;
+
+    [[nodiscard]] Index n_nodes() const { return static_cast<Index>(offsets.size()) - 1; }
+};
+
+/// Neither the arc weights nor the node weights of a graph add up to more than this.
+inline constexpr double max_weight_sum = 1e9;
+
+/// Makes the dual graph of `faces`, node i being faces[i]. Edges to other faces are left out.
+/// @param faces distinct faces of the mesh.
+FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> faces);
+
+}  // namespace seamflow

@@ -1,0 +1,243 @@
+#include "partition/cut/pinches.h"
+
+#include <algorithm>
+
+#include "partition/cut/at.h"
+
+namespace seamflow
+{
+
+PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels)
+    : mesh_(mesh)
+    , topology_(topology)
+    , labels_(labels)
+    , walker_(mesh, topology)
+    , n_faces_(at(n_labels))
+    , met_in_count_(at(n_labels), 0)
+{
+    count_faces();
+}
+
+void PinchMender::count_faces()
+{
+    std::fill(n_faces_.begin(), n_faces_.end(), 0);
+    for (const Index label : labels_)
+        ++n_faces_[at(label)];
+}
+
+bool PinchMender::is_mixed(Index v) const
+{
+    const auto corners = topology_.corners_at(v);
+    return std::any_of(corners.begin(), corners.end(), [&](Index corner) {
+        return labels_[at(topology_.face_of[at(corner)])] != labels_[at(topology_.face_of[at(corners.front())])];
+    });
+}
+
+void PinchMender::find_runs(const Umbrella& umbrella)
+{
+    runs_.clear();
+    for (std::size_t i = 0; i < umbrella.faces.size(); ++i) {
+        const Index label = labels_[at(umbrella.faces[i])];
+        if (runs_.empty() || runs_.back().label != label)
+            runs_.push_back({label, i, 0});
+        ++runs_.back().count;
+    }
+    if (umbrella.closed && runs_.size() > 1 && runs_.front().label == runs_.back().label) {
+        runs_.front().begin = runs_.back().begin;
+        runs_.front().count += runs_.back().count;
+        runs_.pop_back();
+    }
+}
+
+/// The number of runs less the number of labels; sets pinched_label_ if that is not zero.
+Index PinchMender::count_excess_runs()
+{
+    ++count_;
+    Index excess = 0;
+    for (const Run& run : runs_) {
+        if (met_in_count_[at(run.label)] == count_) {
+            ++excess;
+            pinched_label_ = run.label;
+        }
+        met_in_count_[at(run.label)] = count_;
+    }
+    return excess;
+}
+
+Index PinchMender::pinches_at(Index v)
+{
+    if (!is_mixed(v))
+        return 0;
+    Index excess = 0;
+    for (const Umbrella& umbrella : walker_.at_vertex(v)) {
+        find_runs(umbrella);
+        excess += count_excess_runs();
+    }
+    return excess;
+}
+
+/// The first umbrella at v with a pinch, and its runs in runs_; no faces if there is none.
+Umbrella PinchMender::find_pinch(Index v)
+{
+    if (is_mixed(v))
+        for (const Umbrella& umbrella : walker_.at_vertex(v)) {
+            find_runs(umbrella);
+            if (count_excess_runs() > 0)
+                return umbrella;
+        }
+    return {};
+}
+
+void PinchMender::propose(const Umbrella& umbrella, std::size_t first_run, std::size_t n_runs, Index label)
+{
+    Move& move = moves_.emplace_back();
+    move.label = label;
+    for (std::size_t r = first_run; r < first_run + n_runs; ++r) {
+        const Run& run = runs_[r % runs_.size()];
+        for (std::size_t i = run.begin; i < run.begin + run.count; ++i)
+            move.faces.push_back(umbrella.faces[i % umbrella.faces.size()]);
+    }
+}
+
+/// Three moves at most: give the smallest fan of the pinched part to the part on its one side or the other, or fill
+/// the smallest gap between two of its fans.
+void PinchMender::propose_moves(const Umbrella& umbrella)
+{
+    moves_.clear();
+    const std::size_t n = runs_.size();
+    std::size_t smallest_fan = n;
+    std::size_t first_fan = n;
+    std::size_t gap_begin = 0;
+    std::size_t gap_runs = 0;
+    std::size_t gap_faces = umbrella.faces.size() + 1;
+    std::size_t previous_fan = n;
+    std::size_t faces_since = 0;
+    const auto close_gap = [&](std::size_t fan) {
+        if (previous_fan < n && faces_since < gap_faces) {
+            gap_faces = faces_since;
+            gap_begin = previous_fan + 1;
+            gap_runs = fan - previous_fan - 1;
+        }
+        previous_fan = fan;
+        faces_since = 0;
+    };
+    for (std::size_t r = 0; r < n; ++r) {
+        if (runs_[r].label != pinched_label_) {
+            faces_since += runs_[r].count;
+            continue;
+        }
+        first_fan = std::min(first_fan, r);
+        if (smallest_fan == n || runs_[r].count < runs_[smallest_fan].count)
+            smallest_fan = r;
+        close_gap(r);
+    }
+    if (umbrella.closed) {
+        for (std::size_t r = 0; r < first_fan; ++r)
+            faces_since += runs_[r].count;
+        close_gap(first_fan + n);
+    }
+    propose(umbrella, gap_begin, gap_runs, pinched_label_);
+    if (umbrella.closed || smallest_fan + 1 < n)
+        propose(umbrella, smallest_fan, 1, runs_[(smallest_fan + 1) % n].label);
+    if (umbrella.closed || smallest_fan > 0)
+        propose(umbrella, smallest_fan, 1, runs_[(smallest_fan + n - 1) % n].label);
+}
+
+void PinchMender::set_label(Index f, Index label)
+{
+    --n_faces_[at(labels_[at(f)])];
+    ++n_faces_[at(label)];
+    labels_[at(f)] = label;
+}
+
+Index PinchMender::pinches_around(const std::vector<Index>& faces)
+{
+    nearby_.clear();
+    for (const Index f : faces)
+        nearby_.insert(nearby_.end(), mesh_.face(f).begin(), mesh_.face(f).end());
+    std::sort(nearby_.begin(), nearby_.end());
+    nearby_.erase(std::unique(nearby_.begin(), nearby_.end()), nearby_.end());
+    Index pinches = 0;
+    for (const Index v : nearby_)
+        pinches += pinches_at(v);
+    return pinches;
+}
+
+/// The length of the edges between the faces and faces of other labels; edges between two of the faces count twice.
+double PinchMender::cut_length_around(const std::vector<Index>& faces) const
+{
+    double length = 0;
+    for (const Index f : faces)
+        for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
+            const Index twin = topology_.twin[at(h)];
+            if (twin < 0 || labels_[at(topology_.face_of[at(twin)])] == labels_[at(f)])
+                continue;
+            const Index from = mesh_.face_vertices[at(h)];
+            const Index to = mesh_.face_vertices[at(topology_.next(mesh_, h))];
+            length += (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
+        }
+    return length;
+}
+
+/// What the move would cost; leaves the labels as they are.
+PinchMender::Cost PinchMender::try_out(const Move& move)
+{
+    Cost cost{0, -pinches_around(move.faces), move.faces.size(), -cut_length_around(move.faces)};
+    labels_before_.clear();
+    for (const Index f : move.faces) {
+        labels_before_.push_back(labels_[at(f)]);
+        set_label(f, move.label);
+        if (n_faces_[at(labels_before_.back())] == 0)
+            ++cost.parts_used_up;
+    }
+    cost.pinches += pinches_around(move.faces);
+    cost.cut_length += cut_length_around(move.faces);
+    for (std::size_t i = 0; i < move.faces.size(); ++i)
+        set_label(move.faces[i], labels_before_[i]);
+    return cost;
+}
+
+void PinchMender::mend(Index v, std::vector<Index>& moved, std::vector<Index>& robbed)
+{
+    for (Umbrella umbrella = find_pinch(v); !umbrella.faces.empty(); umbrella = find_pinch(v)) {
+        propose_moves(umbrella);
+        std::size_t best = 0;
+        Cost best_cost = try_out(moves_[0]);
+        for (std::size_t i = 1; i < moves_.size(); ++i)
+            if (const Cost cost = try_out(moves_[i]); cost < best_cost) {
+                best = i;
+                best_cost = cost;
+            }
+        for (const Index f : moves_[best].faces) {
+            robbed.push_back(labels_[at(f)]);
+            moved.push_back(f);
+            set_label(f, moves_[best].label);
+        }
+    }
+}
+
+std::pair<Index, Index> PinchMender::pinched_and_between(Index v)
+{
+    const Umbrella umbrella = find_pinch(v);
+    const std::size_t n = runs_.size();
+    std::size_t first = 0;
+    while (runs_[first].label != pinched_label_)
+        ++first;
+    std::size_t last = n;
+    while (runs_[last - 1].label != pinched_label_)
+        --last;
+    // Next to a fan of the pinched part, so that the two share an edge; in an open umbrella between two of its fans.
+    Index between = -1;
+    for (std::size_t r = umbrella.closed ? 0 : first; r < (umbrella.closed ? n : last); ++r) {
+        const Index label = runs_[r].label;
+        const bool beside =
+            runs_[(r + 1) % n].label == pinched_label_ || runs_[(r + n - 1) % n].label == pinched_label_;
+        if (label != pinched_label_ && beside && (between < 0 || n_faces_[at(label)] < n_faces_[at(between)]))
+            between = label;
+    }
+    if (n_faces_[at(pinched_label_)] < n_faces_[at(between)])
+        return {between, pinched_label_};
+    return {pinched_label_, between};
+}
+
+}  // namespace seamflow

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow
+{
+
+/// All faces of a mesh that follow each other around a vertex, each sharing an edge at the vertex with the next. At
+/// an interior vertex it is closed and the only one, at an ordinary boundary vertex open and the only one.
+struct Umbrella {
+    /// In order around the vertex; valid until the next call of the walker.
+    std::span<const Index> faces;
+    bool closed = false;
+};
+
+/// Walks around vertices, one after the other, without allocating memory for each.
+class UmbrellaWalker
+{
+  public:
+    /// The mesh and its topology must outlive the walker.
+    UmbrellaWalker(const PolygonMesh& mesh, const Topology& topology);
+
+    /// The umbrellas at vertex v, in order of their lowest face; valid until the next call.
+    std::span<const Umbrella> at_vertex(Index v);
+
+  private:
+    struct Step {
+        Index corner;
+        Index spoke;
+    };
+
+    [[nodiscard]] Step start(Index corner) const;
+    [[nodiscard]] Step across(Index v, Index spoke) const;
+    bool append_umbrella(Index v, Index corner);
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    /// #F: the number of the call that last met the face.
+    std::vector<Index> met_in_call_;
+    Index call_ = 0;
+    std::vector<Index> faces_;
+    std::vector<Umbrella> umbrellas_;
+};
+
+}  // namespace seamflow

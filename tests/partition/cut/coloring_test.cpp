@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "partition/cut/coloring.h"
+#include "partition/cut/cut.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace
+{
+
+Adjacency ring(Index n)
+{
+    Adjacency adjacency(static_cast<std::size_t>(n));
+    for (Index i = 0; i < n; ++i) {
+        adjacency[static_cast<std::size_t>(i)] = {(i + n - 1) % n, (i + 1) % n};
+        std::sort(adjacency[static_cast<std::size_t>(i)].begin(), adjacency[static_cast<std::size_t>(i)].end());
+    }
+    return adjacency;
+}
+
+Adjacency random_graph(Index n, std::uint32_t one_in, std::uint32_t seed)
+{
+    std::mt19937 generator(seed);
+    Adjacency adjacency(static_cast<std::size_t>(n));
+    for (Index i = 0; i < n; ++i)
+        for (Index j = i + 1; j < n; ++j)
+            if (generator() % one_in == 0) {
+                adjacency[static_cast<std::size_t>(i)].push_back(j);
+                adjacency[static_cast<std::size_t>(j)].push_back(i);
+            }
+    return adjacency;
+}
+
+void check_valid(const Adjacency& adjacency, const std::vector<Index>& colors)
+{
+    REQUIRE(colors.size() == adjacency.size());
+    for (std::size_t i = 0; i < adjacency.size(); ++i) {
+        CHECK(colors[i] >= 0);
+        CHECK(colors[i] < n_colors(colors));
+        for (const Index j : adjacency[i])
+            CHECK(colors[i] != colors[static_cast<std::size_t>(j)]);
+    }
+    CHECK(color(adjacency) == colors);
+}
+
+}  // namespace
+
+TEST_CASE("rings take two colours or three")
+{
+    for (Index n = 3; n < 40; ++n) {
+        const auto colors = color(ring(n));
+        check_valid(ring(n), colors);
+        CHECK(n_colors(colors) == (n % 2 == 0 ? 2 : 3));
+    }
+}
+
+TEST_CASE("few nodes take few colours")
+{
+    CHECK(n_colors(color({})) == 0);
+    CHECK(color({{}}) == std::vector<Index>{0});
+    CHECK(color({{}, {2}, {1}}) == std::vector<Index>{0, 0, 1});
+}
+
+TEST_CASE("a component that is not bipartite does not spoil the others")
+{
+    const Adjacency adjacency{{1, 2}, {0, 2}, {0, 1}, {4}, {3, 5}, {4}};
+    const auto colors = color(adjacency);
+    check_valid(adjacency, colors);
+    CHECK(n_colors(colors) == 3);
+    CHECK(std::vector<Index>(colors.begin() + 3, colors.end()) == std::vector<Index>{0, 1, 0});
+}
+
+TEST_CASE("random graphs are coloured validly, with no more colours than neighbours and one")
+{
+    for (std::uint32_t seed = 0; seed < 40; ++seed) {
+        const Adjacency adjacency = random_graph(60, 2 + seed, seed);
+        const auto colors = color(adjacency);
+        check_valid(adjacency, colors);
+        std::size_t most = 0;
+        for (const auto& neighbours : adjacency)
+            most = std::max(most, neighbours.size());
+        CHECK(n_colors(colors) <= static_cast<Index>(most) + 1);
+    }
+}
+
+TEST_CASE("parts that share an interface vertex are adjacent")
+{
+    const PolygonMesh mesh = quad_grid(4, 4);
+    const Topology topology = make_topology(mesh);
+    const std::vector<Index> quarters{0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3};
+    CHECK(adjacency_of(mesh, topology, quarters, 4) == Adjacency{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}});
+    const std::vector<Index> stripes{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2};
+    CHECK(adjacency_of(mesh, topology, stripes, 3) == Adjacency{{1}, {0, 2}, {1}});
+}
+
+TEST_CASE("parts that share vertices of the boundary only are not adjacent")
+{
+    const PolygonMesh mesh = quad_grid(3, 1);
+    CHECK(adjacency_of(mesh, make_topology(mesh), std::vector<Index>{0, 1, 2}, 3) == Adjacency{{}, {}, {}});
+}
+
+TEST_CASE("cuts of meshes are coloured with few colours")
+{
+    for (const PolygonMesh& mesh : {triangle_torus(40, 30), quad_torus(40, 30), hexagon_sheet(30, 30)}) {
+        const Topology topology = make_topology(mesh);
+        for (const Index k : {2, 7, 30}) {
+            const Cut cut = cut_into(mesh, topology, k);
+            const Adjacency adjacency = adjacency_of(mesh, topology, cut.labels, cut.n_parts);
+            const auto colors = color(adjacency);
+            check_valid(adjacency, colors);
+            CHECK(n_colors(colors) <= 7);
+        }
+    }
+}

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow::test
+{
+
+/// A flat grid of m by n unit squares in the plane z = 0.
+PolygonMesh quad_grid(Index m, Index n);
+
+/// The same, each square divided into two triangles.
+PolygonMesh triangle_grid(Index m, Index n);
+
+/// A closed torus of m by n quads, m and n at least 3.
+PolygonMesh quad_torus(Index m, Index n);
+
+/// The same, each quad divided into two triangles.
+PolygonMesh triangle_torus(Index m, Index n);
+
+/// An open cylinder of m quads around and n along, m at least 3.
+PolygonMesh cylinder(Index m, Index n);
+
+/// A flat sheet of m by n hexagons; those at two sides have open neighbours on zigzag edges.
+PolygonMesh hexagon_sheet(Index m, Index n);
+
+/// Two quads that touch in one vertex only.
+PolygonMesh bow_tie();
+
+/// Three triangles on one edge.
+PolygonMesh three_wings();
+
+/// Two closed tetrahedra with one vertex in common.
+PolygonMesh hourglass();
+
+/// All meshes in one, side by side, sharing nothing.
+PolygonMesh side_by_side(const std::vector<PolygonMesh>& meshes);
+
+/// A mesh with a name for the messages of tests.
+struct NamedMesh {
+    std::string name;
+    PolygonMesh mesh;
+    Topology topology;
+};
+
+/// One mesh of each sort, small, manifold or not, of one component or several.
+std::vector<NamedMesh> assorted_meshes();
+
+/// Labels from 0 to k - 1, uniformly random.
+std::vector<Index> random_labels(Index n_faces, Index k, std::uint32_t seed);
+
+}  // namespace seamflow::test
