@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr idx_t seed = 20230;
-/// With fewer nodes per part than this, recursive bisection is three times faster and its cuts are up to a third
-/// shorter (20 to 30 nodes per part); k-way keeps parts connected and its cuts are shorter by a tenth from 75 on.
+/// With fewer nodes per part than this, recursive bisection takes a third of the time of k-way partitioning and cuts up
+/// to a third less. With more, k-way cuts up to a tenth less, and unlike bisection it keeps parts connected.
 constexpr Index min_nodes_per_part_k_way = 50;
 
 /// METIS draws from the C library's random numbers and installs signal handlers: one caller at a time.
