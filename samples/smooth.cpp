@@ -10,9 +10,9 @@
 #include <iostream>
 
 #include "engine/mean_curvature_flow.h"
+#include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
-#include "partition/cut/labels_file.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"

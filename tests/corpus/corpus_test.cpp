@@ -1,10 +1,10 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <doctest/doctest.h>
 
 #include "partition/io/mesh_io.h"
 #include "partition/topology.h"
@@ -21,7 +21,8 @@ std::vector<std::filesystem::path> meshes_below(const std::filesystem::path& fol
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         std::string extension = entry.path().extension().string();
-        std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return static_cast<char>(c | 0x20); });
+        std::transform(extension.begin(), extension.end(), extension.begin(),
+                       [](char c) { return static_cast<char>(c | 0x20); });
         const bool is_mesh = extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
         if (is_mesh && entry.path().parent_path().filename() != "nasty")
             paths.push_back(entry.path());
