@@ -36,7 +36,7 @@ std::string ByteScanner::position() const
     const std::string byte = "byte " + std::to_string(last_);
     if (element_.empty())
         return path_ + ": " + byte;
-    return path_ + ": " + std::string(element_) + " " + std::to_string(i_) + " (numbered from 0), " + byte;
+    return path_ + ": " + printable(element_) + " " + std::to_string(i_) + " (numbered from 0), " + byte;
 }
 
 void ByteScanner::fail_at_end() const
