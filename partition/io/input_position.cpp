@@ -21,7 +21,9 @@ std::string printable(std::string_view text)
 
 std::string in_quotes(std::string_view text)
 {
-    return "'" + printable(text) + "'";
+    std::string result = "'";
+    result += printable(text);
+    return result += "'";
 }
 
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural)
