@@ -10,11 +10,11 @@ TEST_CASE("places where no file can be made are refused")
 {
     const test::TemporaryDirectory directory;
     CHECK_NOTHROW(require_writable(directory / "new.obj"));
-    CHECK_NOTHROW(require_writable(directory.file("old.obj", "")));
+    CHECK_NOTHROW(require_writable(directory.with("old.obj", "")));
     CHECK_NOTHROW(require_writable("/dev/null"));
     CHECK_THROWS_AS(require_writable(directory / "nowhere/new.obj"), OutputError);
     CHECK_THROWS_AS(require_writable(directory / ""), OutputError);
-    CHECK_THROWS_AS(require_writable(directory.file("file", "") / "new.obj"), OutputError);
+    CHECK_THROWS_AS(require_writable(directory.with("file", "") / "new.obj"), OutputError);
 }
 
 TEST_CASE("one file under two names is noticed")
@@ -41,7 +41,7 @@ TEST_CASE("STL takes triangles without lonely vertices")
 TEST_CASE("text is written whole, over an old file too")
 {
     const test::TemporaryDirectory directory;
-    const auto path = directory.file("report.json", "a longer old text");
+    const auto path = directory.with("report.json", "a longer old text");
     write_text(path, "new\n");
     CHECK(test::content_of(path) == "new\n");
     CHECK_THROWS_AS(write_text(directory / "nowhere/report.json", "new\n"), OutputError);

@@ -104,8 +104,8 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
 TEST_CASE("unusable input ends with 3")
 {
     const Workshop w;
-    (void)w.directory.file("broken.obj", "v 0 0 0\nv 1 0\n");
-    (void)w.directory.file("few.txt", "0\n1\n");
+    (void)w.directory.with("broken.obj", "v 0 0 0\nv 1 0\n");
+    (void)w.directory.with("few.txt", "0\n1\n");
     CHECK(w.smooth("nothing.obj out.obj --time-step 1") == 3);
     CHECK(w.smooth("broken.obj out.obj --time-step 1") == 3);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --labels nothing.txt") == 3);
@@ -187,7 +187,7 @@ TEST_CASE("--labels cuts as told and --parts writes the cut")
     std::string labels;
     for (std::ptrdiff_t f = 0; f < faces; ++f)
         labels += 3 * f < faces ? "0\n" : "1\n";
-    (void)w.directory.file("labels.txt", labels);
+    (void)w.directory.with("labels.txt", labels);
     REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3 --labels labels.txt --coloring label --p 3.5 --no-correction "
                      "--parts parts.ply --report report.json") == 0);
     CHECK(w.json("report.json")["subdomains"] == 2);

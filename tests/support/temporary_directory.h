@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace seamflow::test {
 
@@ -26,10 +30,18 @@ class TemporaryDirectory {
     TemporaryDirectory(const TemporaryDirectory&) = delete;
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
+    /// How many files there are.
+    [[nodiscard]] std::size_t n_files() const
+    {
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+    }
+
     /// Makes a file with that content.
-    [[nodiscard]] std::filesystem::path file(const std::string& name, const std::string& content) const
+    [[nodiscard]] std::filesystem::path with(const std::string& name, std::string_view content) const
     {
         std::ofstream(path_ / name, std::ios::binary) << content;
         return path_ / name;
