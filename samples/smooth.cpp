@@ -10,9 +10,9 @@
 #include <iostream>
 
 #include "engine/mean_curvature_flow.h"
+#include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
-#include "samples/common/label_file.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -59,6 +59,16 @@ void write_results(const SmoothCommand& command, const PolygonMesh& mesh, const 
         write_labelled_ply(command.parts, mesh, report.labels);
 }
 
+/// Runs the flow; what is wrong with the mesh comes out with the name of its file.
+FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step)
+{
+    try {
+        return mean_curvature_flow(mesh, command.options, on_step);
+    } catch (const InputError& error) {
+        throw InputError(command.input.string() + ": " + error.what());
+    }
+}
+
 ExitStatus smooth(int argc, char** argv)
 {
     SmoothCommand command;
@@ -82,7 +92,7 @@ ExitStatus smooth(int argc, char** argv)
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     const StepObserver on_step = make_observer(command, file, run.write_seconds);
-    const FlowReport report = mean_curvature_flow(file.mesh, command.options, on_step);
+    const FlowReport report = run_flow(command, file.mesh, on_step);
 
     const Stopwatch writing;
     write_results(command, file.mesh, kind, report);

@@ -117,13 +117,14 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k)
     const auto share = share_out(mesh, components, sensible(mesh, k));
 
     Cut cut = uncut(mesh);
+    FaceGraphMaker graphs(mesh, topology);
     Index first_label = 0;
     for (std::size_t c = 0; c < components.size(); ++c) {
         if (share[c] == 1) {
             for (const Index f : components[c])
                 cut.labels[at(f)] = first_label;
         } else {
-            const auto labels = metis_k_way(make_face_graph(mesh, topology, components[c]), share[c]);
+            const auto labels = metis_k_way(graphs.make(components[c]), share[c]);
             for (std::size_t i = 0; i < labels.size(); ++i)
                 cut.labels[at(components[c][i])] = first_label + labels[i];
         }

@@ -11,42 +11,12 @@ namespace {
 
 constexpr double mean_arc_weight = 64;
 
-/// An arc before its length is turned into a whole number.
-struct Arc {
-    Index target;
-    double length;
-    /// By length too, so that parallel edges add up to the same bits from both sides.
-    friend auto operator<=>(const Arc&, const Arc&) = default;
-};
-
 double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)
 {
     const Index from = mesh.face_vertices[at(h)];
     const Index to = mesh.face_vertices[at(topology.next(mesh, h))];
     // From the lower to the higher vertex, so that both half-edges of an edge give the same bits.
     return (mesh.vertices.row(std::max(from, to)) - mesh.vertices.row(std::min(from, to))).norm();
-}
-
-/// The arcs of one face, ascending, with the lengths of parallel edges added up.
-void collect_arcs(const PolygonMesh& mesh, const Topology& topology, Index f, const std::vector<Index>& node_of,
-                  std::vector<Arc>& arcs)
-{
-    arcs.clear();
-    for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
-        const Index twin = topology.twin[at(h)];
-        const Index target = twin < 0 ? -1 : node_of[at(topology.face_of[at(twin)])];
-        if (target < 0)
-            continue;
-        arcs.push_back({target, edge_length(mesh, topology, h)});
-    }
-    std::sort(arcs.begin(), arcs.end());
-    std::size_t n = 0;
-    for (const Arc& arc : arcs)
-        if (n > 0 && arcs[n - 1].target == arc.target)
-            arcs[n - 1].length += arc.length;
-        else
-            arcs[n++] = arc;
-    arcs.resize(n);
 }
 
 /// Whole numbers in proportion to the lengths, each at least 1, that add up to no more than max_weight_sum.
@@ -80,17 +50,51 @@ std::vector<Index> node_weights(const PolygonMesh& mesh, std::span<const Index> 
 
 }  // namespace
 
-FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> faces)
-{
-    std::vector<Index> node_of(at(mesh.n_faces()), -1);
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        node_of[at(faces[i])] = static_cast<Index>(i);
+/// An arc before its length is turned into a whole number.
+struct FaceGraphMaker::Arc {
+    Index target;
+    double length;
+    /// By length too, so that parallel edges add up to the same bits from both sides.
+    friend auto operator<=>(const Arc&, const Arc&) = default;
+};
 
+FaceGraphMaker::FaceGraphMaker(const PolygonMesh& mesh, const Topology& topology)
+    : mesh_(mesh)
+    , topology_(topology)
+    , node_of_(at(mesh.n_faces()), -1)
+{
+}
+
+/// The arcs of one face, ascending, with the lengths of parallel edges added up.
+void FaceGraphMaker::collect_arcs(Index f, std::vector<Arc>& arcs) const
+{
+    arcs.clear();
+    for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
+        const Index twin = topology_.twin[at(h)];
+        const Index target = twin < 0 ? -1 : node_of_[at(topology_.face_of[at(twin)])];
+        if (target < 0)
+            continue;
+        arcs.push_back({target, edge_length(mesh_, topology_, h)});
+    }
+    std::sort(arcs.begin(), arcs.end());
+    std::size_t n = 0;
+    for (const Arc& arc : arcs)
+        if (n > 0 && arcs[n - 1].target == arc.target)
+            arcs[n - 1].length += arc.length;
+        else
+            arcs[n++] = arc;
+    arcs.resize(n);
+}
+
+FaceGraph FaceGraphMaker::make(std::span<const Index> faces)
+{
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        node_of_[at(faces[i])] = static_cast<Index>(i);
     FaceGraph graph;
     std::vector<double> lengths;
     std::vector<Arc> arcs;
     for (const Index f : faces) {
-        collect_arcs(mesh, topology, f, node_of, arcs);
+        collect_arcs(f, arcs);
         for (const Arc& arc : arcs) {
             graph.targets.push_back(arc.target);
             lengths.push_back(arc.length);
@@ -98,7 +102,9 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, std
         graph.offsets.push_back(static_cast<Index>(graph.targets.size()));
     }
     graph.arc_weights = arc_weights(lengths);
-    graph.node_weights = node_weights(mesh, faces);
+    graph.node_weights = node_weights(mesh_, faces);
+    for (const Index f : faces)
+        node_of_[at(f)] = -1;
     return graph;
 }
 

@@ -26,8 +26,25 @@ struct FaceGraph {
 /// Neither the arc weights nor the node weights of a graph add up to more than this.
 inline constexpr double max_weight_sum = 1e9;
 
-/// Makes the dual graph of `faces`, node i being faces[i]. Edges to other faces are left out.
-/// @param faces distinct faces of the mesh.
-FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> faces);
+/// Makes dual graphs of sets of faces, node i being faces[i]. Edges to faces outside the set are left out. A graph
+/// costs time in proportion to its own size, not to the mesh's.
+class FaceGraphMaker {
+  public:
+    /// The mesh and its topology must outlive the object.
+    FaceGraphMaker(const PolygonMesh& mesh, const Topology& topology);
+
+    /// @param faces distinct faces of the mesh.
+    FaceGraph make(std::span<const Index> faces);
+
+  private:
+    struct Arc;
+
+    void collect_arcs(Index f, std::vector<Arc>& arcs) const;
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    /// #F: the node of a face in the graph in hand; -1 between calls.
+    std::vector<Index> node_of_;
+};
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #include "partition/cut/labels_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <string>
@@ -53,7 +54,7 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
 {
     std::ifstream file(path);
     if (!file || std::filesystem::is_directory(path))
-        throw InputError(place(path, 0) + "cannot open the file for reading: check its name and permissions");
+        throw InputError(path.string() + ": cannot open the file for reading: check its name and permissions");
     std::vector<Index> labels;
     std::string text;
     std::size_t line = 0;
@@ -70,8 +71,8 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
     if (file.bad())
         throw InputError(place(path, line) + "the file could not be read to its end: copy it to a sound disk");
     if (labels.size() != static_cast<std::size_t>(n_faces))
-        throw InputError(place(path, line) + "the file ends after " + std::to_string(labels.size()) + " of " +
-                         std::to_string(n_faces) +
+        throw InputError(place(path, std::max<std::size_t>(line, 1)) + "the file ends after " +
+                         std::to_string(labels.size()) + " of " + std::to_string(n_faces) +
                          " labels: give one for each face, or use the labels with the mesh they belong to");
     return labels;
 }

@@ -87,59 +87,56 @@ Umbrella PinchMender::find_pinch(Index v)
     return {};
 }
 
-void PinchMender::propose(const Umbrella& umbrella, std::size_t first_run, std::size_t n_runs, Index label)
+/// Proposes to give the faces of some runs in a row, counted around the end of the umbrella, to another part.
+void PinchMender::propose(const Umbrella& umbrella, std::size_t first_run, std::size_t last_run, Index label)
 {
     Move& move = moves_.emplace_back();
     move.label = label;
-    for (std::size_t r = first_run; r < first_run + n_runs; ++r) {
+    for (std::size_t r = first_run; r < last_run; ++r) {
         const Run& run = runs_[r % runs_.size()];
         for (std::size_t i = run.begin; i < run.begin + run.count; ++i)
             move.faces.push_back(umbrella.faces[i % umbrella.faces.size()]);
     }
 }
 
-/// Three moves at most: give the smallest fan of the pinched part to the part on its one side or the other, or fill
-/// the smallest gap between two of its fans.
-void PinchMender::propose_moves(const Umbrella& umbrella)
+/// Proposes to fill the smallest gap between two fans of the pinched part.
+void PinchMender::propose_filling(const Umbrella& umbrella)
 {
-    moves_.clear();
     const std::size_t n = runs_.size();
-    std::size_t smallest_fan = n;
-    std::size_t first_fan = n;
+    const std::size_t end = umbrella.closed ? 2 * n : n;
     std::size_t gap_begin = 0;
-    std::size_t gap_runs = 0;
-    std::size_t gap_faces = umbrella.faces.size() + 1;
-    std::size_t previous_fan = n;
+    std::size_t gap_end = 0;
+    std::size_t fewest = umbrella.faces.size() + 1;
+    std::size_t fan = end;
     std::size_t faces_since = 0;
-    const auto close_gap = [&](std::size_t fan) {
-        if (previous_fan < n && faces_since < gap_faces) {
-            gap_faces = faces_since;
-            gap_begin = previous_fan + 1;
-            gap_runs = fan - previous_fan - 1;
-        }
-        previous_fan = fan;
-        faces_since = 0;
-    };
-    for (std::size_t r = 0; r < n; ++r) {
-        if (runs_[r].label != pinched_label_) {
-            faces_since += runs_[r].count;
+    for (std::size_t r = 0; r < end; ++r) {
+        if (runs_[r % n].label != pinched_label_) {
+            faces_since += runs_[r % n].count;
             continue;
         }
-        first_fan = std::min(first_fan, r);
-        if (smallest_fan == n || runs_[r].count < runs_[smallest_fan].count)
-            smallest_fan = r;
-        close_gap(r);
+        if (fan < end && faces_since < fewest) {
+            fewest = faces_since;
+            gap_begin = fan + 1;
+            gap_end = r;
+        }
+        fan = r;
+        faces_since = 0;
     }
-    if (umbrella.closed) {
-        for (std::size_t r = 0; r < first_fan; ++r)
-            faces_since += runs_[r].count;
-        close_gap(first_fan + n);
-    }
-    propose(umbrella, gap_begin, gap_runs, pinched_label_);
-    if (umbrella.closed || smallest_fan + 1 < n)
-        propose(umbrella, smallest_fan, 1, runs_[(smallest_fan + 1) % n].label);
-    if (umbrella.closed || smallest_fan > 0)
-        propose(umbrella, smallest_fan, 1, runs_[(smallest_fan + n - 1) % n].label);
+    propose(umbrella, gap_begin, gap_end, pinched_label_);
+}
+
+/// Proposes to give the smallest fan of the pinched part to the part on its one side or the other.
+void PinchMender::propose_giving(const Umbrella& umbrella)
+{
+    const std::size_t n = runs_.size();
+    std::size_t smallest = n;
+    for (std::size_t r = 0; r < n; ++r)
+        if (runs_[r].label == pinched_label_ && (smallest == n || runs_[r].count < runs_[smallest].count))
+            smallest = r;
+    if (umbrella.closed || smallest + 1 < n)
+        propose(umbrella, smallest, smallest + 1, runs_[(smallest + 1) % n].label);
+    if (umbrella.closed || smallest > 0)
+        propose(umbrella, smallest, smallest + 1, runs_[(smallest + n - 1) % n].label);
 }
 
 void PinchMender::set_label(Index f, Index label)
@@ -199,7 +196,9 @@ PinchMender::Cost PinchMender::try_out(const Move& move)
 void PinchMender::mend(Index v, std::vector<Index>& moved, std::vector<Index>& robbed)
 {
     for (Umbrella umbrella = find_pinch(v); !umbrella.faces.empty(); umbrella = find_pinch(v)) {
-        propose_moves(umbrella);
+        moves_.clear();
+        propose_filling(umbrella);
+        propose_giving(umbrella);
         std::size_t best = 0;
         Cost best_cost = try_out(moves_[0]);
         for (std::size_t i = 1; i < moves_.size(); ++i)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -58,8 +57,9 @@ class PinchMender {
     void find_runs(const Umbrella& umbrella);
     Index count_excess_runs();
     Umbrella find_pinch(Index v);
-    void propose_moves(const Umbrella& umbrella);
-    void propose(const Umbrella& umbrella, std::size_t first_run, std::size_t n_runs, Index label);
+    void propose(const Umbrella& umbrella, std::size_t first_run, std::size_t last_run, Index label);
+    void propose_filling(const Umbrella& umbrella);
+    void propose_giving(const Umbrella& umbrella);
     Cost try_out(const Move& move);
     Index pinches_around(const std::vector<Index>& faces);
     [[nodiscard]] double cut_length_around(const std::vector<Index>& faces) const;

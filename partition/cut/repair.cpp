@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "partition/cut/compact.h"
+#include "partition/cut/merge.h"
 #include "partition/cut/pieces.h"
 #include "partition/cut/pinches.h"
 #include "partition/index.h"
@@ -69,42 +70,6 @@ void mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_l
         suspects.assign(at(n_labels), false);
         for (const Index label : robbed)
             suspects[at(label)] = true;
-    }
-}
-
-/// Follows a chain of merged labels to its end.
-Index merged_into(std::vector<Index>& parent, Index label)
-{
-    while (parent[at(label)] != label) {
-        parent[at(label)] = parent[at(parent[at(label)])];
-        label = parent[at(label)];
-    }
-    return label;
-}
-
-/// Merges pairs of parts at pinched vertices until there is no pinch: each round leaves fewer parts. All parts must be
-/// connected, and stay so.
-void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
-{
-    PinchMender mender(mesh, topology, labels, n_labels);
-    std::vector<Index> vertices(at(mesh.n_vertices()));
-    std::iota(vertices.begin(), vertices.end(), 0);
-    std::vector<Index> parent(at(n_labels));
-    std::iota(parent.begin(), parent.end(), 0);
-    for (bool merged = true; merged;) {
-        merged = false;
-        std::erase_if(vertices, [&](Index v) { return !mender.is_mixed(v); });
-        for (const Index v : vertices) {
-            if (mender.pinches_at(v) == 0)
-                continue;
-            const auto [larger, smaller] = mender.pinched_and_between(v);
-            const Index root = merged_into(parent, larger);
-            parent[at(merged_into(parent, smaller))] = root;
-            merged = true;
-        }
-        for (Index& label : labels)
-            label = merged_into(parent, label);
-        mender.count_faces();
     }
 }
 

@@ -20,10 +20,12 @@ void ByteScanner::enter(std::string_view element, std::uint64_t i)
 
 void ByteScanner::require_end()
 {
-    last_ = file_.find_first_not_of(std::string_view("\0 \t\r\n", 5), next_);
-    if (last_ == std::string_view::npos)
-        return;
     element_ = {};
+    last_ = next_;
+    const auto left = file_.find_first_not_of(std::string_view("\0 \t\r\n", 5), next_);
+    if (left == std::string_view::npos)
+        return;
+    last_ = left;
     fail("the file goes on where, by its header, it should end; correct the counts in the header or export the mesh "
          "again");
 }
@@ -33,7 +35,7 @@ std::string ByteScanner::position() const
     const std::string byte = "byte " + std::to_string(last_);
     if (element_.empty())
         return path_ + ": " + byte;
-    return path_ + ": " + std::string(element_) + " " + std::to_string(i_) + " (numbered from 0), " + byte;
+    return path_ + ": " + printable(element_) + " " + std::to_string(i_) + " (numbered from 0), " + byte;
 }
 
 void ByteScanner::fail_at_end() const

@@ -9,13 +9,20 @@ void InputPosition::fail(const std::string& complaint) const
     throw InputError(position() + ": " + complaint);
 }
 
-std::string in_quotes(std::string_view text)
+std::string printable(std::string_view text)
 {
     constexpr std::size_t longest = 40;
-    std::string result = "'";
+    std::string result;
     for (const char c : text.substr(0, longest))
         result += c >= ' ' && c <= '~' ? c : '?';
-    return result + (text.size() > longest ? "…'" : "'");
+    return text.size() > longest ? result + "…" : result;
+}
+
+std::string in_quotes(std::string_view text)
+{
+    std::string result = "'";
+    result += printable(text);
+    return result += "'";
 }
 
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural)

@@ -25,7 +25,10 @@ class InputPosition {
     [[nodiscard]] virtual std::string position() const = 0;
 };
 
-/// A piece of a file in quotation marks, for a message: shortened, and with '?' for what cannot be printed.
+/// A piece of a file for a message: shortened, and with '?' for what cannot be printed.
+std::string printable(std::string_view text);
+
+/// The same in quotation marks.
 std::string in_quotes(std::string_view text);
 
 /// "1 vertex", "3 vertices": a count and the word for what is counted.

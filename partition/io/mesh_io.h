@@ -10,7 +10,8 @@ namespace seamflow {
 /// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
 enum class FileFormat { Obj, Off, Ply, Stl };
 
-/// How the numbers of a file are stored. OBJ and OFF are always Ascii; STL is Ascii or BinaryLittleEndian.
+/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, whose binary files are read, but not written;
+/// STL is Ascii or BinaryLittleEndian.
 enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 
 /// Format and encoding of one file.

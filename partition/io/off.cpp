@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "partition/io/mesh_builder.h"
+#include "partition/io/off_binary.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -79,7 +81,9 @@ void OffReader::read_keyword()
     require_known_variant(word.substr(0, off));
     scanner_.skip(off + 3);
     if (scanner_.peek() == "BINARY")
-        scanner_.fail("binary OFF files cannot be read; convert the mesh to text OFF or to PLY");
+        scanner_.fail(
+            "binary OFF files with more than coordinates and faces cannot be read; convert the mesh to text OFF "
+            "or to PLY");
 }
 
 void OffReader::require_known_variant(std::string_view prefix)
@@ -98,8 +102,6 @@ void OffReader::read_counts()
 {
     if (!scanner_.has_token() && !scanner_.next_line())
         scanner_.fail("the file ends before the numbers of vertices and faces; export the mesh again");
-    if (scanner_.peek() == "BINARY")
-        scanner_.fail("binary OFF files cannot be read; convert the mesh to text OFF or to PLY");
     n_vertices_ = read_count("the number of vertices", 6);
     n_faces_ = read_count("the number of faces", 4);
     if (scanner_.has_token())
@@ -143,10 +145,23 @@ void OffReader::read_face()
     builder_.add_face(corners_);
 }
 
+/// Where the data begin if the first line is `OFF BINARY`, else nothing.
+std::optional<std::size_t> start_of_binary_data(std::string_view text)
+{
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const auto second = line.find_first_not_of(" \t", 3);
+    if (!line.starts_with("OFF") || second == 3 || second == std::string_view::npos ||
+        !line.substr(second).starts_with("BINARY") || line.size() == text.size())
+        return std::nullopt;
+    return line.size() + 1;
+}
+
 }  // namespace
 
 PolygonMesh read_off(const std::filesystem::path& path, std::string_view text)
 {
+    if (const auto data = start_of_binary_data(text))
+        return read_binary_off(path, text, *data);
     return OffReader(path, text).read();
 }
 

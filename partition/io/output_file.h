@@ -33,7 +33,7 @@ class OutputFile {
     /// A number with the fewest digits (at most 17) that read back to the same value, independently of the locale.
     void number(std::floating_point auto value)
     {
-        if (std::abs(value) < 1e17f)
+        if (std::abs(value) < 1e17)
             append_chars(value);
         else
             append_chars(value, std::chars_format::scientific);

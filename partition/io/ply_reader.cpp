@@ -1,15 +1,13 @@
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "partition/errors.h"
-#include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/ply.h"
 #include "partition/io/ply_header.h"
+#include "partition/io/ply_source.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -25,127 +23,6 @@ enum class Role {
     /// Nothing that this reader has a use for.
     Other
 };
-
-/// The numbers of a text file, one after another.
-class TextSource {
-  public:
-    explicit TextSource(const TextScanner& after_header)
-        : scanner_(after_header)
-    {
-    }
-
-    [[nodiscard]] const InputPosition& position() const { return scanner_; }
-
-    void begin_element(const PlyElement& element, std::uint64_t i)
-    {
-        if (!scanner_.next_line())
-            scanner_.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(element.count) +
-                          " elements " + in_quotes(element.name) +
-                          "; it has been cut off, or the header is wrong: export or copy the mesh again");
-    }
-
-    void end_element()
-    {
-        if (scanner_.has_token())
-            scanner_.fail("the line goes on with " + in_quotes(scanner_.peek()) +
-                          " after all the properties that the header declares; correct the header or the line");
-    }
-
-    double real(PlyType) { return scanner_.real("a coordinate"); }
-
-    std::int64_t integer(PlyType) { return scanner_.integer("a whole number"); }
-
-    void pass_over(PlyType, std::int64_t n)
-    {
-        for (; n > 0; --n)
-            if (scanner_.token().empty())
-                scanner_.fail("the line has fewer numbers than the header declares; add what is missing or export the "
-                              "mesh again");
-    }
-
-    /// A list so long ends with the line at the latest.
-    void require_room(PlyType, std::int64_t) const {}
-
-    void finish()
-    {
-        if (scanner_.next_line())
-            scanner_.fail("the file goes on after all the elements that its header announces; correct the counts in "
-                          "the header");
-    }
-
-  private:
-    TextScanner scanner_;
-};
-
-/// The numbers of a binary file, one after another.
-class BinarySource {
-  public:
-    BinarySource(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
-                 Encoding encoding)
-        : scanner_(path, file, file.size() - after_header.rest().size(),
-                   encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little)
-    {
-    }
-
-    [[nodiscard]] const InputPosition& position() const { return scanner_; }
-
-    void begin_element(const PlyElement& element, std::uint64_t i) { scanner_.enter(element.name, i); }
-
-    void end_element() {}
-
-    double real(PlyType type)
-    {
-        const double value = type == PlyType::Float64   ? scanner_.read<double>()
-                             : type == PlyType::Float32 ? double{scanner_.read<float>()}
-                                                        : static_cast<double>(integer(type));
-        if (!std::isfinite(value))
-            scanner_.fail("a coordinate is not a finite number; remove the vertex or mend it");
-        return value;
-    }
-
-    std::int64_t integer(PlyType type);
-
-    void pass_over(PlyType type, std::int64_t n)
-    {
-        require_room(type, n);
-        scanner_.take(static_cast<std::size_t>(n) * size_in_bytes(type));
-    }
-
-    void require_room(PlyType type, std::int64_t n) const
-    {
-        if (static_cast<std::uint64_t>(n) > scanner_.remaining() / size_in_bytes(type))
-            scanner_.fail("a list of " + std::to_string(n) +
-                          " numbers goes past the end of the file; it has been cut off, or the length is wrong: export "
-                          "or copy the mesh again");
-    }
-
-    void finish() { scanner_.require_end(); }
-
-  private:
-    ByteScanner scanner_;
-};
-
-std::int64_t BinarySource::integer(PlyType type)
-{
-    switch (type) {
-    case PlyType::Int8:
-        return scanner_.read<std::int8_t>();
-    case PlyType::UInt8:
-        return scanner_.read<std::uint8_t>();
-    case PlyType::Int16:
-        return scanner_.read<std::int16_t>();
-    case PlyType::UInt16:
-        return scanner_.read<std::uint16_t>();
-    case PlyType::Int32:
-        return scanner_.read<std::int32_t>();
-    case PlyType::UInt32:
-        return scanner_.read<std::uint32_t>();
-    case PlyType::Float32:
-    case PlyType::Float64:
-        break;
-    }
-    scanner_.fail("a number that should be whole has a type with decimals; correct the header");
-}
 
 /// Reads the elements that follow the header, in their order.
 template <class Source>
@@ -324,8 +201,9 @@ MeshFile read_ply(const std::filesystem::path& path, std::string_view file)
     require_surface(scanner, header);
     const FileKind kind{FileFormat::Ply, header.encoding};
     if (header.encoding == Encoding::Ascii)
-        return {read_elements(TextSource(scanner), header), kind};
-    return {read_elements(BinarySource(scanner, path, file, header.encoding), header), kind};
+        return {read_elements(PlyTextSource(scanner), header), kind};
+    return {read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding), header),
+            kind};
 }
 
 }  // namespace seamflow

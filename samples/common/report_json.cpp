@@ -54,6 +54,8 @@ Json steps_json(const std::vector<StepReport>& steps)
                   {"max_mean_curvature_after", number(step.max_mean_curvature_after)}};
         if (step.distance)
             add_distance(json, *step.distance);
+        if (step.reference_seconds)
+            json["reference_seconds"] = number(*step.reference_seconds);
         list.push_back(std::move(json));
     }
     return list;

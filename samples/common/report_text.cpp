@@ -78,6 +78,8 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
         out << "  V_mean " << digits(distance.mean / unit) << "  V_RMS " << digits(distance.rms / unit) << "  V_max "
             << digits(distance.max / unit);
     }
+    if (report.reference_seconds)
+        out << "  (undecomposed " << seconds(*report.reference_seconds) << ")";
     out << std::endl;
 }
 

@@ -12,13 +12,13 @@ readonly packages=(
     doctest-dev libcli11-dev nlohmann-json3-dev
 )
 
-# Prints the packages that are not installed, one a line.
+# missing_packages PACKAGE…: prints those that are not installed, one a line.
 missing_packages() {
     local installed
-    installed="$(dpkg-query -W -f '${binary:Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null |
+    installed="$(dpkg-query -W -f '${binary:Package} ${db:Status-Status}\n' "$@" 2>/dev/null |
         sed -n 's/^\([^ :]*\)[^ ]* installed$/\1/p')" || true
     local package
-    for package in "${packages[@]}"; do
+    for package in "$@"; do
         grep -qxF -- "$package" <<<"$installed" || echo "$package"
     done
 }
@@ -42,14 +42,14 @@ apt_install() {
     as_root apt-get -qq update && as_root apt-get -qq install --no-install-recommends -y "$@"
 }
 
-# Installs what is missing; does nothing else, and takes no time, if nothing is.
+# install_packages [MORE…]: installs what is missing; does nothing else, and takes no time, if nothing is.
 install_packages() {
     if ! command -v dpkg-query >/dev/null; then
-        echo "This is no Debian system: make sure of the equivalents of ${packages[*]}" >&2
+        echo "This is no Debian system: make sure of the equivalents of ${packages[*]} $*" >&2
         return 0
     fi
     local missing
-    mapfile -t missing < <(missing_packages)
+    mapfile -t missing < <(missing_packages "${packages[@]}" "$@")
     if ((${#missing[@]} == 0)); then
         return 0
     fi
@@ -60,11 +60,16 @@ install_packages() {
     fi
 }
 
+# configure PRESET
+configure() {
+    cmake --preset "$1" -DSEAMFLOW_BUILD_SAMPLES=ON -DSEAMFLOW_BUILD_TESTS=ON --log-level=WARNING >/dev/null
+}
+
 # build PRESET [TARGET…]: configures and builds the targets, by default all.
 build() {
     local preset="$1"
     shift
-    cmake --preset "$preset" -DSEAMFLOW_BUILD_SAMPLES=ON -DSEAMFLOW_BUILD_TESTS=ON --log-level=WARNING >/dev/null
+    configure "$preset"
     if (($# > 0)); then
         cmake --build --preset "$preset" --target "$@"
     else

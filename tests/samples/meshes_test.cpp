@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::array<Index, 5> sizes{100, 137, 1000, 2500, 9999};
 
-std::size_t at(Index i)
-{
-    return static_cast<std::size_t>(i);
-}
-
 Index euler_characteristic(const PolygonMesh& mesh, const Topology& topology)
 {
     const auto boundary = std::count(topology.twin.begin(), topology.twin.end(), -1);

@@ -2,24 +2,24 @@
 
 #include "partition/errors.h"
 #include "samples/common/output_files.h"
-#include "tests/samples/temporary_directory.h"
+#include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
 
 TEST_CASE("places where no file can be made are refused")
 {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     CHECK_NOTHROW(require_writable(directory / "new.obj"));
-    CHECK_NOTHROW(require_writable(directory.file("old.obj", "")));
+    CHECK_NOTHROW(require_writable(directory.with("old.obj", "")));
     CHECK_NOTHROW(require_writable("/dev/null"));
     CHECK_THROWS_AS(require_writable(directory / "nowhere/new.obj"), OutputError);
     CHECK_THROWS_AS(require_writable(directory / ""), OutputError);
-    CHECK_THROWS_AS(require_writable(directory.file("file", "") / "new.obj"), OutputError);
+    CHECK_THROWS_AS(require_writable(directory.with("file", "") / "new.obj"), OutputError);
 }
 
 TEST_CASE("one file under two names is noticed")
 {
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     CHECK_NOTHROW(require_different({directory / "a", directory / "b"}));
     CHECK_THROWS_AS(require_different({directory / "a", directory / "b", directory / "./a"}), OptionError);
 }
@@ -40,10 +40,10 @@ TEST_CASE("STL takes triangles without lonely vertices")
 
 TEST_CASE("text is written whole, over an old file too")
 {
-    const TemporaryDirectory directory;
-    const auto path = directory.file("report.json", "a longer old text");
+    const test::TemporaryDirectory directory;
+    const auto path = directory.with("report.json", "a longer old text");
     write_text(path, "new\n");
-    CHECK(content_of(path) == "new\n");
+    CHECK(test::content_of(path) == "new\n");
     CHECK_THROWS_AS(write_text(directory / "nowhere/report.json", "new\n"), OutputError);
     CHECK_THROWS_AS(write_text("/dev/full", "new\n"), OutputError);
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
-#include "tests/samples/temporary_directory.h"
+#include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
 using Json = nlohmann::json;
@@ -15,7 +15,7 @@ namespace {
 
 /// A small mesh with its own directory, and the programs, run with a shell in that directory.
 struct Workshop {
-    TemporaryDirectory directory;
+    test::TemporaryDirectory directory;
 
     Workshop() { REQUIRE(run(GENERATE " mixed mesh.obj --vertices 900") == 0); }
 
@@ -29,9 +29,9 @@ struct Workshop {
 
     [[nodiscard]] int smooth(const std::string& arguments) const { return run(SMOOTH " " + arguments); }
 
-    [[nodiscard]] std::string said() const { return content_of(directory / "said"); }
+    [[nodiscard]] std::string said() const { return test::content_of(directory / "said"); }
     [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(directory / name); }
-    [[nodiscard]] Json json(const std::string& name) const { return Json::parse(content_of(directory / name)); }
+    [[nodiscard]] Json json(const std::string& name) const { return Json::parse(test::content_of(directory / name)); }
 
     [[nodiscard]] std::ptrdiff_t count_lines(const std::string& name, const std::string& start) const
     {
@@ -104,8 +104,8 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
 TEST_CASE("unusable input ends with 3")
 {
     const Workshop w;
-    (void)w.directory.file("broken.obj", "v 0 0 0\nv 1 0\n");
-    (void)w.directory.file("few.txt", "0\n1\n");
+    (void)w.directory.with("broken.obj", "v 0 0 0\nv 1 0\n");
+    (void)w.directory.with("few.txt", "0\n1\n");
     CHECK(w.smooth("nothing.obj out.obj --time-step 1") == 3);
     CHECK(w.smooth("broken.obj out.obj --time-step 1") == 3);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --labels nothing.txt") == 3);
@@ -175,8 +175,8 @@ TEST_CASE("--every-step writes the mesh after each step, the last as OUTPUT")
     REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3 --steps 3 --every-step step_%02d.obj") == 0);
     CHECK_FALSE(w.has("step_00.obj"));
     CHECK(w.has("step_01.obj"));
-    CHECK(content_of(w.directory / "step_02.obj") != content_of(w.directory / "step_03.obj"));
-    CHECK(content_of(w.directory / "step_03.obj") == content_of(w.directory / "out.obj"));
+    CHECK(test::content_of(w.directory / "step_02.obj") != test::content_of(w.directory / "step_03.obj"));
+    CHECK(test::content_of(w.directory / "step_03.obj") == test::content_of(w.directory / "out.obj"));
     CHECK_FALSE(w.has("step_04.obj"));
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("--labels cuts as told and --parts writes the cut")
     std::string labels;
     for (std::ptrdiff_t f = 0; f < faces; ++f)
         labels += 3 * f < faces ? "0\n" : "1\n";
-    (void)w.directory.file("labels.txt", labels);
+    (void)w.directory.with("labels.txt", labels);
     REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3 --labels labels.txt --coloring label --p 3.5 --no-correction "
                      "--parts parts.ply --report report.json") == 0);
     CHECK(w.json("report.json")["subdomains"] == 2);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 
 #include <doctest/doctest.h>
@@ -19,9 +20,15 @@ std::vector<Index> all_faces(const PolygonMesh& mesh)
     return faces;
 }
 
+FaceGraph graph_of(const PolygonMesh& mesh, const std::vector<Index>& faces)
+{
+    const Topology topology = make_topology(mesh);
+    return FaceGraphMaker(mesh, topology).make(faces);
+}
+
 FaceGraph graph_of(const PolygonMesh& mesh)
 {
-    return make_face_graph(mesh, make_topology(mesh), all_faces(mesh));
+    return graph_of(mesh, all_faces(mesh));
 }
 
 /// The weight of the arc from one node to another, 0 if there is none.
@@ -110,7 +117,7 @@ TEST_CASE("lengths without a finite sum count as equal")
 TEST_CASE("a subset of the faces gives the graph within it")
 {
     const PolygonMesh mesh = quad_grid(3, 1);
-    const FaceGraph graph = make_face_graph(mesh, make_topology(mesh), std::vector<Index>{2, 1});
+    const FaceGraph graph = graph_of(mesh, std::vector<Index>{2, 1});
     CHECK(graph.offsets == std::vector<Index>{0, 1, 2});
     CHECK(graph.targets == std::vector<Index>{1, 0});
 }
@@ -119,4 +126,15 @@ TEST_CASE("node weights count the triangles of a face")
 {
     CHECK(graph_of(hexagon_sheet(2, 1)).node_weights == std::vector<Index>{4, 4});
     CHECK(graph_of(triangle_grid(1, 1)).node_weights == std::vector<Index>{1, 1});
+}
+
+TEST_CASE("one maker makes many graphs, each as if it were the first")
+{
+    const PolygonMesh mesh = quad_grid(3, 3);
+    const Topology topology = make_topology(mesh);
+    FaceGraphMaker maker(mesh, topology);
+    maker.make(all_faces(mesh));
+    const FaceGraph graph = maker.make(std::vector<Index>{4, 8});
+    CHECK(graph.targets.empty());
+    CHECK(maker.make(std::vector<Index>{4, 5}).targets == std::vector<Index>{1, 0});
 }

@@ -69,7 +69,7 @@ TEST_CASE("too few and too many labels are refused")
 {
     CHECK(refusal("0\n1\n", 3).starts_with(":2: the file ends after 2 of 3 labels"));
     CHECK(refusal("0\n1\n1\n", 2).starts_with(":3: more labels than the mesh has faces (2)"));
-    CHECK(refusal("", 1).starts_with(":0: the file ends after 0 of 1 labels"));
+    CHECK(refusal("", 1).starts_with(":1: the file ends after 0 of 1 labels"));
 }
 
 TEST_CASE("files that cannot be read or written are refused")

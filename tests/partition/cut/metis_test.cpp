@@ -17,7 +17,8 @@ FaceGraph graph_of(const PolygonMesh& mesh)
 {
     std::vector<Index> faces(static_cast<std::size_t>(mesh.n_faces()));
     std::iota(faces.begin(), faces.end(), 0);
-    return make_face_graph(mesh, make_topology(mesh), faces);
+    const Topology topology = make_topology(mesh);
+    return FaceGraphMaker(mesh, topology).make(faces);
 }
 
 std::vector<Index> sizes(const std::vector<Index>& labels, Index k)

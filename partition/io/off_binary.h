@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Reads what follows the line `OFF BINARY`: 32-bit integers and floats. Geomview writes them most significant byte
+/// first and a number of colour components after each face, others the other way round or without: whichever of the
+/// four fits the length of the file is taken.
+/// @param path for messages only.
+/// @param file the whole file.
+/// @param offset where the binary data begin.
+/// @throws InputError naming the byte.
+PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset);
+
+}  // namespace seamflow

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "partition/io/mesh_io.h"
+#include "partition/topology.h"
+#include "tests/support/flows.h"
+#include "tests/support/temporary_directory.h"
+
+using namespace seamflow;
+
+namespace {
+
+/// The meshes below a folder, those under nasty/ excepted, sorted.
+std::vector<std::filesystem::path> meshes_below(const std::filesystem::path& folder)
+{
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        std::string extension = entry.path().extension().string();
+        std::transform(extension.begin(), extension.end(), extension.begin(),
+                       [](char c) { return static_cast<char>(c | 0x20); });
+        const bool is_mesh = extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
+        if (is_mesh && entry.path().parent_path().filename() != "nasty")
+            paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+void check_flow(const PolygonMesh& mesh, Laplacian laplacian, Index subdomains)
+{
+    CAPTURE(name_of(laplacian));
+    CAPTURE(subdomains);
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = mean_edge_length(mesh) * mean_edge_length(mesh);
+    options.subdomains = subdomains;
+    const Points result = test::flowed(mesh, options);
+    CHECK(result.rows() == mesh.vertices.rows());
+    CHECK(result.allFinite());
+    const Topology topology = make_topology(mesh);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (topology.kind[at(v)] != VertexKind::Interior)
+            REQUIRE(result.row(v) == mesh.vertices.row(v));
+}
+
+void check_round_trip(const MeshFile& file, const std::filesystem::path& copy)
+{
+    write_mesh(copy, file.mesh, file.kind);
+    const MeshFile again = read_mesh(copy);
+    CHECK(again.kind == file.kind);
+    CHECK(again.mesh.vertices == file.mesh.vertices);
+    CHECK(again.mesh.face_offsets == file.mesh.face_offsets);
+    CHECK(again.mesh.face_vertices == file.mesh.face_vertices);
+}
+
+}  // namespace
+
+TEST_CASE("every mesh of the corpus survives reading, writing and flowing, in one piece and in eight")
+{
+    const char* corpus = std::getenv("SEAMFLOW_CORPUS");
+    if (corpus == nullptr) {
+        MESSAGE("SEAMFLOW_CORPUS is not set: no corpus to test with");
+        return;
+    }
+    const test::TemporaryDirectory directory;
+    const auto paths = meshes_below(corpus);
+    REQUIRE_FALSE(paths.empty());
+    for (const auto& path : paths) {
+        CAPTURE(path.string());
+        const MeshFile file = read_mesh(path);
+        check_round_trip(file, directory / ("copy" + path.extension().string()));
+        for (const Laplacian laplacian : test::all_laplacians)
+            for (const Index subdomains : {1, 8})
+                check_flow(file.mesh, laplacian, subdomains);
+    }
+}

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Fails when a folder includes upwards (partition <- solvers <- engine <- samples, tests), or when a header lets in a
+# library that only source files may use.
+#
+#     tests/layering.sh [ROOT]
+
+set -uo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
+
+status=0
+
+# forbid WHAT REASON FOLDER…: no line of the folders' sources may match.
+forbid() {
+    local pattern="$1" reason="$2" found
+    shift 2
+    if found="$(grep -rnE --include='*.h' --include='*.cpp' "$pattern" "$@")"; then
+        printf '%s:\n%s\n\n' "$reason" "$found"
+        status=1
+    fi
+}
+
+# The same for headers alone.
+forbid_in_headers() {
+    local pattern="$1" reason="$2" found
+    shift 2
+    if found="$(grep -rnE --include='*.h' "$pattern" "$@")"; then
+        printf '%s:\n%s\n\n' "$reason" "$found"
+        status=1
+    fi
+}
+
+for folder in partition solvers engine samples tests; do
+    [[ -d $folder ]] || { echo "there is no folder $folder"; status=1; }
+done
+forbid '#include "(solvers|engine|samples|tests)/' 'partition knows meshes, not equations' partition
+forbid '#include "(engine|samples|tests)/' 'solvers know equations, not threads' solvers
+forbid '#include "(samples|tests)/' 'the engine knows neither samples nor tests' engine
+forbid '#include "tests/' 'samples do not use tests' samples
+forbid '#include "[^/"]*"|#include "\.\.?/' 'includes start with the name of their folder' partition solvers engine samples tests
+forbid '#include <(oneapi|tbb|thread|mutex|atomic|future)[/>]' 'equations know no threads' solvers
+forbid '#include <(umfpack|cholmod|oneapi|tbb)' 'meshes know no solvers' partition
+forbid_in_headers '#include <(metis|umfpack|cholmod|oneapi|tbb|OpenMesh|CGAL|omp)' \
+    'libraries other than Eigen are for source files' partition solvers engine
+exit "$status"

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Checks the layout of all sources (.clang-format) and the names in them (.clang-tidy). Installs the two tools if they
+# are missing.
+#
+#     tests/style.sh
+
+set -euo pipefail
+# shellcheck source=samples/common/setup.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../samples/common/setup.sh"
+
+install_packages clang-format clang-tidy
+readonly folders=(partition solvers engine samples tests)
+find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
+configure release
+run-clang-tidy -quiet -p build -j "$(nproc)" "$PWD/($(IFS='|' && echo "${folders[*]}"))/" >build/clang-tidy.log 2>&1 || {
+    grep -E -A 4 'error:|warning:' build/clang-tidy.log
+    exit 1
+}
+echo "The layout and the names of all sources are as they should be."

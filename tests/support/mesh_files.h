@@ -1,0 +1,41 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "partition/errors.h"
+#include "partition/io/mesh_io.h"
+
+namespace seamflow::test {
+
+/// Reads a mesh from a file of this name and content.
+MeshFile read_text(const std::string& name, std::string_view content);
+
+/// The message with which reading a file of this name and content fails, without the folder; empty if it succeeds.
+std::string complaint_about(const std::string& name, std::string_view content);
+
+/// The message with which writing fails, without the folder; empty if it succeeds.
+std::string complaint_of_writing(const PolygonMesh& mesh, const std::string& name, const FileKind& kind);
+
+/// Writes and reads again.
+MeshFile round_trip(const PolygonMesh& mesh, const std::string& name, const FileKind& kind);
+
+/// Whether all bits of the coordinates, and all faces, are the same.
+bool identical(const PolygonMesh& a, const PolygonMesh& b);
+
+/// Vertices whose coordinates are hard to write down: denormal, huge, signed zeros, not representable in decimal.
+/// @param single_precision whether all of them are floats.
+Points tricky_points(bool single_precision);
+
+PolygonMesh make_mesh(const Points& vertices, std::initializer_list<std::initializer_list<Index>> faces);
+
+/// One triangle.
+PolygonMesh make_triangle();
+
+inline bool contains(std::string_view text, std::string_view part)
+{
+    return text.find(part) != std::string_view::npos;
+}
+
+}  // namespace seamflow::test
