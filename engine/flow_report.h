@@ -29,7 +29,8 @@ struct PhaseSeconds {
 struct StepReport {
     /// Wall-clock time.
     double seconds = 0.0;
-    /// Largest length of the mean curvature vector ΔV over all vertices that may move, in 1/length.
+    /// Largest length of the mean curvature vector ΔV over all vertices that may move, in 1/length (where it is finite:
+    /// edges or faces that the flow has shrunk to nothing do not count).
     double max_mean_curvature_before = 0.0;
     double max_mean_curvature_after = 0.0;
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.

@@ -22,7 +22,8 @@ void require_length(const PolygonMesh& mesh, const Topology& topology, Index f)
         if (matters && !std::isnormal(length))
             throw InputError("vertices " + std::to_string(start) + " and " + std::to_string(end) +
                              " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
-                             " and lie at the same place: merge them, or move one");
+                             " and lie at the same place, or so near or far that the distance is no normal double: "
+                             "merge them, move one, or scale the mesh");
     }
 }
 
@@ -50,10 +51,10 @@ void require_area(const PolygonMesh& mesh, const Topology& topology, Laplacian l
 {
     const bool matters = area_matters(mesh, topology, laplacian, f);
     if (matters && !std::isnormal(area(mesh.face(f), mesh.vertices)))
-        throw InputError(
-            "face " + std::to_string(f) +
-            " (numbered from 0) has no area: remove it, move one of its vertices, or use the Laplacian fujiwara, "
-            "which does not divide by areas");
+        throw InputError("face " + std::to_string(f) +
+                         " (numbered from 0) has no area that is a normal double: remove it, move one of its vertices, "
+                         "or use the Laplacian fujiwara, "
+                         "which does not divide by areas");
 }
 
 }  // namespace

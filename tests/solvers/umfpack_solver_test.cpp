@@ -102,7 +102,7 @@ TEST_CASE("singular matrices are refused, and the solver goes on with regular on
     for (Index i = pattern.column_offsets[12]; i < pattern.column_offsets[13]; ++i)
         singular[at(i)] = 0.0;
     UmfpackSolver solver(pattern);
-    CHECK_THROWS_WITH_AS(solver.factorise(singular), "the system is singular", ComputationError);
+    CHECK_THROWS_WITH_AS(solver.factorise(singular), doctest::Contains("the system is singular"), ComputationError);
     CHECK_THROWS_AS(solver.factorise(std::vector<double>(regular.size(), 0.0)), ComputationError);
     const Columns right_hand_side = random_columns(30, random);
     Columns solution(30, 3);
