@@ -33,6 +33,7 @@ FlowOptions FlowOptions::plain()
 {
     FlowOptions options;
     options.sweep = Sweep::Fixed;
+    options.transmission = Transmission::Derivative;
     return options;
 }
 

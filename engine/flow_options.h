@@ -17,10 +17,48 @@ enum class Coloring {
     Label,
 };
 
-/// What holds on the interface between sub-meshes.
+/// What holds on the interface between sub-meshes. All for any number of sub-meshes.
 enum class Conditions {
-    /// The paper's adapted Robin conditions (eqs. adaptedVentcell A and B with q = 0), for any number of sub-meshes.
+    /// The paper's adapted Robin conditions (eqs. adaptedVentcell A and B with q = 0).
     AdaptedRobin,
+    /// The paper's adapted Ventcell conditions (eqs. adaptedVentcell A and B); FlowOptions::q is required.
+    AdaptedVentcell,
+    /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of faces.
+    Schwarz,
+};
+
+/// How a step is taken.
+enum class Scheme {
+    /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. MCFbackwardEuler).
+    BackwardEuler,
+    /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed. Stable only for dt up to the square of the shortest edge.
+    ExplicitEuler,
+};
+
+/// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. parameterP).
+enum class PRule {
+    /// η = 1, the paper's (which makes p* depend on the unit of length).
+    Paper,
+    /// η = 1 / dt.
+    InverseStep,
+};
+
+/// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
+enum class PEdge {
+    /// The shortest, as in the paper. One sliver makes p* huge.
+    Minimum,
+    /// The edge that 5 % of all are shorter than.
+    Percentile,
+    /// The mean over half-edges.
+    Mean,
+};
+
+/// How the first sub-mesh to solve at a vertex of Γ learns of the sub-meshes on the other side.
+enum class Transmission {
+    /// By the derivatives of the paper, at Vᵏ.
+    Derivative,
+    /// By a prediction of the other side, solved with Γ held at Vᵏ (see README, Accuracy).
+    Predicted,
 };
 
 /// In which order the colours are solved.
@@ -64,8 +102,19 @@ struct FlowOptions {
     Coloring coloring = Coloring::Greedy;
     /// What holds between sub-meshes.
     Conditions conditions = Conditions::AdaptedRobin;
-    /// Robin parameter p, in 1/length, positive. Empty: p* of the paper (eq. ourP) for each sub-mesh.
+    /// How a step is taken.
+    Scheme scheme = Scheme::BackwardEuler;
+    /// How sub-meshes learn of each other with Conditions::AdaptedRobin. Predicted stays much closer to the undecomposed flow.
+    Transmission transmission = Transmission::Predicted;
+    /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper (eq. ourP)
+    /// for each sub-mesh, by the two rules that follow.
     std::optional<double> p;
+    PRule p_rule = PRule::Paper;
+    PEdge p_edge = PEdge::Minimum;
+    /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only there.
+    std::optional<double> q;
+    /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1.
+    int overlap = 1;
     /// Direction of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
