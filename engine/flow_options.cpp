@@ -47,6 +47,11 @@ void require_valid(const FlowOptions& options)
             "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
     if (options.p)
         require(positive_and_finite(*options.p), "p", *options.p, "positive and finite (1/length)");
+    if (options.q)
+        require(*options.q >= 0.0 && std::isfinite(*options.q), "q", *options.q, "at least 0 and finite");
+    if (options.q.has_value() != (options.conditions == Conditions::AdaptedVentcell))
+        throw OptionError(options.q ? "q is given, but belongs to the adapted Ventcell conditions alone"
+                                    : "q must be given with the adapted Ventcell conditions");
     const auto negative =
         std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });
     if (negative != options.labels.end())

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "partition/polygon_mesh.h"
+#include "solvers/interface/robin_parameter.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -23,7 +24,8 @@ enum class Conditions {
     AdaptedRobin,
     /// The paper's adapted Ventcell conditions (eqs. adaptedVentcell A and B); FlowOptions::q is required.
     AdaptedVentcell,
-    /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of faces.
+    /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of
+    /// faces.
     Schwarz,
 };
 
@@ -41,16 +43,6 @@ enum class PRule {
     Paper,
     /// η = 1 / dt.
     InverseStep,
-};
-
-/// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
-enum class PEdge {
-    /// The shortest, as in the paper. One sliver makes p* huge.
-    Minimum,
-    /// The edge that 5 % of all are shorter than.
-    Percentile,
-    /// The mean over half-edges.
-    Mean,
 };
 
 /// How the first sub-mesh to solve at a vertex of Γ learns of the sub-meshes on the other side.
@@ -104,14 +96,16 @@ struct FlowOptions {
     Conditions conditions = Conditions::AdaptedRobin;
     /// How a step is taken.
     Scheme scheme = Scheme::BackwardEuler;
-    /// How sub-meshes learn of each other with Conditions::AdaptedRobin. Predicted stays much closer to the undecomposed flow.
+    /// How sub-meshes learn of each other with Conditions::AdaptedRobin. Predicted stays much closer to the
+    /// undecomposed flow.
     Transmission transmission = Transmission::Predicted;
-    /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper (eq. ourP)
-    /// for each sub-mesh, by the two rules that follow.
+    /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper
+    /// (eq. ourP) for each sub-mesh, by the two rules that follow.
     std::optional<double> p;
     PRule p_rule = PRule::Paper;
     PEdge p_edge = PEdge::Minimum;
-    /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only there.
+    /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only
+    /// there.
     std::optional<double> q;
     /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1.
     int overlap = 1;

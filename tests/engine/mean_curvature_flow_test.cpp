@@ -196,3 +196,22 @@ TEST_CASE("a computation that fails names the sub-mesh and leaves the last compl
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), std::runtime_error);
     CHECK(mesh.vertices == before);
 }
+
+TEST_CASE("the decomposed flow stays nearer to the undecomposed one than with the paper's conditions")
+{
+    for (const Laplacian laplacian : test::all_laplacians) {
+        CAPTURE(name_of(laplacian));
+        FlowOptions options;
+        options.laplacian = laplacian;
+        options.time_step = 0.003;
+        options.steps = 4;
+        options.subdomains = 8;
+        options.reference = true;
+        const auto distance = [&](Transmission transmission) {
+            options.transmission = transmission;
+            PolygonMesh mesh = make_quads(2000);
+            return mean_curvature_flow(mesh, options).steps.back().distance->rms;
+        };
+        CHECK(distance(Transmission::Predicted) < 0.8 * distance(Transmission::Derivative));
+    }
+}

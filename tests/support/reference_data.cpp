@@ -91,6 +91,10 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
         options.subdomains = 1;
     else
         options.labels = data.at("labels").get<std::vector<Index>>();
+    if (data.at("conditions") == "adapted-ventcell") {
+        options.conditions = Conditions::AdaptedVentcell;
+        options.q = data.at("q").get<double>();
+    }
     if (!data.at("p").is_null())
         options.p = data.at("p").get<double>();
     for (const json& positions : data.at("positions_after_step"))
