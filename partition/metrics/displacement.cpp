@@ -30,8 +30,7 @@ DisplacementField displacement_field(const PolygonMesh& mesh, const Points& befo
     constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
     DisplacementField field;
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        const Displacement d =
-            split_displacement(after.row(v) - before.row(v), normals(v, before), normals(v, after));
+        const Displacement d = split_displacement(after.row(v) - before.row(v), normals(v, before), normals(v, after));
         field.tangential.push_back(d.defined ? d.tangential.norm() : undefined);
         field.normal.push_back(d.defined ? d.normal : undefined);
     }

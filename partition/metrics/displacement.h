@@ -17,9 +17,9 @@ struct Displacement {
     bool defined = false;
 };
 
-/// Splits the displacement V′ − V of a vertex at the direction n + n′, the sum of the unit normals of both states. The normal of
-/// one state alone would take the sagitta of every finite move along a curved surface for a move out of it; against
-/// n + n′ a turn of a sphere in itself, however far, is tangential, and neither state comes first.
+/// Splits the displacement V′ − V of a vertex at the direction n + n′, the sum of the unit normals of both states. The
+/// normal of one state alone would take the sagitta of every finite move along a curved surface for a move out of it;
+/// against n + n′ a turn of a sphere in itself, however far, is tangential, and neither state comes first.
 /// @param normal_before, normal_after n and n′, of length 1, or 0 where there is none: the other one counts alone then.
 Displacement split_displacement(const Point& displacement, const Point& normal_before, const Point& normal_after);
 

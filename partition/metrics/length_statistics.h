@@ -11,8 +11,8 @@ struct LengthStatistics {
     double max = 0.0;
 };
 
-/// Of the absolute values of `lengths`, those that are not a number left out; all 0 if none is left. Summed in order, so
-/// that the bits are always the same.
+/// Of the absolute values of `lengths`, those that are not a number left out; all 0 if none is left. Summed in order,
+/// so that the bits are always the same.
 LengthStatistics length_statistics(std::span<const double> lengths);
 
 }  // namespace seamflow

@@ -69,8 +69,8 @@ class NearestSearch {
     void intersection(const Point& p, const Primitive& primitive)
     {
         const Kernel::Triangle_3& t = *primitive.id();
-        squared_ = std::min(squared_, squared_distance_to_triangle(relative_to(p, t[0]), relative_to(p, t[1]),
-                                                                   relative_to(p, t[2])));
+        squared_ = std::min(
+            squared_, squared_distance_to_triangle(relative_to(p, t[0]), relative_to(p, t[1]), relative_to(p, t[2])));
     }
 
     template <class Node>

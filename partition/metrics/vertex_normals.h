@@ -8,10 +8,10 @@
 
 namespace seamflow {
 
-/// The normals of the vertices of a mesh in whatever positions: the sum of the vector areas of the faces around a vertex,
-/// so that large faces count for more. It is the direction in which the vertex adds most to the volume below the
-/// surface. Faces need not be oriented alike: around each vertex they are turned as the first one (that of the lowest
-/// corner) of their fan, which decides the sign.
+/// The normals of the vertices of a mesh in whatever positions: the sum of the vector areas of the faces around a
+/// vertex, so that large faces count for more. It is the direction in which the vertex adds most to the volume below
+/// the surface. Faces need not be oriented alike: around each vertex they are turned as the first one (that of the
+/// lowest corner) of their fan, which decides the sign.
 class VertexNormals {
   public:
     /// @param mesh, topology must outlive the normals.
