@@ -18,8 +18,8 @@ double squared_distance_to_inside(const Point& a, const Point& b, const Point& c
     double s = 0.0;
     double t = 0.0;
     Point foot = a;
-    // The second pass mends what the rounding of `height` did to the first one in a thin triangle.
-    for (int pass = 0; pass < 2; ++pass) {
+    // Further passes mend what the rounding of `height` did to the first one in a thin triangle.
+    for (int pass = 0; pass < 3; ++pass) {
         const double dt = -foot.dot(height) / hh;
         s -= (foot + dt * w).dot(u) / uu;
         t += dt;
