@@ -181,12 +181,14 @@ TEST_CASE("compare tells V_, H_ and displacements of meshes that correspond")
     REQUIRE(w.run(COMPARE " mesh.obj out.obj --report compared.json --direction both --error-map map.ply "
                           "--show tangential") == 0);
     const Json compared = w.json("compared.json");
+    const double edge = compared["mean_edge"].get<double>();
     for (const std::string name : {"v", "h", "h_back"})
-        for (const std::string key : {"_mean", "_rms", "_max"}) {
-            CHECK_MESSAGE(compared[name + key].get<double>() > 0.0, name + key);
-            CHECK_MESSAGE(compared[name + key + "_absolute"].get<double>() ==
-                              doctest::Approx(compared[name + key].get<double>() * compared["mean_edge"].get<double>()),
-                          name + key);
+        for (const std::string which : {"_mean", "_rms", "_max"}) {
+            const std::string key = name + which;
+            CAPTURE(key);
+            const double relative = compared[key].get<double>();
+            CHECK(relative > 0.0);
+            CHECK(compared[key + "_absolute"].get<double>() == doctest::Approx(relative * edge));
         }
     for (const char* key :
          {"tangential_mean", "tangential_rms", "tangential_max", "normal_mean", "normal_rms", "normal_max"})
