@@ -141,7 +141,7 @@ TEST_CASE("a large offset costs nothing")
     points.rowwise() += offset;
     check_against_brute_force(mesh, points);
     // Close to the surface, too: a point above the middle of a triangle by four units in the last place.
-    PolygonMesh triangle =
+    const PolygonMesh triangle =
         test::make_mesh(Points{{1e6, 1e6, 1e6}, {1e6 + 3.0, 1e6, 1e6}, {1e6, 1e6 + 3.0, 1e6}}, {{0, 1, 2}});
     const double height = 0x1p-31;
     CHECK(SurfaceDistance(triangle)(Points{{1e6 + 1.0, 1e6 + 1.0, 1e6 + height}})[0] == height);
@@ -149,11 +149,10 @@ TEST_CASE("a large offset costs nothing")
 
 TEST_CASE("vertices lie on their own surface")
 {
-    for (const auto& [name, mesh, topology] : test::assorted_meshes()) {
-        CAPTURE(name);
-        if (mesh.n_faces() == 0)
-            continue;
-        CHECK(surface_distance(mesh, mesh).max == 0.0);
+    for (const test::NamedMesh& named : test::assorted_meshes()) {
+        CAPTURE(named.name);
+        if (named.mesh.n_faces() > 0)
+            CHECK(surface_distance(named.mesh, named.mesh).max == 0.0);
     }
 }
 
