@@ -35,7 +35,7 @@ SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step)
         choice.reason =
             number + " chosen: more would be narrower than 10 √dt, where the result drifts from the undecomposed flow";
     else
-        choice.reason = number + " chosen: about 2,500 vertices in each cost least";
+        choice.reason = number + " chosen: blocks of about 2,500 vertices are cheap, and wide enough against √dt";
     return choice;
 }
 

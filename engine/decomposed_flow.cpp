@@ -7,6 +7,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "engine/single_threaded_libraries.h"
 #include "engine/sweep_order.h"
 #include "partition/errors.h"
 #include "solvers/interface/robin_parameter.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// Runs `body` for a sub-mesh; failures come out with its name.
+/// Runs `body` for a sub-mesh, in one thread; failures come out with its name.
 template <class Body>
 void on_behalf_of(const SubMesh& sub_mesh, Index s, Body&& body)
 {
@@ -25,6 +26,7 @@ void on_behalf_of(const SubMesh& sub_mesh, Index s, Body&& body)
         return "sub-mesh " + std::to_string(s) + " (" + std::to_string(sub_mesh.n_vertices) +
                " vertices, among its faces number " + std::to_string(sub_mesh.faces.front()) + "): ";
     };
+    const SingleThreadedOpenMp single_threaded;
     try {
         body();
     } catch (const ComputationError& error) {

@@ -15,9 +15,10 @@ namespace seamflow {
 /// A mesh flowing in pieces: one task graph, built once, run once per step. Per sub-mesh it has three tasks:
 ///
 ///     assemble and factorise ──► solve ──► correct
-///                                 ▲  │        ▲
-///        solve of adjacent sub-   │  │        │  solve of all
-///        meshes of lower colour ──┘  └─ …     └─ adjacent sub-meshes
+///                                  ▲         ▲
+///        solve of the adjacent ────┘         └──── solve of all
+///        sub-meshes that lead                      adjacent sub-meshes
+///        it on Γ
 ///
 /// No barrier stands between colours. Belongs to the arena in which it is constructed.
 class DecomposedFlow {

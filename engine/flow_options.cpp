@@ -39,9 +39,11 @@ FlowOptions FlowOptions::plain()
 void require_valid(const FlowOptions& options)
 {
     require(positive_and_finite(options.time_step), "time_step", options.time_step, "positive and finite (length²)");
-    require(options.steps >= 0, "steps", options.steps, "at least 0");
+    require(options.steps >= 0 && options.steps <= FlowOptions::most_steps, "steps", options.steps,
+            "at least 0 and at most 1000000000");
     require(options.subdomains >= 0, "subdomains", options.subdomains, "at least 0 (0: chosen)");
-    require(options.threads >= 0, "threads", options.threads, "at least 0 (0: as many as the calling TBB arena has)");
+    require(options.threads >= 0 && options.threads <= FlowOptions::most_threads, "threads", options.threads,
+            "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
     if (options.p)
         require(positive_and_finite(*options.p), "p", *options.p, "positive and finite (1/length)");
     const auto negative =

@@ -11,10 +11,9 @@ namespace seamflow {
 /// How the sub-meshes are coloured. Sub-meshes of one colour are independent; colours are solved in turn.
 enum class Coloring {
     /// Two colours (red-black) where the sub-mesh adjacency is bipartite, few otherwise. Colour classes are solved in
-    /// order of
-    /// decreasing total curvature Σ‖ΔV⁰‖.
+    /// order of decreasing total curvature Σ‖ΔV⁰‖.
     Greedy,
-    /// The colour of a sub-mesh is its label: sub-mesh 0 solves first, then 1, and so on.
+    /// The colour of a sub-mesh is its label: in a forward sweep sub-mesh 0 solves first, then 1, and so on.
     Label,
 };
 
@@ -44,12 +43,15 @@ enum class Correction {
 
 /// Everything that decides about a flow.
 struct FlowOptions {
+    static constexpr int most_steps = 1'000'000'000;
+    static constexpr int most_threads = 1024;
+
     /// Which discrete Laplacian drives the flow.
     Laplacian laplacian = Laplacian::Fujiwara;
     /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
     /// positive and finite.
     double time_step = 0.0;
-    /// Number of steps, at least 0 (0 leaves the mesh as it is).
+    /// Number of steps, from 0 (which leaves the mesh as it is) to most_steps.
     int steps = 1;
     /// Number of sub-meshes. 1: undecomposed. 0: chosen from the size of the mesh and of √dt. Every component of the
     /// mesh has at least one sub-mesh of its own, and no sub-mesh is cut too small, so the number used (see FlowReport)
@@ -68,7 +70,8 @@ struct FlowOptions {
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
     Correction correction = Correction::Centroid;
-    /// Threads used. 0: those of the calling TBB arena. The result is the same, bit for bit, for any number.
+    /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
+    /// result is the same, bit for bit, for any number.
     int threads = 0;
     /// Also run the undecomposed flow and report the distance to it after each step.
     bool reference = false;
@@ -79,7 +82,7 @@ struct FlowOptions {
 };
 
 /// Checks every field against its limits.
-/// @throws OptionError naming the field, its value and its limits.
+/// @throws OptionError naming the field, its value and its limits; InputError naming the face for a negative label.
 void require_valid(const FlowOptions& options);
 
 }  // namespace seamflow

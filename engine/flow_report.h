@@ -40,7 +40,8 @@ struct TotalDisplacement {
 struct StepReport {
     /// Wall-clock time.
     double seconds = 0.0;
-    /// Largest length of the mean curvature vector ΔV over all vertices that may move, in 1/length.
+    /// Largest length of the mean curvature vector ΔV over all vertices that may move, in 1/length (where it is finite:
+    /// edges or faces that the flow has shrunk to nothing do not count).
     double max_mean_curvature_before = 0.0;
     double max_mean_curvature_after = 0.0;
     /// How far the vertices moved in this step, in units of length (see split_displacement).

@@ -55,6 +55,17 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
     }
 }
 
+/// Failures of `body` come out with a name before them.
+template <class Body>
+void named(const std::string& name, Body&& body)
+{
+    try {
+        body();
+    } catch (const ComputationError& error) {
+        throw ComputationError(name + ", " + error.what());
+    }
+}
+
 void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const StepObserver& on_step,
                std::vector<double> curvature, DecomposedFlow& flow, DecomposedFlow* reference, FlowReport& report)
 {
@@ -62,7 +73,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
     DisplacementMeter meter(mesh, topology);
     for (int step = 1; step <= options.steps; ++step) {
         Stopwatch watch;
-        flow.step();
+        named("step " + std::to_string(step), [&] { flow.step(); });
         StepReport& of_step = report.steps.emplace_back();
         of_step.seconds = watch.lap();
         report.seconds.step += of_step.seconds;
@@ -74,7 +85,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
         report.seconds.total += of_step.seconds + watch.lap();
         if (reference != nullptr) {
-            reference->step();
+            named("step " + std::to_string(step) + " of the undecomposed flow", [&] { reference->step(); });
             of_step.reference_seconds = watch.lap();
             of_step.distance = vertex_distance(mesh, reference->positions(), flow.positions());
         }

@@ -12,7 +12,8 @@ namespace seamflow {
 /// @param mesh its positions are moved; after an exception they are those of the last complete step.
 /// @param on_step called after each step.
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits,
-///         ComputationError, naming the sub-mesh, for a system that is singular or a result that is not finite.
+///         ComputationError, naming step and sub-mesh, for a system that is singular or a result that is not finite,
+///         and for a failure of METIS; std::bad_alloc.
 FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {});
 
 }  // namespace seamflow

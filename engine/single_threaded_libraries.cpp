@@ -50,21 +50,21 @@ SingleThreadedBlas::~SingleThreadedBlas()
         set(blas_threads().before);
 }
 
-int forbid_openmp_threads()
+SingleThreadedOpenMp::SingleThreadedOpenMp()
 {
-    const auto get = find_function<int()>("omp_get_max_active_levels");
-    const auto set = find_function<void(int)>("omp_set_max_active_levels");
+    static const auto get = find_function<int()>("omp_get_max_active_levels");
+    static const auto set = find_function<void(int)>("omp_set_max_active_levels");
     if (get == nullptr || set == nullptr)
-        return 0;
-    const int levels = get();
+        return;
+    levels_before_ = get();
     set(0);
-    return levels;
 }
 
-void restore_openmp_threads(int levels)
+SingleThreadedOpenMp::~SingleThreadedOpenMp()
 {
-    if (const auto set = find_function<void(int)>("omp_set_max_active_levels"))
-        set(levels);
+    static const auto set = find_function<void(int)>("omp_set_max_active_levels");
+    if (set != nullptr)
+        set(levels_before_);
 }
 
 }  // namespace seamflow

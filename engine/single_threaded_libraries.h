@@ -12,11 +12,17 @@ class SingleThreadedBlas {
     SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
 };
 
-/// Keeps OpenMP regions that are started from the calling thread on that one thread.
-/// @returns what `restore_openmp_threads` needs to undo it.
-int forbid_openmp_threads();
+/// Keeps OpenMP regions that the calling thread starts on that one thread while it lives. To be destroyed in the same
+/// thread. Does nothing where there is no OpenMP.
+class SingleThreadedOpenMp {
+  public:
+    SingleThreadedOpenMp();
+    ~SingleThreadedOpenMp();
+    SingleThreadedOpenMp(const SingleThreadedOpenMp&) = delete;
+    SingleThreadedOpenMp& operator=(const SingleThreadedOpenMp&) = delete;
 
-/// Undoes forbid_openmp_threads in the same thread.
-void restore_openmp_threads(int levels);
+  private:
+    int levels_before_ = 0;
+};
 
 }  // namespace seamflow

@@ -10,8 +10,9 @@ namespace seamflow {
 /// A graph of tasks with fixed dependencies, built once and run as often as wanted (a oneTBB flow graph of continue
 /// nodes). Belongs to the arena in which it is constructed.
 ///
-/// Tasks may throw: the tasks after it in time are then skipped, and `run` throws what the task with the lowest number
-/// among those that failed has thrown. The graph can be run again.
+/// Tasks may throw: tasks that have not started by then are skipped, and `run` throws what the task with the lowest
+/// number among those that failed has thrown (with several failures, which ones happened depends on timing). The graph
+/// can be run again.
 class TaskGraph {
   public:
     /// Number of a task or of a root.

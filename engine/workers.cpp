@@ -1,51 +1,16 @@
 #include "engine/workers.h"
 
+#include <algorithm>
 #include <optional>
-#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_scheduler_observer.h>
 
 #include "engine/single_threaded_libraries.h"
 
 namespace seamflow {
 
-namespace {
-
 namespace tbb = oneapi::tbb;
-
-/// Silences OpenMP in every thread that enters an arena, and restores it when the thread leaves.
-class OpenMpSilencer final : public tbb::task_scheduler_observer {
-  public:
-    explicit OpenMpSilencer(tbb::task_arena& arena)
-        : task_scheduler_observer(arena)
-    {
-        observe(true);
-    }
-
-    ~OpenMpSilencer() override { observe(false); }
-
-    void on_scheduler_entry(bool) override { levels_before().push_back(forbid_openmp_threads()); }
-
-    void on_scheduler_exit(bool) override
-    {
-        if (levels_before().empty())
-            return;
-        restore_openmp_threads(levels_before().back());
-        levels_before().pop_back();
-    }
-
-  private:
-    /// What the thread goes back to; one entry for each arena that it is in.
-    static std::vector<int>& levels_before()
-    {
-        thread_local std::vector<int> levels;
-        return levels;
-    }
-};
-
-}  // namespace
 
 class Workers::Arena {
   public:
@@ -60,13 +25,11 @@ class Workers::Arena {
         } else {
             arena.initialize(tbb::task_arena::attach());
         }
-        silencer.emplace(arena);
     }
 
     std::optional<tbb::global_control> limit;
     tbb::task_arena arena;
     SingleThreadedBlas single_threaded_blas;
-    std::optional<OpenMpSilencer> silencer;
 };
 
 Workers::Workers(int threads)
@@ -83,7 +46,8 @@ void Workers::execute(const std::function<void()>& work)
 
 int Workers::threads() const
 {
-    return arena_->arena.max_concurrency();
+    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::min(arena_->arena.max_concurrency(), static_cast<int>(allowed));
 }
 
 }  // namespace seamflow

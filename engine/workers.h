@@ -5,8 +5,8 @@
 
 namespace seamflow {
 
-/// The threads that a flow runs on. While it lives, BLAS and OpenMP stay single-threaded on them: the parallelism is in
-/// the tasks, and libraries that start threads of their own inside each task slow all of them down.
+/// The threads that a flow runs on. While it lives, BLAS stays single-threaded: the parallelism is in the tasks, and
+/// libraries that start threads of their own inside each task slow all of them down.
 class Workers {
   public:
     /// @param threads their number, the calling thread included; 0: the arena of the caller with the limits it has.
@@ -18,7 +18,7 @@ class Workers {
     /// Runs `work` so that everything parallel in it uses these threads.
     void execute(const std::function<void()>& work);
 
-    /// How many there are.
+    /// How many there are, within the limits that the program has set (oneTBB's global_control).
     [[nodiscard]] int threads() const;
 
   private:

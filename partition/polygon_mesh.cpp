@@ -22,17 +22,18 @@ void require_valid_offsets(const PolygonMesh& mesh)
 void require_valid_face(const PolygonMesh& mesh, Index f, std::vector<Index>& last_face_of)
 {
     const auto corners = mesh.face(f);
-    const std::string face = "face " + std::to_string(f) + " (numbered from 0)";
+    const auto face = [f] { return "face " + std::to_string(f) + " (numbered from 0)"; };
     if (corners.size() < 3)
-        throw InputError(face + " has " + std::to_string(corners.size()) +
+        throw InputError(face() + " has " + std::to_string(corners.size()) +
                          " corners: a face needs at least 3; remove the face");
     for (const Index v : corners) {
         if (v < 0 || v >= mesh.n_vertices())
-            throw InputError(face + " names vertex " + std::to_string(v) + ", but the mesh has " +
+            throw InputError(face() + " names vertex " + std::to_string(v) + ", but the mesh has " +
                              std::to_string(mesh.n_vertices()) + " vertices");
-        if (last_face_of[static_cast<std::size_t>(v)] == f)
-            throw InputError(face + " names vertex " + std::to_string(v) + " twice: split the face there or remove it");
-        last_face_of[static_cast<std::size_t>(v)] = f;
+        if (last_face_of[at(v)] == f)
+            throw InputError(face() + " names vertex " + std::to_string(v) +
+                             " twice: split the face there or remove it");
+        last_face_of[at(v)] = f;
     }
 }
 
@@ -41,7 +42,7 @@ void require_valid_face(const PolygonMesh& mesh, Index f, std::vector<Index>& la
 void require_valid(const PolygonMesh& mesh)
 {
     require_valid_offsets(mesh);
-    std::vector<Index> last_face_of(static_cast<std::size_t>(mesh.n_vertices()), -1);
+    std::vector<Index> last_face_of(at(mesh.n_vertices()), -1);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         require_valid_face(mesh, f, last_face_of);
     for (Index v = 0; v < mesh.n_vertices(); ++v)

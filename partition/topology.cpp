@@ -85,13 +85,12 @@ Index other_end(const PolygonMesh& mesh, const Topology& topology, Index h, Inde
     return start == v ? mesh.face_vertices[at(topology.next(mesh, h))] : start;
 }
 
-/// Walks from `corner` across its half-edge `spoke` and on, face by face, as long as the faces belong to the fan.
+/// Walks from corner `start` across its half-edge `spoke` and on, face by face, as long as the faces belong to the fan.
 /// @returns the last half-edge reached; `visit` gets each further corner.
 template <class Belongs, class Visit>
-Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index corner, Index spoke, Belongs&& belongs,
+Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index start, Index spoke, Belongs&& belongs,
            Visit&& visit)
 {
-    const Index start = corner;
     for (;;) {
         const Index across = topology.twin[at(spoke)];
         if (across < 0 || !belongs(topology.face_of[at(across)]))
@@ -102,7 +101,6 @@ Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index cor
         visit(next_corner);
         const auto spokes = spokes_of(mesh, topology, next_corner);
         spoke = spokes[0] == across ? spokes[1] : spokes[0];
-        corner = next_corner;
     }
 }
 

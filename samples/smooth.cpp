@@ -4,8 +4,9 @@
 //
 //     assemble and factorise ──► solve ──► correct the interface
 //                                  ▲         ▲
-//           solve of the adjacent ─┘         └─ solve of all sub-meshes around
-//           sub-meshes of lower colour
+//        solve of the adjacent ────┘         └─ solve of all sub-meshes around
+//        sub-meshes of lower colour
+//        that it takes values from
 
 #include <iostream>
 
@@ -31,7 +32,8 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double me
     if (!command.time_step_edges)
         return;
     if (mean_edge <= 0.0)
-        throw InputError(command.input.string() + ": has no edges of any length to measure --time-step-edges by");
+        throw InputError(command.input.string() +
+                         ": has no edges of any length to measure --time-step-edges by; use --time-step");
     command.options.time_step = *command.time_step_edges * mean_edge * mean_edge;
 }
 

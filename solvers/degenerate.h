@@ -7,7 +7,7 @@
 namespace seamflow {
 
 /// Checks that the Laplacian's coefficients are finite at all vertices that may move: Fujiwara divides by the lengths
-/// of their edges, Alexa-Wardetzky and Ptáčková-Velho by the areas of their faces.
+/// of their edges, Alexa-Wardetzky by the areas of their faces, Ptáčková-Velho also by those of the faces next to them.
 /// @throws InputError naming the first edge without length or face without area, and what to do.
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian);
 

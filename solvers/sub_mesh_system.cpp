@@ -95,7 +95,9 @@ void SubMeshSystem::factorise()
 {
     const auto values = std::span<const double>(values_).first(values_.size() - 1);
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-        throw ComputationError("the equations are not finite: a face has no area or an edge no length");
+        throw ComputationError("the equations are not finite, because the time step is too large for the mesh or the "
+                               "flow has taken a face's area or an "
+                               "edge's length: use a smaller time step or fewer steps");
     solver_->factorise(values);
 }
 
@@ -107,7 +109,7 @@ void SubMeshSystem::solve(Points& solution)
             right_hand_side_.row(vertices[i]) = solution.row(vertices[i]);
     solver_->solve(std::span<const double>(values_).first(values_.size() - 1), right_hand_side_, solution_);
     if (!solution_.allFinite())
-        throw ComputationError("the result is not finite");
+        throw ComputationError("the result is not finite: use a smaller time step");
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
         solution.row(v) = row_of_[at(v)] == Row::Fixed ? right_hand_side_.row(v) : solution_.row(v);
     for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -43,7 +43,7 @@ void require_ok(long status, const char* task)
     if (status == UMFPACK_OK)
         return;
     if (status == UMFPACK_WARNING_singular_matrix)
-        throw ComputationError("the system is singular");
+        throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
     if (status == UMFPACK_ERROR_out_of_memory)
         throw ComputationError(std::string("out of memory in the ") + task + " of the system: use more sub-meshes");
     throw ComputationError(std::string("UMFPACK's ") + task + " failed with status " + std::to_string(status));

@@ -77,15 +77,4 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
     return labels;
 }
 
-void write_labels(const std::filesystem::path& path, std::span<const Index> labels)
-{
-    std::ofstream file(path);
-    for (const Index label : labels)
-        file << label << '\n';
-    file.close();
-    if (!file)
-        throw OutputError(path.string() + ": cannot write the labels: check the folder, its permissions and the space "
-                                          "left on the disk");
-}
-
 }  // namespace seamflow

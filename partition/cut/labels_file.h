@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <vector>
 
 #include "partition/polygon_mesh.h"
@@ -12,9 +11,5 @@ namespace seamflow {
 /// faces. Blank lines and whatever follows a # are skipped.
 /// @throws InputError "path:line: …" if the file cannot be read, a line is not a label, or there are not n_faces.
 std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces);
-
-/// Writes labels in the format of read_labels.
-/// @throws OutputError if the file cannot be written.
-void write_labels(const std::filesystem::path& path, std::span<const Index> labels);
 
 }  // namespace seamflow

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <set>
 #include <string_view>
 #include <system_error>
 
 #include <unistd.h>
 
 #include "partition/errors.h"
+#include "partition/io/output_file.h"
 
 namespace seamflow {
 
@@ -25,14 +26,6 @@ namespace fs = std::filesystem;
 fs::path directory_of(const fs::path& path)
 {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-void write_and_flush(const fs::path& path, const std::string& text)
-{
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file << text << std::flush;
-    if (!file)
-        refuse(path, std::strerror(errno));
 }
 
 bool has_isolated_vertices(const PolygonMesh& mesh)
@@ -54,23 +47,20 @@ void require_writable(const fs::path& path)
     if (!fs::is_directory(directory, ignored))
         refuse(path, "for there is no directory " + directory.string());
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
-        return;  // a device or pipe: seen when written to
+        refuse(path, "for it is a device or a pipe");
     if (access(directory.c_str(), W_OK | X_OK) != 0)
         refuse(path, "for its directory may not be written to: " + std::string(std::strerror(errno)));
 }
 
 void require_different(const std::vector<fs::path>& paths)
 {
-    std::vector<fs::path> resolved;
+    std::set<fs::path> places;
     for (const fs::path& path : paths) {
         std::error_code error;
         fs::path place = fs::weakly_canonical(path, error);
-        resolved.push_back(error ? fs::absolute(path).lexically_normal() : place);
+        if (!places.insert(error ? fs::absolute(path).lexically_normal() : place).second)
+            throw OptionError(path.string() + " is named for two different files");
     }
-    for (std::size_t i = 0; i < paths.size(); ++i)
-        if (std::find(resolved.begin(), resolved.begin() + static_cast<std::ptrdiff_t>(i), resolved[i]) !=
-            resolved.begin() + static_cast<std::ptrdiff_t>(i))
-            throw OptionError(paths[i].string() + " is named for two different files");
 }
 
 void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileKind& kind)
@@ -87,22 +77,9 @@ void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileK
 
 void write_text(const fs::path& path, const std::string& text)
 {
-    std::error_code error;
-    if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-        return write_and_flush(path, text);
-    const fs::path temporary = path.string() + ".part" + std::to_string(getpid());
-    try {
-        write_and_flush(temporary, text);
-        fs::rename(temporary, path, error);
-    } catch (const OutputError&) {
-        fs::remove(temporary, error);
-        throw;
-    }
-    if (error) {
-        const std::string reason = error.message();
-        fs::remove(temporary, error);
-        refuse(path, reason);
-    }
+    OutputFile file(path);
+    file.text(text);
+    file.commit();
 }
 
 }  // namespace seamflow

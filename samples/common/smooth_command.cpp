@@ -41,7 +41,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "leave the vertices of the interface where the step puts them");
     add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
                       "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
-    add_integer(app, "--threads", options.threads, 0, "number of threads; 0: all cores [0]");
+    add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
 }
 
@@ -66,9 +66,15 @@ void require_consistent(bool plain, const SmoothCommand& command)
         throw OptionError("--parts " + command.parts.string() + ": the cut is written as .ply only");
 }
 
+/// The most that --every-step may write.
+constexpr int most_files = 100'000;
+
 /// Also keeps every result but OUTPUT from replacing one of the inputs.
 void require_usable_files(const SmoothCommand& command)
 {
+    if (command.every_step && command.options.steps > most_files)
+        throw OptionError("--every-step would write " + std::to_string(command.options.steps) + " files; " +
+                          std::to_string(most_files) + " are the most");
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));

@@ -156,6 +156,8 @@ TEST_CASE("options outside their limits are refused by name")
     refused([](FlowOptions& o) { o.steps = -1; }, "steps");
     refused([](FlowOptions& o) { o.subdomains = -1; }, "subdomains");
     refused([](FlowOptions& o) { o.threads = -1; }, "threads");
+    refused([](FlowOptions& o) { o.threads = 1025; }, "threads");
+    refused([](FlowOptions& o) { o.steps = 2'000'000'000; }, "steps");
 }
 
 TEST_CASE("labels that do not fit the mesh are refused")

@@ -99,6 +99,23 @@ PolygonMesh cylinder(Index m, Index n)
     return mesh;
 }
 
+PolygonMesh moebius_band(Index m, Index n)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(m * (n + 1), 3);
+    const auto vertex = [&](Index i, Index j) { return i < m ? i * (n + 1) + j : n - j; };
+    for (Index i = 0; i < m; ++i)
+        for (Index j = 0; j <= n; ++j) {
+            const double u = 2 * std::numbers::pi * i / m;
+            const double across = 2.0 * j / n - 1.0;
+            const double r = 3 + across * std::cos(u / 2);
+            mesh.vertices.row(vertex(i, j)) << r * std::cos(u), r * std::sin(u), across * std::sin(u / 2);
+            if (j < n)
+                mesh.add_face(std::array{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    return mesh;
+}
+
 PolygonMesh hexagon_sheet(Index m, Index n)
 {
     // A brick wall: bricks two cells wide, each row shifted by one cell; a brick has six corners.
@@ -146,6 +163,20 @@ PolygonMesh side_by_side(const std::vector<PolygonMesh>& meshes)
         }
     }
     return all;
+}
+
+PolygonMesh with_faces_flipped(const PolygonMesh& mesh, std::uint32_t seed)
+{
+    std::mt19937 generator(seed);
+    PolygonMesh flipped;
+    flipped.vertices = mesh.vertices;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());
+        if (generator() % 2 == 0)
+            std::reverse(corners.begin(), corners.end());
+        flipped.add_face(corners);
+    }
+    return flipped;
 }
 
 std::vector<NamedMesh> assorted_meshes()

@@ -24,6 +24,9 @@ PolygonMesh triangle_torus(Index m, Index n);
 /// An open cylinder of m quads around and n along, m at least 3.
 PolygonMesh cylinder(Index m, Index n);
 
+/// A Möbius band of m by n quads, m and n at least 3, that joins its ends with a half-turn.
+PolygonMesh moebius_band(Index m, Index n);
+
 /// A flat sheet of m by n hexagons; those at two sides have open neighbours on zigzag edges.
 PolygonMesh hexagon_sheet(Index m, Index n);
 
@@ -38,6 +41,9 @@ PolygonMesh hourglass();
 
 /// All meshes in one, side by side, sharing nothing.
 PolygonMesh side_by_side(const std::vector<PolygonMesh>& meshes);
+
+/// The mesh with about every second face turned round, at random.
+PolygonMesh with_faces_flipped(const PolygonMesh& mesh, std::uint32_t seed);
 
 /// A mesh with a name for the messages of tests.
 struct NamedMesh {

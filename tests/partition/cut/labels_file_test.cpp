@@ -46,16 +46,6 @@ TEST_CASE("labels are read, one a line, with comments and blank lines between")
     CHECK(read_labels(file.path(), 4) == std::vector<Index>{0, 1, 1, 2147483647});
 }
 
-TEST_CASE("what is written is read back")
-{
-    const TemporaryFile file("");
-    const std::vector<Index> labels{3, 0, 0, 12};
-    write_labels(file.path(), labels);
-    CHECK(read_labels(file.path(), 4) == labels);
-    write_labels(file.path(), {});
-    CHECK(read_labels(file.path(), 0).empty());
-}
-
 TEST_CASE("a bad line is named")
 {
     CHECK(refusal("0\n1.5\n", 2).starts_with(":2: '1.5' is not a label"));
@@ -72,9 +62,8 @@ TEST_CASE("too few and too many labels are refused")
     CHECK(refusal("", 1).starts_with(":1: the file ends after 0 of 1 labels"));
 }
 
-TEST_CASE("files that cannot be read or written are refused")
+TEST_CASE("files that cannot be read are refused")
 {
     CHECK_THROWS_AS(read_labels("/nonexistent/labels.txt", 1), InputError);
     CHECK_THROWS_AS(read_labels(std::filesystem::temp_directory_path(), 1), InputError);
-    CHECK_THROWS_AS(write_labels("/nonexistent/labels.txt", std::vector<Index>{0}), OutputError);
 }

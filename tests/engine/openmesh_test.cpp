@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "engine/openmesh.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+#include "tests/support/openmesh.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+FlowOptions two_steps()
+{
+    FlowOptions options;
+    options.time_step = 0.002;
+    options.steps = 2;
+    options.subdomains = 4;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("the points of an OpenMesh mesh flow as those of the same polygon mesh", Mesh, FloatPolyMesh,
+                   DoublePolyMesh, FloatTriMesh, DoubleTriMesh)
+{
+    Mesh mesh = openmesh_of<Mesh>(make_triangles(400));
+    const PolygonMesh before = to_polygon_mesh(mesh);
+    int n_observed = 0;
+    const FlowReport report = mean_curvature_flow(mesh, two_steps(), [&](const StepState&) { ++n_observed; });
+    CHECK(n_observed == 2);
+    CHECK(report.subdomains == 4);
+    const PolygonMesh after = to_polygon_mesh(mesh);
+    CHECK(after.face_vertices == before.face_vertices);
+    const Points expected = flowed(before, two_steps());
+    const bool is_single = std::is_same_v<typename Mesh::Scalar, float>;
+    CHECK(after.vertices == (is_single ? Points(expected.cast<float>().cast<double>()) : expected));
+
+    const Topology topology = make_topology(before);
+    Index n_moved = 0;
+    for (Index v = 0; v < before.n_vertices(); ++v) {
+        const bool moved = after.vertices.row(v) != before.vertices.row(v);
+        n_moved += moved ? 1 : 0;
+        if (topology.kind[at(v)] == VertexKind::Boundary)
+            CHECK(!moved);
+    }
+    CHECK(n_moved > 300);
+}
+
+TEST_CASE("after a failure the points are those of the last complete step")
+{
+    DoublePolyMesh mesh = openmesh_of<DoublePolyMesh>(make_quads(400));
+    const PolygonMesh before = to_polygon_mesh(mesh);
+    Points after_first;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, two_steps(),
+                                        [&](const StepState& state) {
+                                            after_first = state.positions;
+                                            throw std::runtime_error("stop");
+                                        }),
+                    std::runtime_error);
+    CHECK(to_polygon_mesh(mesh).vertices == after_first);
+    CHECK(after_first != before.vertices);
+}

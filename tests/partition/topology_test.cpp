@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <set>
+
+#include <doctest/doctest.h>
+
+#include "partition/topology.h"
+#include "samples/common/meshes.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+using Edge = std::pair<Index, Index>;
+
+Edge edge_of(const PolygonMesh& mesh, const Topology& topology, Index h)
+{
+    return std::minmax(mesh.face_vertices[at(h)], mesh.face_vertices[at(topology.next(mesh, h))]);
+}
+
+Index count(const Topology& topology, VertexKind kind)
+{
+    return static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), kind));
+}
+
+void check_twins(const PolygonMesh& mesh, const Topology& topology)
+{
+    std::multiset<Edge> edges;
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        edges.insert(edge_of(mesh, topology, h));
+    REQUIRE(topology.twin.size() == at(mesh.n_corners()));
+    for (Index h = 0; h < mesh.n_corners(); ++h) {
+        const Index twin = topology.twin[at(h)];
+        CHECK((twin >= 0) == (edges.count(edge_of(mesh, topology, h)) == 2));
+        if (twin < 0)
+            continue;
+        CHECK(twin != h);
+        CHECK(topology.twin[at(twin)] == h);
+        CHECK(topology.face_of[at(twin)] != topology.face_of[at(h)]);
+        CHECK(edge_of(mesh, topology, twin) == edge_of(mesh, topology, h));
+    }
+}
+
+void check_corners(const PolygonMesh& mesh, const Topology& topology)
+{
+    std::size_t n_corners = 0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const auto corners = topology.corners_at(v);
+        n_corners += corners.size();
+        CHECK(std::is_sorted(corners.begin(), corners.end()));
+        CHECK(corners.empty() == (topology.kind[at(v)] == VertexKind::Isolated));
+        for (const Index h : corners) {
+            CHECK(mesh.face_vertices[at(h)] == v);
+            CHECK(topology.next(mesh, topology.previous(mesh, h)) == h);
+            CHECK(topology.previous(mesh, topology.next(mesh, h)) == h);
+        }
+    }
+    CHECK(n_corners == mesh.face_vertices.size());
+}
+
+/// Every face with the label at v lies in one fan; consecutive ones share an edge at v, and so do first and last faces
+/// of a closed fan.
+void check_fans(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index label, Index v)
+{
+    const auto belongs = [&](Index h) { return labels.empty() || labels[at(topology.face_of[at(h)])] == label; };
+    const auto share_spoke = [&](Index a, Index b) {
+        for (const Index h : {a, topology.previous(mesh, a)})
+            if (const Index twin = topology.twin[at(h)]; twin >= 0 && (twin == b || twin == topology.previous(mesh, b)))
+                return true;
+        return false;
+    };
+    const auto corners = topology.corners_at(v);
+    std::vector<Index> found;
+    for (const Fan& fan : fans_at(mesh, topology, v, labels, label)) {
+        REQUIRE(!fan.corners.empty());
+        for (std::size_t i = 0; i + 1 < fan.corners.size(); ++i)
+            CHECK(share_spoke(fan.corners[i], fan.corners[i + 1]));
+        CHECK((fan.first == fan.last) == fan.closed);
+        if (fan.closed)
+            CHECK(share_spoke(fan.corners.back(), fan.corners.front()));
+        for (const auto& [corner, end] :
+             {std::pair(fan.corners.front(), fan.first), std::pair(fan.corners.back(), fan.last)})
+            CHECK((mesh.face_vertices[at(topology.next(mesh, corner))] == end ||
+                   mesh.face_vertices[at(topology.previous(mesh, corner))] == end));
+        found.insert(found.end(), fan.corners.begin(), fan.corners.end());
+    }
+    std::sort(found.begin(), found.end());
+    std::vector<Index> expected;
+    std::copy_if(corners.begin(), corners.end(), std::back_inserter(expected), belongs);
+    CHECK(found == expected);
+}
+
+}  // namespace
+
+TEST_CASE("twins are mutual and join the two faces of an edge, whichever way the faces run")
+{
+    for (const NamedMesh& m : assorted_meshes()) {
+        CAPTURE(m.name);
+        check_twins(m.mesh, m.topology);
+        check_corners(m.mesh, m.topology);
+        const PolygonMesh mixed = with_faces_flipped(m.mesh, 3);
+        const Topology topology = make_topology(mixed);
+        check_twins(mixed, topology);
+        CHECK(topology.kind == m.topology.kind);
+    }
+}
+
+TEST_CASE("a closed mesh has interior vertices only")
+{
+    for (const PolygonMesh& mesh : {quad_torus(9, 5), triangle_torus(3, 3), make_noisy_sphere(200)}) {
+        const Topology topology = make_topology(mesh);
+        CHECK(count(topology, VertexKind::Interior) == mesh.n_vertices());
+        CHECK(std::none_of(topology.twin.begin(), topology.twin.end(), [](Index twin) { return twin < 0; }));
+    }
+}
+
+TEST_CASE("the boundary of an open mesh is found")
+{
+    const Topology grid = make_topology(quad_grid(5, 4));
+    CHECK(count(grid, VertexKind::Boundary) == 18);
+    CHECK(count(grid, VertexKind::Interior) == 12);
+    const Topology tube = make_topology(cylinder(7, 3));
+    CHECK(count(tube, VertexKind::Boundary) == 14);
+    CHECK(count(tube, VertexKind::Interior) == 14);
+}
+
+TEST_CASE("a Möbius band is a manifold with one boundary")
+{
+    const PolygonMesh mesh = moebius_band(10, 4);
+    const Topology topology = make_topology(mesh);
+    check_twins(mesh, topology);
+    CHECK(count(topology, VertexKind::NonManifold) == 0);
+    CHECK(count(topology, VertexKind::Boundary) == 20);
+    CHECK(count(topology, VertexKind::Interior) == 30);
+    CHECK(std::count(topology.twin.begin(), topology.twin.end(), -1) == 20);
+}
+
+TEST_CASE("an edge of three faces pairs nothing and its ends are not manifold")
+{
+    const PolygonMesh mesh = three_wings();
+    const Topology topology = make_topology(mesh);
+    CHECK(std::count(topology.twin.begin(), topology.twin.end(), -1) == 9);
+    CHECK(topology.kind == std::vector<VertexKind>{VertexKind::NonManifold, VertexKind::NonManifold,
+                                                   VertexKind::Boundary, VertexKind::Boundary, VertexKind::Boundary});
+}
+
+TEST_CASE("where two open fans meet is boundary, where two closed ones meet is not manifold")
+{
+    const Topology open = make_topology(bow_tie());
+    CHECK(count(open, VertexKind::Boundary) == 7);
+    CHECK(fans_at(bow_tie(), open, 3, {}, 0).size() == 2);
+    const Topology closed = make_topology(hourglass());
+    CHECK(closed.kind[0] == VertexKind::NonManifold);
+    CHECK(count(closed, VertexKind::Interior) == 6);
+    const auto fans = fans_at(hourglass(), closed, 0, {}, 0);
+    REQUIRE(fans.size() == 2);
+    CHECK((fans[0].closed && fans[1].closed));
+}
+
+TEST_CASE("vertices without faces are isolated")
+{
+    PolygonMesh mesh = quad_grid(2, 2);
+    mesh.vertices.conservativeResize(11, 3);
+    mesh.vertices.bottomRows(2).setOnes();
+    const Topology topology = make_topology(mesh);
+    CHECK(count(topology, VertexKind::Isolated) == 2);
+    CHECK(topology.kind[9] == VertexKind::Isolated);
+    CHECK(topology.kind[10] == VertexKind::Isolated);
+    CHECK(fans_at(mesh, topology, 10, {}, 0).empty());
+}
+
+TEST_CASE("two faces glued along all their edges close a fan at each vertex")
+{
+    PolygonMesh pillow = quad_grid(1, 1);
+    pillow.add_face(std::vector<Index>(pillow.face(0).begin(), pillow.face(0).end()));
+    const Topology topology = make_topology(pillow);
+    check_twins(pillow, topology);
+    CHECK(count(topology, VertexKind::Interior) == 4);
+    for (Index v = 0; v < 4; ++v)
+        CHECK(fans_at(pillow, topology, v, {}, 0).front().closed);
+}
+
+TEST_CASE("the fans of a label are its faces, run by run")
+{
+    for (const NamedMesh& m : assorted_meshes()) {
+        CAPTURE(m.name);
+        const auto labels = random_labels(m.mesh.n_faces(), 2, 11);
+        const PolygonMesh mixed = with_faces_flipped(m.mesh, 5);
+        const Topology topology = make_topology(mixed);
+        for (Index v = 0; v < m.mesh.n_vertices(); ++v) {
+            check_fans(m.mesh, m.topology, {}, 0, v);
+            for (const Index label : {0, 1}) {
+                check_fans(m.mesh, m.topology, labels, label, v);
+                check_fans(mixed, topology, labels, label, v);
+            }
+        }
+    }
+}

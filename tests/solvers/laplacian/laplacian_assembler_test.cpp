@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <doctest/doctest.h>
+
+#include "samples/common/meshes.h"
+#include "solvers/laplacian/vertex_areas.h"
+#include "tests/support/flows.h"
+#include "tests/support/matrices.h"
+#include "tests/support/reference_data.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+using doctest::Approx;
+
+namespace {
+
+std::map<Index, Row> rows_of(const LaplacianMatrix& matrix)
+{
+    std::map<Index, Row> rows;
+    for (Index column = 0; column < matrix.pattern.n(); ++column)
+        for (Index i = matrix.pattern.column_offsets[at(column)]; i < matrix.pattern.column_offsets[at(column) + 1];
+             ++i)
+            rows[matrix.pattern.rows[at(i)]][column] = matrix.values[at(i)];
+    return rows;
+}
+
+double largest(const Eigen::MatrixXd& matrix)
+{
+    return matrix.cwiseAbs().maxCoeff();
+}
+
+struct Areas {
+    std::vector<double> of_faces;
+    Eigen::VectorXd of_vertices;
+};
+
+Areas areas_of(const NamedMesh& m)
+{
+    Areas areas{std::vector<double>(at(m.mesh.n_faces())), Eigen::VectorXd(m.mesh.n_vertices())};
+    measure_areas(faces_of(m.mesh, m.topology), m.mesh.vertices, areas.of_faces,
+                  std::span<double>(areas.of_vertices.data(), at(m.mesh.n_vertices())));
+    return areas;
+}
+
+/// Length of the edges at each vertex over their number, edges on the boundary counted half.
+Eigen::VectorXd mean_lengths(const NamedMesh& m)
+{
+    Eigen::VectorXd length = Eigen::VectorXd::Zero(m.mesh.n_vertices());
+    Eigen::VectorXd count = length;
+    for (Index h = 0; h < m.mesh.n_corners(); ++h) {
+        const Index start = m.mesh.face_vertices[at(h)];
+        const Index end = m.mesh.face_vertices[at(m.topology.next(m.mesh, h))];
+        for (const Index v : {start, end}) {
+            length(v) += (m.mesh.vertices.row(end) - m.mesh.vertices.row(start)).norm();
+            count(v) += 1.0;
+        }
+    }
+    return length.cwiseQuotient(count);
+}
+
+/// The cotan Laplacian of a triangle mesh, each row divided by a third of the area of the triangles at the vertex.
+Eigen::MatrixXd cotan_laplacian(const PolygonMesh& mesh)
+{
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(mesh.n_vertices(), mesh.n_vertices());
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(mesh.n_vertices());
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index apex = mesh.face(f)[k];
+            const Index i = mesh.face(f)[(k + 1) % 3];
+            const Index j = mesh.face(f)[(k + 2) % 3];
+            const Point to_i = mesh.vertices.row(i) - mesh.vertices.row(apex);
+            const Point to_j = mesh.vertices.row(j) - mesh.vertices.row(apex);
+            const double twice_area = to_i.cross(to_j).norm();
+            const double weight = 0.5 * to_i.dot(to_j) / twice_area;
+            L(i, i) += weight;
+            L(j, j) += weight;
+            L(i, j) -= weight;
+            L(j, i) -= weight;
+            mass(apex) += twice_area / 6.0;
+        }
+    return mass.cwiseInverse().asDiagonal() * L;
+}
+
+/// Largest length of Δ applied to the positions at interior vertices.
+double applied_to_linear_functions(Laplacian laplacian, const PolygonMesh& mesh)
+{
+    const Topology topology = make_topology(mesh);
+    const Points result = dense_laplacian(laplacian, mesh, topology) * mesh.vertices;
+    double most = 0.0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (topology.kind[at(v)] == VertexKind::Interior)
+            most = std::max(most, result.row(v).norm());
+    return most;
+}
+
+PolygonMesh flat(PolygonMesh mesh)
+{
+    mesh.vertices.col(2).setZero();
+    return mesh;
+}
+
+/// A flat sheet of hexagons of equal sides and angles.
+PolygonMesh regular_hexagons(Index m, Index n)
+{
+    PolygonMesh mesh = hexagon_sheet(m, n);
+    for (double& y : mesh.vertices.col(1)) {
+        const double row = std::round(y);
+        y = std::sqrt(3.0) * row + std::copysign(std::sqrt(1.0 / 12.0), y - row);
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("the Laplacians are those of the paper's authors, boundary rows included")
+{
+    const auto files = reference_files("operators");
+    REQUIRE(files.size() == 4);
+    for (const auto& file : files) {
+        const ReferenceOperators reference = read_operators(file);
+        const Topology topology = make_topology(reference.mesh);
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(file.filename().string());
+            CAPTURE(name_of(laplacian));
+            auto rows =
+                rows_of(laplacian_matrix(laplacian, faces_of(reference.mesh, topology), reference.mesh.vertices));
+            const auto& expected_rows = reference.laplacian.at(laplacian);
+            for (Index v = 0; v < reference.mesh.n_vertices(); ++v) {
+                const Row& expected = expected_rows.at(v);
+                double largest = 0.0;
+                for (const auto& [column, value] : expected)
+                    largest = std::max(largest, std::abs(value));
+                for (const auto& [column, value] : expected)
+                    CHECK(rows[v][column] == Approx(value).epsilon(1e-10).scale(largest));
+                for (const auto& [column, value] : rows[v])
+                    if (!expected.contains(column))
+                        CHECK(std::abs(value) <= 1e-10 * largest);
+            }
+        }
+    }
+}
+
+TEST_CASE("constants are in the kernel: rows sum to zero")
+{
+    for (const NamedMesh& m : sound_meshes())
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(m.name);
+            CAPTURE(name_of(laplacian));
+            const Eigen::MatrixXd L = dense_laplacian(laplacian, m.mesh, m.topology);
+            CHECK(L.rowwise().sum().cwiseAbs().maxCoeff() <= 1e-11 * largest(L));
+        }
+}
+
+TEST_CASE("linear functions are in the kernel on flat regular meshes")
+{
+    for (const PolygonMesh& mesh : {quad_grid(6, 5), triangle_grid(6, 5), regular_hexagons(6, 5)})
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(name_of(laplacian));
+            CHECK(applied_to_linear_functions(laplacian, mesh) < 1e-13);
+        }
+}
+
+TEST_CASE("with areas linear functions are in the kernel on any flat mesh")
+{
+    for (const PolygonMesh& mesh : {make_hexagons(150), make_triangles(150), make_mixed_polygons(150)})
+        for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho}) {
+            CAPTURE(name_of(laplacian));
+            CHECK(applied_to_linear_functions(laplacian, flat(mesh)) < 1e-10);
+        }
+}
+
+TEST_CASE("the areas of the vertices sum to the area of the mesh")
+{
+    for (const NamedMesh& m : sound_meshes()) {
+        CAPTURE(m.name);
+        const Areas areas = areas_of(m);
+        CHECK(areas.of_vertices.sum() ==
+              Approx(std::accumulate(areas.of_faces.begin(), areas.of_faces.end(), 0.0)).epsilon(1e-13));
+        CHECK(areas.of_vertices.minCoeff() > 0.0);
+    }
+    CHECK(areas_of(named("", quad_grid(5, 4))).of_vertices.sum() == Approx(20.0));
+    CHECK(areas_of(named("", flat(make_mixed_polygons(150)))).of_vertices.sum() == Approx(1.0));
+}
+
+TEST_CASE("on triangles Alexa-Wardetzky is the cotan Laplacian with barycentric mass")
+{
+    for (const PolygonMesh& mesh : {make_triangles(120), make_noisy_sphere(150), triangle_torus(9, 7)}) {
+        const Eigen::MatrixXd L = dense_laplacian(Laplacian::AlexaWardetzky, mesh, make_topology(mesh));
+        CHECK(largest(L - cotan_laplacian(mesh)) < 1e-12 * largest(L));
+    }
+}
+
+TEST_CASE("Alexa-Wardetzky times the areas, Fujiwara times the mean lengths are symmetric and semi-definite")
+{
+    for (const NamedMesh& m : sound_meshes())
+        for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::Fujiwara}) {
+            CAPTURE(m.name);
+            CAPTURE(name_of(laplacian));
+            const Eigen::VectorXd diagonal =
+                laplacian == Laplacian::Fujiwara ? mean_lengths(m) : areas_of(m).of_vertices;
+            const Eigen::MatrixXd L = diagonal.asDiagonal() * dense_laplacian(laplacian, m.mesh, m.topology);
+            CHECK(largest(L - L.transpose()) < 1e-13 * largest(L));
+            const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (L + L.transpose()),
+                                                                       Eigen::EigenvaluesOnly);
+            CHECK(eigen.eigenvalues().minCoeff() > -1e-12 * eigen.eigenvalues().maxCoeff());
+        }
+}
+
+TEST_CASE("the orientation of faces does not matter")
+{
+    for (const NamedMesh& m : sound_meshes())
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(m.name);
+            CAPTURE(name_of(laplacian));
+            const PolygonMesh flipped = with_faces_flipped(m.mesh, 17);
+            const Eigen::MatrixXd L = dense_laplacian(laplacian, m.mesh, m.topology);
+            CHECK(largest(dense_laplacian(laplacian, flipped, make_topology(flipped)) - L) < 1e-12 * largest(L));
+        }
+}
+
+TEST_CASE("an offset of the whole mesh costs no precision beyond that of the positions")
+{
+    for (const NamedMesh& m : sound_meshes())
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(m.name);
+            CAPTURE(name_of(laplacian));
+            const Eigen::RowVector3d offset(0x1p+20, -0x1p+20, 0x1p+19);
+            PolygonMesh far = m.mesh;
+            far.vertices.rowwise() += offset;
+            // The same rounding of the positions near the origin.
+            PolygonMesh near = far;
+            near.vertices.rowwise() -= offset;
+            const Eigen::MatrixXd L = dense_laplacian(laplacian, near, m.topology);
+            CHECK(largest(dense_laplacian(laplacian, far, m.topology) - L) < 1e-12 * largest(L));
+        }
+}
+
+TEST_CASE("a mesh enlarged twice has a quarter of the Laplacian")
+{
+    for (const NamedMesh& m : sound_meshes())
+        for (const Laplacian laplacian : all_laplacians) {
+            PolygonMesh larger = m.mesh;
+            larger.vertices *= 2.0;
+            const Eigen::MatrixXd L = dense_laplacian(laplacian, m.mesh, m.topology);
+            CHECK(largest(4.0 * dense_laplacian(laplacian, larger, m.topology) - L) < 1e-14 * largest(L));
+        }
+}
+
+TEST_CASE("assemblers add, with a factor, and leave entries that are not wanted to one place")
+{
+    const NamedMesh m = named("mixed", make_mixed_polygons(120));
+    for (const Laplacian laplacian : all_laplacians) {
+        const LaplacianMatrix matrix = laplacian_matrix(laplacian, faces_of(m.mesh, m.topology), m.mesh.vertices);
+        const FaceView faces = faces_of(m.mesh, m.topology);
+        const auto assembler = make_assembler(laplacian, faces);
+        std::vector<Index> slots;
+        for (const MatrixEntry& entry : assembler->entries())
+            slots.push_back(entry.row % 2 == 0 ? matrix.pattern.slot(entry) : matrix.pattern.n_entries());
+        std::vector<double> values(at(matrix.pattern.n_entries()) + 1, 1.0);
+        for (int repetition = 0; repetition < 2; ++repetition)
+            assembler->add(m.mesh.vertices, 0.25, slots, values);
+        const double scale = largest(dense(matrix.pattern, matrix.values));
+        for (Index i = 0; i < matrix.pattern.n_entries(); ++i) {
+            const bool wanted = matrix.pattern.rows[at(i)] % 2 == 0;
+            const double expected = wanted ? 1.0 + 0.5 * matrix.values[at(i)] : 1.0;
+            CHECK(std::abs(values[at(i)] - expected) < 1e-13 * scale);
+        }
+    }
+}

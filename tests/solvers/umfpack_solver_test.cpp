@@ -1,0 +1,150 @@
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "samples/common/meshes/random_numbers.h"
+#include "solvers/umfpack_solver.h"
+#include "tests/support/matrices.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+/// About five entries a row, on the diagonal among them, in a pattern that is not symmetric.
+SparsePattern random_pattern(Index n, RandomNumbers& random)
+{
+    std::vector<MatrixEntry> entries;
+    for (Index row = 0; row < n; ++row) {
+        entries.push_back({row, row});
+        for (int i = 0; i < 4; ++i)
+            entries.push_back({random.below(n), row});
+    }
+    return make_pattern(n, std::move(entries));
+}
+
+/// Random values, the diagonal large enough for a well-conditioned matrix.
+std::vector<double> random_values(const SparsePattern& pattern, RandomNumbers& random)
+{
+    std::vector<double> values(at(pattern.n_entries()));
+    for (double& value : values)
+        value = random.symmetric();
+    for (Index i = 0; i < pattern.n(); ++i)
+        values[at(pattern.slot({i, i}))] += 6.0;
+    return values;
+}
+
+Columns random_columns(Index n, RandomNumbers& random)
+{
+    Columns columns(n, 3);
+    for (double& entry : columns.reshaped())
+        entry = random.symmetric();
+    return columns;
+}
+
+/// `copies` times the same matrix along the diagonal.
+SparsePattern repeated(const SparsePattern& block, Index copies)
+{
+    std::vector<MatrixEntry> entries;
+    for (Index k = 0; k < copies; ++k)
+        for (Index column = 0; column < block.n(); ++column)
+            for (Index i = block.column_offsets[at(column)]; i < block.column_offsets[at(column) + 1]; ++i)
+                entries.push_back({k * block.n() + column, k * block.n() + block.rows[at(i)]});
+    return make_pattern(copies * block.n(), std::move(entries));
+}
+
+}  // namespace
+
+TEST_CASE("random systems are solved, one set of values after the other")
+{
+    RandomNumbers random(1);
+    for (const Index n : {1, 2, 10, 150}) {
+        const SparsePattern pattern = random_pattern(n, random);
+        UmfpackSolver solver(pattern);
+        for (int repetition = 0; repetition < 3; ++repetition) {
+            const auto values = random_values(pattern, random);
+            const Columns right_hand_side = random_columns(n, random);
+            Columns solution(n, 3);
+            solver.factorise(values);
+            solver.solve(values, right_hand_side, solution);
+            const Eigen::MatrixXd A = dense(pattern, values);
+            CHECK((A * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
+            CHECK((A.fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-10);
+        }
+    }
+}
+
+TEST_CASE("a factor may be replaced before it is used, and a solver moved")
+{
+    RandomNumbers random(2);
+    const SparsePattern pattern = random_pattern(50, random);
+    const auto unused = random_values(pattern, random);
+    const auto values = random_values(pattern, random);
+    const Columns right_hand_side = random_columns(50, random);
+    Columns solution(50, 3);
+    UmfpackSolver first(pattern);
+    first.factorise(unused);
+    first.factorise(values);
+    UmfpackSolver second(std::move(first));
+    second.solve(values, right_hand_side, solution);
+    CHECK((dense(pattern, values) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+TEST_CASE("singular matrices are refused, and the solver goes on with regular ones")
+{
+    RandomNumbers random(3);
+    const SparsePattern pattern = random_pattern(30, random);
+    const auto regular = random_values(pattern, random);
+    auto singular = regular;
+    for (Index i = pattern.column_offsets[12]; i < pattern.column_offsets[13]; ++i)
+        singular[at(i)] = 0.0;
+    UmfpackSolver solver(pattern);
+    CHECK_THROWS_WITH_AS(solver.factorise(singular), doctest::Contains("the system is singular"), ComputationError);
+    CHECK_THROWS_AS(solver.factorise(std::vector<double>(regular.size(), 0.0)), ComputationError);
+    const Columns right_hand_side = random_columns(30, random);
+    Columns solution(30, 3);
+    solver.factorise(regular);
+    solver.solve(regular, right_hand_side, solution);
+    CHECK((dense(pattern, regular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+TEST_CASE("a column without entries makes a matrix singular")
+{
+    const SparsePattern pattern = make_pattern(3, {{0, 0}, {1, 1}, {0, 2}});
+    const std::vector<double> values{1.0, 1.0, 1.0};
+    CHECK_THROWS_AS(UmfpackSolver(pattern).factorise(values), ComputationError);
+}
+
+TEST_CASE("large systems, solved with long integers, agree with small ones")
+{
+    RandomNumbers random(4);
+    const Index n = 500;
+    const Index copies = 201;
+    const SparsePattern block = make_pattern(n, [&] {
+        std::vector<MatrixEntry> entries;
+        for (Index i = 0; i < n; ++i)
+            for (const Index j : {i, (i + 1) % n, (i + 7) % n})
+                entries.insert(entries.end(), {{i, j}, {j, i}});
+        return entries;
+    }());
+    const auto block_values = random_values(block, random);
+    const Columns block_right_hand_side = random_columns(n, random);
+    Columns expected(n, 3);
+    UmfpackSolver small(block);
+    small.factorise(block_values);
+    small.solve(block_values, block_right_hand_side, expected);
+
+    const SparsePattern pattern = repeated(block, copies);
+    std::vector<double> values;
+    for (Index k = 0; k < copies; ++k)
+        values.insert(values.end(), block_values.begin(), block_values.end());
+    const Columns right_hand_side = block_right_hand_side.replicate(copies, 1);
+    Columns solution(copies * n, 3);
+    UmfpackSolver large(pattern);
+    large.factorise(values);
+    large.solve(values, right_hand_side, solution);
+    CHECK((solution - expected.replicate(copies, 1)).cwiseAbs().maxCoeff() < 1e-12);
+}

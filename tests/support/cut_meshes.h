@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+#include "solvers/geometry.h"
+
+namespace seamflow::test {
+
+/// A mesh with a valid cut, and a name for the messages of tests.
+struct CutMesh {
+    std::string name;
+    PolygonMesh mesh;
+    Topology topology;
+    std::vector<Index> labels;
+    Index n_parts = 0;
+};
+
+/// A mesh cut by hand: the label of each face is a function of its centroid. Repaired where it is no valid cut.
+CutMesh cut_by_place(const std::string& name, PolygonMesh mesh, const std::function<Index(const Point&)>& label_at);
+
+/// Small meshes of each sort (triangles, quads, hexagons, mixed polygons; flat, curved, closed, not orientable, of
+/// several components), each cut by hand in 2, 3 and 4 with cross points and by METIS in 2 and 8.
+const std::vector<CutMesh>& cut_meshes();
+
+Decomposition decompose(const CutMesh& cut);
+
+/// The rows of `positions` in a sub-mesh's own order, the halo included.
+Points localised(const SubMesh& sub_mesh, const Points& positions);
+
+}  // namespace seamflow::test
