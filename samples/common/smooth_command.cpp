@@ -1,5 +1,8 @@
 #include "samples/common/smooth_command.h"
 
+#include <limits>
+#include <vector>
+
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
 #include "samples/common/command_line.h"
@@ -8,6 +11,33 @@
 namespace seamflow {
 
 namespace {
+
+/// Options that only mean something for the derivatives of the paper, and so ask for them.
+void add_parameters(CLI::App& app, FlowOptions& options)
+{
+    std::vector<CLI::Option*> of_derivatives;
+    of_derivatives.push_back(
+        add_real(app, "--p", options.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]"));
+    of_derivatives.push_back(add_choice<PRule>(app, "--p-rule", options.p_rule,
+                                               {{"paper", PRule::Paper}, {"inverse-step", PRule::InverseStep}},
+                                               "η in p*: 1 or 1/dt [paper]"));
+    of_derivatives.push_back(
+        add_choice<PEdge>(app, "--p-edge", options.p_edge,
+                          {{"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}},
+                          "edge in p*: the shortest, the 5th percentile or the mean [min]"));
+    add_real(app, "--q", options.q, {0.0, std::numeric_limits<double>::max()},
+             "Ventcell parameter, for adapted-ventcell");
+    app.callback([of_derivatives, &app, &options] {
+        for (const CLI::Option* option : of_derivatives) {
+            if (option->count() == 0)
+                continue;
+            if (app.count("--transmission") > 0 && options.transmission == Transmission::Predicted)
+                throw OptionError(option->get_name() +
+                                  " is for the derivatives of the paper; --transmission predicted has none");
+            options.transmission = Transmission::Derivative;
+        }
+    });
+}
 
 void add_flow_options(CLI::App& app, SmoothCommand& command)
 {
@@ -33,9 +63,14 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice<Coloring>(app, "--coloring", options.coloring,
                          {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
                          "order of the sub-meshes in a step [greedy]");
-    add_choice<Conditions>(app, "--conditions", options.conditions, {{"adapted-robin", Conditions::AdaptedRobin}},
-                           "what holds between sub-meshes [adapted-robin]");
-    add_real(app, "--p", options.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]");
+    add_choice<Conditions>(
+        app, "--conditions", options.conditions,
+        {{"adapted-robin", Conditions::AdaptedRobin}, {"adapted-ventcell", Conditions::AdaptedVentcell}},
+        "what holds between sub-meshes [adapted-robin]");
+    add_choice<Transmission>(app, "--transmission", options.transmission,
+                             {{"predicted", Transmission::Predicted}, {"derivative", Transmission::Derivative}},
+                             "how the first sub-mesh at the interface learns of the others [predicted]");
+    add_parameters(app, options);
     app.add_flag_callback(
         "--no-correction", [&options] { options.correction = Correction::None; },
         "leave the vertices of the interface where the step puts them");
@@ -59,6 +94,8 @@ void require_consistent(bool plain, const SmoothCommand& command)
 {
     if (plain && command.options.sweep != FlowOptions::plain().sweep)
         throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
+    if (plain && command.options.transmission != FlowOptions::plain().transmission)
+        throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
     kind_for_writing(command.output, FileKind{});
     if (command.every_step)
         kind_for_writing(command.every_step->path(1), FileKind{});
