@@ -11,9 +11,11 @@
 
 #include "engine/single_threaded_libraries.h"
 #include "engine/sweep_order.h"
+#include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/adapted_ventcell.h"
+#include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
 #include "solvers/interface/robin_parameter.h"
 
@@ -62,6 +64,8 @@ std::unique_ptr<TransmissionCondition> make_condition(const SubMesh& sub_mesh, c
 {
     if (predicts(options))
         return make_predicted_side(sub_mesh, options.laplacian);
+    if (options.conditions == Conditions::Schwarz)
+        return make_dirichlet(sub_mesh);
     if (options.conditions == Conditions::AdaptedVentcell)
         return make_adapted_ventcell(sub_mesh, options.q.value());
     return make_adapted_robin(sub_mesh);
@@ -74,7 +78,7 @@ constexpr double predicted_p_in_diffusion_lengths = 0.7;
 /// In 1/length.
 double robin_parameter(const SubMesh& sub_mesh, const Points& positions, const FlowOptions& options)
 {
-    if (sub_mesh.interface.vertices.empty())
+    if (sub_mesh.interface.vertices.empty() || options.conditions == Conditions::Schwarz)
         return 0.0;
     if (options.p)
         return *options.p;
@@ -89,6 +93,19 @@ bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
     return options.sweep == Sweep::Alternating || (options.sweep == Sweep::Automatic && n_sub_meshes > 2);
 }
 
+/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
+Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                 std::span<const Index> rank, int layers)
+{
+    const Overlap overlap{cut.labels, rank, layers};
+    auto faces = faces_by_label(cut.labels, cut.n_parts);
+    std::vector<SubMesh> sub_meshes(faces.size());
+    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
+        sub_meshes[s] = make_overlapping_sub_mesh(mesh, topology, overlap, static_cast<Index>(s), std::move(faces[s]));
+    });
+    return connect_overlapping(std::move(sub_meshes), topology, overlap);
+}
+
 }  // namespace
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
@@ -96,10 +113,13 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     : decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
     , positions_(mesh.vertices)
 {
-    make_states(mesh, options);
     const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
-    plans_.push_back(plan_sweep(decomposition_, rank));
-    if (alternates(options, states_.size()))
+    const bool overlaps = options.conditions == Conditions::Schwarz;
+    if (overlaps)
+        decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.overlap);
+    make_states(mesh, options);
+    plans_.push_back(overlaps ? plan_overlapping_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank));
+    if (!overlaps && alternates(options, states_.size()))
         plans_.push_back(plan_sweep(decomposition_, reversed(rank)));
     for (const SweepPlan& plan : plans_)
         roots_.push_back(add_sweep(plan, options));

@@ -49,7 +49,7 @@ void predict(std::vector<SubMeshState>& states, Index s);
 /// Fetches what the sub-meshes beyond Γ predict, where this one leads.
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions);
 
-/// Fetches Vᵏ⁺¹ where the sub-mesh follows on Γ, and solves.
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces);
 
 /// Accepts Vᵏ⁺¹ as it was solved.

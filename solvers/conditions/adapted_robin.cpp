@@ -8,12 +8,12 @@ namespace seamflow {
 namespace {
 
 /// Mean length of the edges at the i-th vertex of Γ.
-double mean_edge_at(const SubMeshInterface& interface, Index i, const Points& positions)
+double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
 {
     double sum = 0.0;
-    for (const Index neighbour : interface.neighbours[i])
-        sum += (positions.row(neighbour) - positions.row(interface.vertices[at(i)])).norm();
-    return sum / static_cast<double>(interface.neighbours[i].size());
+    for (const Index neighbour : sub_mesh.seam.neighbours[i])
+        sum += (positions.row(neighbour) - positions.row(sub_mesh.seam.vertices[at(i)])).norm();
+    return sum / static_cast<double>(sub_mesh.seam.neighbours[i].size());
 }
 
 /// Whether the coefficients of a fan's ∂n are neither vanishing nor huge against 1 / edge. Bounds found by measurement.
@@ -75,7 +75,7 @@ bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
         return false;
     const auto& [own, other] = *conormals_[at(i)];
     const auto& interface = sub_mesh_->interface;
-    const double edge = mean_edge_at(interface, i, positions);
+    const double edge = mean_edge_at(*sub_mesh_, i, positions);
     const double tangent = (positions.row(interface.after[at(i)]) - positions.row(interface.before[at(i)])).norm();
     return own.direction.dot(other.direction) < most_aligned && tangent > shortest_tangent * edge &&
            is_in_proportion(interface.own_faces[i], sub_mesh_->face_vertices, own, edge) &&
