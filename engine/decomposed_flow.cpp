@@ -52,6 +52,12 @@ bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
     return options.sweep == Sweep::Alternating || (options.sweep == Sweep::Automatic && n_sub_meshes > 2);
 }
 
+bool corrects(const FlowOptions& options)
+{
+    return options.correction == Correction::Centroid ||
+           (options.correction == Correction::Automatic && options.conditions != Conditions::Schwarz);
+}
+
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> rank, int layers)
@@ -103,7 +109,7 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
 {
     const auto n = static_cast<Index>(states_.size());
     const double time_step = options.time_step;
-    const bool corrected = options.correction == Correction::Centroid;
+    const bool corrected = corrects(options);
     const auto task = [this](Index s, auto body, TaskGraph::Priority priority) {
         return graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); },
                                priority);

@@ -27,6 +27,15 @@ bool positive_and_finite(double value)
     return value > 0.0 && std::isfinite(value);
 }
 
+void require_valid_schwarz(const FlowOptions& options)
+{
+    if (options.sweep == Sweep::Alternating)
+        throw OptionError("sweep is alternating, but with the Schwarz conditions sub-meshes overlap for one order of "
+                          "solving only: leave the sweep fixed");
+    if (options.p)
+        throw OptionError("p is given, but the Schwarz conditions have no Robin parameter");
+}
+
 }  // namespace
 
 FlowOptions FlowOptions::plain()
@@ -47,6 +56,9 @@ void require_valid(const FlowOptions& options)
             "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
     if (options.p)
         require(positive_and_finite(*options.p), "p", *options.p, "positive and finite (1/length)");
+    require(options.overlap >= 1, "overlap", options.overlap, "at least 1 (layers of faces)");
+    if (options.conditions == Conditions::Schwarz)
+        require_valid_schwarz(options);
     const auto negative =
         std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });
     if (negative != options.labels.end())
