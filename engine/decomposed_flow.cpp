@@ -93,6 +93,12 @@ bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
     return options.sweep == Sweep::Alternating || (options.sweep == Sweep::Automatic && n_sub_meshes > 2);
 }
 
+bool corrects(const FlowOptions& options)
+{
+    return options.correction == Correction::Centroid ||
+           (options.correction == Correction::Automatic && options.conditions != Conditions::Schwarz);
+}
+
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> rank, int layers)
@@ -150,7 +156,7 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
 {
     const auto n = static_cast<Index>(states_.size());
     const double time_step = options.time_step;
-    const bool corrected = options.correction == Correction::Centroid;
+    const bool corrected = corrects(options);
     const auto assemble_one = [this, &plan, time_step](Index s) {
         assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan.roles[at(s)], time_step);
     };

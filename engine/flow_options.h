@@ -33,7 +33,9 @@ enum class Conditions {
 enum class Scheme {
     /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. MCFbackwardEuler).
     BackwardEuler,
-    /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed. Stable only for dt up to the square of the shortest edge.
+    /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: everything here about sub-meshes, their order and what holds between
+    /// them plays no part. dt must be at most the square of the shortest edge (see largest_explicit_step), before
+    /// every step; a quarter of it is safe on regular grids.
     ExplicitEuler,
 };
 
@@ -55,16 +57,19 @@ enum class Transmission {
 
 /// In which order the colours are solved.
 enum class Sweep {
-    /// Fixed for two sub-meshes, Alternating for more.
+    /// Fixed for two sub-meshes and with Conditions::Schwarz, else Alternating.
     Automatic,
     /// The same order in every step, as in the paper.
     Fixed,
-    /// First to last in even steps, last to first in odd steps.
+    /// First to last in even steps, last to first in odd steps. Not with Conditions::Schwarz, whose overlaps are made
+    /// for one order.
     Alternating,
 };
 
 /// What happens to the vertices of the interface after each step.
 enum class Correction {
+    /// Centroid where the conditions make it necessary, which is with all but Conditions::Schwarz: as the paper's authors do.
+    Automatic,
     /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction).
     Centroid,
     /// Nothing.
@@ -107,16 +112,18 @@ struct FlowOptions {
     /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only
     /// there.
     std::optional<double> q;
-    /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1.
+    /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1: each grows that often by the
+    /// faces that share a vertex with it, into sub-meshes that do not solve before it. Of no use with other conditions.
     int overlap = 1;
     /// Direction of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
-    Correction correction = Correction::Centroid;
+    Correction correction = Correction::Automatic;
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
-    /// Also run the undecomposed flow and report the distance to it after each step.
+    /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
+    /// each step.
     bool reference = false;
 
     /// The paper to the letter, generalised to many sub-meshes and nothing else: fixed sweep, no improvements that

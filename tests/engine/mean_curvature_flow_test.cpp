@@ -96,7 +96,7 @@ TEST_CASE("sweeps alternate with more than two sub-meshes, unless told otherwise
 TEST_CASE("the plain options are the paper's: a fixed sweep")
 {
     CHECK(FlowOptions::plain().sweep == Sweep::Fixed);
-    CHECK(FlowOptions::plain().correction == Correction::Centroid);
+    CHECK(FlowOptions::plain().correction == Correction::Automatic);
     CHECK_FALSE(FlowOptions::plain().p);
 }
 
@@ -158,6 +158,19 @@ TEST_CASE("options outside their limits are refused by name")
     refused([](FlowOptions& o) { o.threads = -1; }, "threads");
     refused([](FlowOptions& o) { o.threads = 1025; }, "threads");
     refused([](FlowOptions& o) { o.steps = 2'000'000'000; }, "steps");
+    refused([](FlowOptions& o) { o.overlap = 0; }, "overlap");
+    refused(
+        [](FlowOptions& o) {
+            o.conditions = Conditions::Schwarz;
+            o.sweep = Sweep::Alternating;
+        },
+        "sweep");
+    refused(
+        [](FlowOptions& o) {
+            o.conditions = Conditions::Schwarz;
+            o.p = 20.0;
+        },
+        "p is given");
 }
 
 TEST_CASE("labels that do not fit the mesh are refused")

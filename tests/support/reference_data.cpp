@@ -86,7 +86,8 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
     options.time_step = data.at("time_step").get<double>();
     options.steps = static_cast<int>(data.at("positions_after_step").size());
     options.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
-    options.correction = data.at("correction").get<bool>() ? Correction::Centroid : Correction::None;
+    // The authors correct after adapted conditions only; the files say true for Schwarz, too.
+    options.correction = data.at("correction").get<bool>() ? Correction::Automatic : Correction::None;
     if (data.at("conditions") == "schwarz")
         options.conditions = Conditions::Schwarz;
     if (data.at("conditions") == "none")
