@@ -35,7 +35,8 @@ enum class Scheme {
     BackwardEuler,
     /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: everything here about sub-meshes, their order and what holds between
     /// them plays no part. dt must be at most the square of the shortest edge (see largest_explicit_step); a quarter
-    /// of it is safe on regular grids. Beyond that the surface can become rough instead of smooth; a remark of the report says so.
+    /// of it is safe on regular grids. Beyond that the surface can become rough instead of smooth; a remark of the
+    /// report says so.
     ExplicitEuler,
 };
 
