@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "partition/metrics/displacement.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"
 
@@ -25,6 +26,16 @@ struct PhaseSeconds {
     double total = 0.0;
 };
 
+/// How far a flow carried the vertices along the surface and out of it, in units of length. Only the former deforms a
+/// texture on the mesh.
+struct TotalDisplacement {
+    /// Per vertex, the sum over all steps of the lengths of both parts: all that it was moved, there and back.
+    DisplacementStatistics path;
+    /// Per vertex, the length of the sum of the tangential parts as vectors: how far away from the way that the surface
+    /// itself took the vertex, and the texture with it, is in the end.
+    LengthStatistics drift;
+};
+
 /// One step.
 struct StepReport {
     /// Wall-clock time.
@@ -33,6 +44,8 @@ struct StepReport {
     /// edges or faces that the flow has shrunk to nothing do not count).
     double max_mean_curvature_before = 0.0;
     double max_mean_curvature_after = 0.0;
+    /// How far the vertices moved in this step, in units of length (see split_displacement).
+    DisplacementStatistics displacement;
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.
@@ -67,6 +80,7 @@ struct FlowReport {
     int threads = 0;
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
+    TotalDisplacement displacement;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
     std::vector<std::string> remarks;
 };

@@ -7,6 +7,7 @@
 
 #include "engine/choose_subdomains.h"
 #include "engine/decomposed_flow.h"
+#include "engine/displacement_meter.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
@@ -69,12 +70,14 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
                std::vector<double> curvature, DecomposedFlow& flow, DecomposedFlow* reference, FlowReport& report)
 {
     double curvature_before = largest_curvature(curvature);
+    DisplacementMeter meter(mesh, topology);
     for (int step = 1; step <= options.steps; ++step) {
         Stopwatch watch;
         named("step " + std::to_string(step), [&] { flow.step(); });
         StepReport& of_step = report.steps.emplace_back();
         of_step.seconds = watch.lap();
         report.seconds.step += of_step.seconds;
+        of_step.displacement = meter.add_step(mesh.vertices, flow.positions());
         mesh.vertices = flow.positions();
 
         curvature = measure_curvature(mesh, topology, flow.positions(), options.laplacian);
@@ -89,6 +92,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         if (on_step)
             on_step({step, flow.positions(), of_step});
     }
+    report.displacement = meter.total();
 }
 
 void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,

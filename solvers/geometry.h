@@ -4,26 +4,12 @@
 #include <span>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
-
-/// One position or vector, a row of Points.
-using Point = Eigen::RowVector3d;
-
-/// Vector area ½ Σ vᵢ × vᵢ₊₁ of a polygon, planar or not, in length² (paper, section Discrete Laplacians). Taken
-/// relative to the first corner, so that an offset of the whole mesh costs no precision.
-inline Point vector_area(std::span<const Index> corners, const Points& positions)
-{
-    const Point origin = positions.row(corners[0]);
-    Point sum = Point::Zero();
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-        sum += (positions.row(corners[k]) - origin).cross(positions.row(corners[k + 1]) - origin);
-    return 0.5 * sum;
-}
 
 /// |f|: length of the vector area, in length².
 inline double area(std::span<const Index> corners, const Points& positions)

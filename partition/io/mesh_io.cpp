@@ -134,7 +134,24 @@ void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& me
         throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(labels.size()) +
                           " labels for " + std::to_string(mesh.n_faces()) + " faces; give one label for each face");
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, labels);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {.face_labels = labels});
+    file.commit();
+}
+
+void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
+                      std::span<const VertexValues> values)
+{
+    require_readable(path, mesh);
+    const auto require_each = [&](std::size_t count, const std::string& what) {
+        if (count != at(mesh.n_vertices()))
+            throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(count) + " " + what +
+                              " for " + std::to_string(mesh.n_vertices()) + " vertices; give one for each vertex");
+    };
+    require_each(colours.size(), "colours");
+    for (const VertexValues& list : values)
+        require_each(list.values.size(), "values of '" + list.name + "'");
+    OutputFile file(path);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {.vertex_colours = colours, .vertex_values = values});
     file.commit();
 }
 

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "partition/io/palette.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -59,5 +62,21 @@ void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, cons
 /// @param labels #F; the label of every face.
 /// @throws OutputError naming the file.
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels);
+
+/// A number for each vertex of a mesh, with a name.
+struct VertexValues {
+    /// Letters, digits and underscores.
+    std::string name;
+    /// #V.
+    std::vector<double> values;
+};
+
+/// As write_mesh, with one colour and any numbers per vertex, for looking at what was measured there. Each vertex gets
+/// the properties red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is
+/// binary little-endian.
+/// @param colours #V.
+/// @throws OutputError naming the file; also if there are not as many colours or values as vertices.
+void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
+                      std::span<const VertexValues> values);
 
 }  // namespace seamflow

@@ -15,4 +15,11 @@ using Colour = std::array<std::uint8_t, 3>;
 /// values. Negative labels are grey.
 Colour colour_of(Index label);
 
+/// The colour of a value from 0 to 1: blue, cyan, green, yellow, red at 0, 1/4, 1/2, 3/4, 1, linear in between. Values
+/// beyond the limits get the colour of the limit, what is not a number is grey.
+Colour rainbow_colour(double value);
+
+/// The colour of a value from -1 to 1: blue, white, red at -1, 0, 1, linear in between; else as above.
+Colour signed_colour(double value);
+
 }  // namespace seamflow

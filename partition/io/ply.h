@@ -17,9 +17,18 @@ namespace seamflow {
 /// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file);
 
+/// What a PLY file can hold beside the mesh; empty: nothing.
+struct PlyExtras {
+    /// #F; each face has the properties red, green, blue (uchar) and label (int) too.
+    std::span<const Index> face_labels = {};
+    /// #V; each vertex has the properties red, green, blue (uchar) too.
+    std::span<const Colour> vertex_colours = {};
+    /// #V each; each vertex has a property (double) for each of them.
+    std::span<const VertexValues> vertex_values = {};
+};
+
 /// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.
-/// @param labels #F, or empty; if given, each face has the properties red, green, blue (uchar) and label (int) too.
 /// @throws OutputError
-void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, std::span<const Index> labels = {});
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras = {});
 
 }  // namespace seamflow

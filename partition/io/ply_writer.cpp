@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <string>
 
-#include "partition/io/palette.h"
 #include "partition/io/ply.h"
 
 namespace seamflow {
@@ -32,18 +31,21 @@ bool has_long_face(const PolygonMesh& mesh)
 
 class PlyWriter {
   public:
-    PlyWriter(OutputFile& file, const PolygonMesh& mesh, Encoding encoding)
+    PlyWriter(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
         : file_(file)
         , mesh_(mesh)
         , encoding_(encoding)
+        , extras_(extras)
         , long_faces_(has_long_face(mesh))
     {
     }
 
-    void write_header(bool labelled);
-    void write_vertices();
+    void write_header();
+    void write_vertex(Index v);
     void write_face(Index f);
-    void write_label(Index label);
+
+  private:
+    void write_colour(const Colour& colour);
     void end_element()
     {
         if (encoding_ == Encoding::Ascii)
@@ -51,7 +53,6 @@ class PlyWriter {
         begins_line_ = true;
     }
 
-  private:
     void write(auto value)
     {
         if (encoding_ != Encoding::Ascii) {
@@ -67,29 +68,41 @@ class PlyWriter {
     OutputFile& file_;
     const PolygonMesh& mesh_;
     Encoding encoding_;
+    const PlyExtras& extras_;
     bool long_faces_;
     bool begins_line_ = true;
 };
 
-void PlyWriter::write_header(bool labelled)
+void PlyWriter::write_header()
 {
+    const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string header = std::string("ply\nformat ") + name_of(encoding_) + " 1.0\n";
     header += "element vertex " + std::to_string(mesh_.n_vertices()) + "\n";
     header += "property double x\nproperty double y\nproperty double z\n";
+    header += extras_.vertex_colours.empty() ? "" : colour;
+    for (const VertexValues& list : extras_.vertex_values)
+        header += "property double " + list.name + "\n";
     header += "element face " + std::to_string(mesh_.n_faces()) + "\n";
     header += std::string("property list ") + (long_faces_ ? "int" : "uchar") + " int vertex_indices\n";
-    if (labelled)
-        header += "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int label\n";
+    header += extras_.face_labels.empty() ? "" : colour + "property int label\n";
     file_.text(header + "end_header\n");
 }
 
-void PlyWriter::write_vertices()
+void PlyWriter::write_colour(const Colour& colour)
 {
-    for (Index v = 0; v < mesh_.n_vertices(); ++v) {
-        for (Index k = 0; k < 3; ++k)
-            write(mesh_.vertices(v, k));
-        end_element();
-    }
+    for (const std::uint8_t channel : colour)
+        write(channel);
+}
+
+void PlyWriter::write_vertex(Index v)
+{
+    for (Index k = 0; k < 3; ++k)
+        write(mesh_.vertices(v, k));
+    if (!extras_.vertex_colours.empty())
+        write_colour(extras_.vertex_colours[at(v)]);
+    for (const VertexValues& list : extras_.vertex_values)
+        write(list.values[at(v)]);
+    end_element();
 }
 
 void PlyWriter::write_face(Index f)
@@ -101,28 +114,23 @@ void PlyWriter::write_face(Index f)
         write(static_cast<std::uint8_t>(corners.size()));
     for (const Index v : corners)
         write(v);
-}
-
-void PlyWriter::write_label(Index label)
-{
-    for (const std::uint8_t channel : colour_of(label))
-        write(channel);
-    write(label);
+    if (!extras_.face_labels.empty()) {
+        write_colour(colour_of(extras_.face_labels[at(f)]));
+        write(extras_.face_labels[at(f)]);
+    }
+    end_element();
 }
 
 }  // namespace
 
-void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, std::span<const Index> labels)
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
 {
-    PlyWriter writer(file, mesh, encoding);
-    writer.write_header(!labels.empty());
-    writer.write_vertices();
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
+    PlyWriter writer(file, mesh, encoding, extras);
+    writer.write_header();
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        writer.write_vertex(v);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
         writer.write_face(f);
-        if (!labels.empty())
-            writer.write_label(labels[static_cast<std::size_t>(f)]);
-        writer.end_element();
-    }
 }
 
 }  // namespace seamflow

@@ -36,6 +36,36 @@ void add_distance(Json& json, const VertexDistance& distance)
     json["mean_edge"] = number(distance.mean_edge);
 }
 
+/// In units of `unit`.
+void add_relative(Json& json, const std::string& name, const LengthStatistics& lengths, double unit)
+{
+    json[name + "_mean"] = number(lengths.mean / unit);
+    json[name + "_rms"] = number(lengths.rms / unit);
+    json[name + "_max"] = number(lengths.max / unit);
+}
+
+void add_surface_distance(Json& json, const std::string& name, const LengthStatistics& distance, double mean_edge)
+{
+    add_relative(json, name, distance, mean_edge);
+    json[name + "_mean_absolute"] = number(distance.mean);
+    json[name + "_rms_absolute"] = number(distance.rms);
+    json[name + "_max_absolute"] = number(distance.max);
+}
+
+void add_displacement(Json& json, const DisplacementStatistics& displacement, double mean_edge)
+{
+    add_relative(json, "tangential", displacement.tangential, mean_edge);
+    add_relative(json, "normal", displacement.normal, mean_edge);
+}
+
+Json total_json(const TotalDisplacement& total, double mean_edge)
+{
+    Json json;
+    add_displacement(json, total.path, mean_edge);
+    add_relative(json, "drift", total.drift, mean_edge);
+    return json;
+}
+
 Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
 {
     return {{"read", number(run.read_seconds)},       {"cut", number(seconds.cut)},
@@ -45,13 +75,14 @@ Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
             {"total", number(seconds.total)},         {"write", number(run.write_seconds)}};
 }
 
-Json steps_json(const std::vector<StepReport>& steps)
+Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
 {
     Json list = Json::array();
     for (const StepReport& step : steps) {
         Json json{{"seconds", number(step.seconds)},
                   {"max_mean_curvature_before", number(step.max_mean_curvature_before)},
                   {"max_mean_curvature_after", number(step.max_mean_curvature_after)}};
+        add_displacement(json, step.displacement, mean_edge);
         if (step.distance)
             add_distance(json, *step.distance);
         if (step.reference_seconds)
@@ -91,7 +122,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["threads"] = report.threads;
     json["p"] = numbers(report.p);
     json["seconds"] = seconds_json(run, report.seconds);
-    json["steps"] = steps_json(report.steps);
+    json["steps"] = steps_json(report.steps, run.mean_edge);
+    json["displacement"] = total_json(report.displacement, run.mean_edge);
     json["remarks"] = report.remarks;
     json["peak_memory_bytes"] = peak_memory_bytes();
     return text_of(json);
@@ -104,7 +136,17 @@ std::string compare_report_json(const Comparison& comparison)
     json["candidate"] = comparison.candidate;
     json["vertices"] = comparison.vertices;
     json["faces"] = comparison.faces;
-    add_distance(json, comparison.distance);
+    json["mean_edge"] = number(comparison.mean_edge);
+    if (comparison.vertex_distance)
+        add_distance(json, *comparison.vertex_distance);
+    json["direction"] = name_of(comparison.direction);
+    if (comparison.surface_distance)
+        add_surface_distance(json, "h", *comparison.surface_distance, comparison.mean_edge);
+    if (comparison.surface_distance_back)
+        add_surface_distance(json, "h_back", *comparison.surface_distance_back, comparison.mean_edge);
+    if (comparison.displacement)
+        add_displacement(json, *comparison.displacement, comparison.mean_edge);
+    json["remarks"] = comparison.remarks;
     return text_of(json);
 }
 

@@ -3,16 +3,17 @@
 #include <string>
 
 #include "engine/flow_report.h"
+#include "samples/common/comparison.h"
 #include "samples/common/run_record.h"
 
 namespace seamflow {
 
 /// REPORT.json of `smooth`. All numbers read back to the same double; a number that is not finite becomes null.
 /// v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh, v_mean_absolute and so on in units
-/// of length.
+/// of length; displacements are in mean edge lengths of the input.
 std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
 
-/// REPORT.json of `compare`; the same units.
+/// REPORT.json of `compare`; the same units. What was not measured has no keys.
 std::string compare_report_json(const Comparison& comparison);
 
 }  // namespace seamflow

@@ -52,6 +52,24 @@ void print_times(std::ostream& out, const RunRecord& run, const PhaseSeconds& ph
         << ", solve " << seconds(phases.solve) << ", correct " << seconds(phases.correct) << " (summed over threads)\n";
 }
 
+/// One line: mean, RMS and largest in units of `unit`.
+void print_lengths(std::ostream& out, const char* name, const LengthStatistics& lengths, double unit)
+{
+    const bool relative = unit > 0.0;
+    const double divisor = relative ? unit : 1.0;
+    out << name << "mean " << digits(lengths.mean / divisor) << ", RMS " << digits(lengths.rms / divisor)
+        << ", largest " << digits(lengths.max / divisor) << (relative ? " mean edge lengths" : "") << '\n';
+}
+
+void print_total(std::ostream& out, const TotalDisplacement& total, double mean_edge)
+{
+    const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
+    out << "moved      tangentially " << digits(total.path.tangential.mean / unit, 4) << " (largest "
+        << digits(total.path.tangential.max / unit, 4) << ", net " << digits(total.drift.mean / unit, 4)
+        << "), normally " << digits(total.path.normal.mean / unit, 4) << " (largest "
+        << digits(total.path.normal.max / unit, 4) << ") mean edge lengths on average\n";
+}
+
 void print_distance(std::ostream& out, const char* name, double absolute, double mean_edge)
 {
     out << name << "  " << digits(absolute, 10);
@@ -88,6 +106,7 @@ void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& re
     out << "flow       " << run.laplacian << ", time step " << digits(report.time_step, 10) << '\n';
     print_cut(out, report);
     print_times(out, run, report.seconds);
+    print_total(out, report.displacement, run.mean_edge);
     out << "threads    " << report.threads << '\n';
     out << "memory     " << digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4) << " MB at most\n";
     for (const std::string& remark : report.remarks)
@@ -97,12 +116,35 @@ void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& re
 
 void print_comparison(std::ostream& out, const Comparison& comparison)
 {
-    const VertexDistance& distance = comparison.distance;
-    print_distance(out, "V_mean", distance.mean, distance.mean_edge);
-    print_distance(out, "V_RMS ", distance.rms, distance.mean_edge);
-    print_distance(out, "V_max ", distance.max, distance.mean_edge);
+    const double unit = comparison.mean_edge;
+    const auto print = [&](const char* name, const auto& distance) {
+        const std::string prefix = name;
+        print_distance(out, (prefix + "_mean").c_str(), distance.mean, unit);
+        print_distance(out, (prefix + "_RMS ").c_str(), distance.rms, unit);
+        print_distance(out, (prefix + "_max ").c_str(), distance.max, unit);
+    };
+    if (comparison.vertex_distance)
+        print("V", *comparison.vertex_distance);
+    if (comparison.surface_distance)
+        print("H", *comparison.surface_distance);
+    if (comparison.surface_distance_back) {
+        out << "from the vertices of the candidate to the surface of the reference:\n";
+        print("H", *comparison.surface_distance_back);
+    }
+    if (comparison.displacement) {
+        print_lengths(out, "tangential  ", comparison.displacement->tangential, unit);
+        print_lengths(out, "normal      ", comparison.displacement->normal, unit);
+    }
+    for (const std::string& remark : comparison.remarks)
+        out << "remark  " << remark << '\n';
     out << "(" << counted(comparison.vertices, "vertex", "vertices") << ", mean edge of " << comparison.reference
-        << ": " << digits(distance.mean_edge, 10) << ")" << std::endl;
+        << ": " << digits(unit, 10) << "; H_ " << name_of(comparison.direction) << ")" << std::endl;
+}
+
+void print_error_map(std::ostream& out, const std::string& file, const ErrorRange& range)
+{
+    out << "error map  " << file << ", from " << digits(range.first) << " (blue) to " << digits(range.last) << " (red)"
+        << std::endl;
 }
 
 }  // namespace seamflow

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
 #include "engine/flow_report.h"
+#include "samples/common/comparison.h"
+#include "samples/common/error_map.h"
 #include "samples/common/run_record.h"
 
 namespace seamflow {
@@ -17,7 +20,10 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 /// What the flow did: the cut, the time per phase, memory, remarks and where the result is.
 void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& report);
 
-/// What `compare` found, absolute and in mean edge lengths of the reference.
+/// What `compare` found, absolute and in mean edge lengths of the reference; displacements in the latter alone.
 void print_comparison(std::ostream& out, const Comparison& comparison);
+
+/// Where an error map is, and what its colours mean.
+void print_error_map(std::ostream& out, const std::string& file, const ErrorRange& range);
 
 }  // namespace seamflow

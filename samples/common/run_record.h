@@ -3,9 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "partition/metrics/vertex_distance.h"
-#include "partition/polygon_mesh.h"
-
 namespace seamflow {
 
 /// What `smooth` knows about its run beyond the FlowReport.
@@ -21,15 +18,6 @@ struct RunRecord {
     /// Wall-clock time for reading all inputs and for writing all results, the report excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;
-};
-
-/// What `compare` found.
-struct Comparison {
-    std::string reference;
-    std::string candidate;
-    Index vertices = 0;
-    Index faces = 0;
-    VertexDistance distance;
 };
 
 }  // namespace seamflow

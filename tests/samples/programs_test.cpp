@@ -96,6 +96,13 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
     }
     CHECK(w.run(COMPARE " mesh.obj") == 2);
     CHECK(w.run(COMPARE " mesh.obj mesh.obj --report mesh.obj") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --direction sideways") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.obj") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.ply --show everything") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.ply --full-scale 0") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.ply --report map.ply") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --show normal") == 2);
+    CHECK_FALSE(w.has("map.ply"));
     CHECK(w.run(GENERATE " dodecahedron out.obj") == 2);
     CHECK(w.run(GENERATE " quads out.obj --vertices many") == 2);
     CHECK(w.run(GENERATE " quads out.xyz") == 2);
@@ -111,12 +118,14 @@ TEST_CASE("unusable input ends with 3")
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --labels nothing.txt") == 3);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --labels few.txt") == 3);
     CHECK(w.said().find("few.txt") != std::string::npos);
-    REQUIRE(w.run(GENERATE " mixed smaller.obj --vertices 500") == 0);
-    REQUIRE(w.run(GENERATE " mixed other.obj --vertices 900 --seed 2") == 0);
+    (void)w.directory.with("points.obj", "v 0 0 0\nv 1 0 0\n");
     CHECK(w.run(COMPARE " mesh.obj nothing.obj") == 3);
-    CHECK(w.run(COMPARE " mesh.obj smaller.obj") == 3);
+    CHECK(w.run(COMPARE " mesh.obj points.obj") == 3);
     CHECK(w.said().find("vertices") != std::string::npos);
-    CHECK(w.run(COMPARE " mesh.obj other.obj") == 3);
+    REQUIRE(w.run(GENERATE " mixed smaller.obj --vertices 500") == 0);
+    CHECK(w.run(COMPARE " mesh.obj smaller.obj --error-map map.ply --show vertex-distance") == 3);
+    CHECK(w.said().find("correspond") != std::string::npos);
+    CHECK_FALSE(w.has("map.ply"));
     CHECK_FALSE(w.has("out.obj"));
 }
 
@@ -130,6 +139,7 @@ TEST_CASE("output that cannot be written ends with 5, before the work begins")
     CHECK(w.smooth("mesh.obj out.stl --time-step 1") == 5);
     CHECK(w.said().find("step 1") == std::string::npos);
     CHECK(w.run(COMPARE " mesh.obj mesh.obj --report nowhere/report.json") == 5);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map nowhere/map.ply") == 5);
     CHECK(w.run(GENERATE " quads nowhere/out.obj") == 5);
     CHECK_FALSE(w.has("out.obj"));
 }
@@ -141,16 +151,20 @@ TEST_CASE("the report of smooth has its keys")
                      "--laplacian ptackova-velho --reference --report report.json") == 0);
     const Json report = w.json("report.json");
     for (const char* key : {"vertices", "faces", "subdomains", "colors", "laplacian", "time_step", "threads", "p",
-                            "seconds", "steps", "peak_memory_bytes", "subdomain_vertices", "interface_vertices",
-                            "repaired_faces", "remarks", "mean_edge", "input", "output"})
+                            "seconds", "steps", "displacement", "peak_memory_bytes", "subdomain_vertices",
+                            "interface_vertices", "repaired_faces", "remarks", "mean_edge", "input", "output"})
         CHECK_MESSAGE(report.contains(key), key);
     for (const char* key :
          {"read", "cut", "analyse", "assemble", "factorise", "solve", "correct", "step", "total", "write"})
         CHECK_MESSAGE(report["seconds"][key].is_number(), key);
     REQUIRE(report["steps"].size() == 3);
     for (const char* key :
-         {"seconds", "max_mean_curvature_before", "max_mean_curvature_after", "v_mean", "v_rms", "v_max"})
+         {"seconds", "max_mean_curvature_before", "max_mean_curvature_after", "v_mean", "v_rms", "v_max",
+          "tangential_mean", "tangential_rms", "tangential_max", "normal_mean", "normal_rms", "normal_max"})
         CHECK_MESSAGE(report["steps"][2][key].is_number(), key);
+    for (const char* key : {"tangential_mean", "tangential_rms", "tangential_max", "normal_mean", "normal_rms",
+                            "normal_max", "drift_mean", "drift_rms", "drift_max"})
+        CHECK_MESSAGE(report["displacement"][key].get<double>() > 0.0, key);
     CHECK(report["laplacian"] == "ptackova-velho");
     CHECK(report["threads"] == 1);
     CHECK(report["p"].size() == report["subdomains"].get<std::size_t>());
@@ -158,6 +172,51 @@ TEST_CASE("the report of smooth has its keys")
     CHECK(report["time_step"].get<double>() == doctest::Approx(2.0 * edge * edge));
     CHECK(w.count_lines("said", "step ") == 3);
     CHECK(w.said().find("V_mean") != std::string::npos);
+}
+
+TEST_CASE("compare tells V_, H_ and displacements of meshes that correspond")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 1") == 0);
+    REQUIRE(w.run(COMPARE " mesh.obj out.obj --report compared.json --direction both --error-map map.ply "
+                          "--show tangential") == 0);
+    const Json compared = w.json("compared.json");
+    const double edge = compared["mean_edge"].get<double>();
+    for (const std::string name : {"v", "h", "h_back"})
+        for (const std::string which : {"_mean", "_rms", "_max"}) {
+            const std::string key = name + which;
+            CAPTURE(key);
+            const double relative = compared[key].get<double>();
+            CHECK(relative > 0.0);
+            CHECK(compared[key + "_absolute"].get<double>() == doctest::Approx(relative * edge));
+        }
+    for (const char* key :
+         {"tangential_mean", "tangential_rms", "tangential_max", "normal_mean", "normal_rms", "normal_max"})
+        CHECK_MESSAGE(compared[key].get<double>() > 0.0, key);
+    CHECK(compared["h_max"] <= compared["v_max"]);
+    CHECK(compared["remarks"].empty());
+    CHECK(w.said().find("H_RMS") != std::string::npos);
+    CHECK(w.count_lines("map.ply", "property double tangential") == 1);
+    CHECK(w.count_lines("map.ply", "property uchar red") == 1);
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 1 --report report.json") == 0);
+    CHECK(w.json("report.json")["displacement"]["tangential_mean"].get<double>() ==
+          doctest::Approx(compared["tangential_mean"].get<double>()));
+}
+
+TEST_CASE("compare tells H_ alone of meshes that do not correspond")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " mixed other.obj --vertices 900 --seed 2") == 0);
+    REQUIRE(w.run(GENERATE " mixed smaller.obj --vertices 500") == 0);
+    for (const std::string candidate : {"other.obj", "smaller.obj"}) {
+        CAPTURE(candidate);
+        REQUIRE(w.run(COMPARE " mesh.obj " + candidate + " --report compared.json --error-map map.ply") == 0);
+        CHECK(w.said().find("V_ and displacements are left out") != std::string::npos);
+        CHECK_FALSE(w.json("compared.json").contains("v_mean"));
+        CHECK(w.json("compared.json")["h_mean"].get<double>() > 0.0);
+        CHECK(w.json("compared.json")["remarks"].size() == 1);
+        CHECK(w.count_lines("map.ply", "property double distance") == 1);
+    }
 }
 
 TEST_CASE("a time step given before --plain stays")

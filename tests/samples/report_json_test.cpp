@@ -39,7 +39,45 @@ TEST_CASE("a report is valid JSON whatever happened")
     CHECK(json["time_step"].is_null());
     CHECK(json["p"][0].is_null());
     CHECK(json["remarks"][0] == "a \"remark\"\n");
-    const Json without_edges = Json::parse(compare_report_json(Comparison{}));
+    Comparison comparison;
+    comparison.vertex_distance.emplace();
+    const Json without_edges = Json::parse(compare_report_json(comparison));
     CHECK(without_edges["v_mean"].is_null());
     CHECK(without_edges["v_mean_absolute"] == 0.0);
+}
+
+TEST_CASE("displacements are in mean edge lengths of the input")
+{
+    FlowReport report;
+    StepReport step;
+    step.displacement = {.tangential = {1.0, 2.0, 3.0}, .normal = {4.0, 5.0, 6.0}};
+    report.steps = {step};
+    report.displacement = {.path = step.displacement, .drift = {0.5, 0.25, 7.0}};
+    RunRecord run;
+    run.mean_edge = 2.0;
+    const Json json = Json::parse(smooth_report_json(run, report));
+    CHECK(json["steps"][0]["tangential_mean"] == 0.5);
+    CHECK(json["steps"][0]["tangential_rms"] == 1.0);
+    CHECK(json["steps"][0]["normal_max"] == 3.0);
+    CHECK(json["displacement"]["normal_mean"] == 2.0);
+    CHECK(json["displacement"]["drift_max"] == 3.5);
+}
+
+TEST_CASE("the report of compare has what was measured, and nothing else")
+{
+    Comparison comparison;
+    comparison.mean_edge = 2.0;
+    comparison.direction = Direction::Both;
+    comparison.surface_distance = LengthStatistics{1.0, 2.0, 3.0};
+    comparison.surface_distance_back = LengthStatistics{4.0, 5.0, 6.0};
+    comparison.remarks = {"V_ is left out."};
+    const Json json = Json::parse(compare_report_json(comparison));
+    CHECK(json["direction"] == "both");
+    CHECK(json["h_mean"] == 0.5);
+    CHECK(json["h_rms_absolute"] == 2.0);
+    CHECK(json["h_max"] == 1.5);
+    CHECK(json["h_back_max_absolute"] == 6.0);
+    CHECK(json["remarks"].size() == 1);
+    CHECK_FALSE(json.contains("v_mean"));
+    CHECK_FALSE(json.contains("tangential_mean"));
 }

@@ -297,3 +297,43 @@ TEST_CASE("PLY: colours of labels close in number differ clearly")
             CHECK(distance > 60);
         }
 }
+
+TEST_CASE("PLY: a mesh with colours and values at its vertices")
+{
+    const TemporaryDirectory folder;
+    const auto path = folder.path() / "a.ply";
+    const auto mesh = make_triangle();
+    const std::vector<Colour> colours{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<VertexValues> values{{"distance", {0.5, 1e-300, nan}}, {"normal", {-1.0, 0.0, 1.0}}};
+    write_valued_ply(path, mesh, colours, values);
+    CHECK(identical(read_mesh(path).mesh, mesh));
+    const std::string content = content_of(path);
+    CHECK(contains(content, "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                            "property double distance\nproperty double normal\nelement face 1\n"));
+    const std::string second = Bytes(std::endian::little)
+                                   .add<double>({mesh.vertices(1, 0), mesh.vertices(1, 1), mesh.vertices(1, 2)})
+                                   .add<std::uint8_t>({4, 5, 6})
+                                   .add<double>({1e-300, 0.0})
+                                   .text();
+    CHECK(contains(content, second));
+    CHECK_THROWS_AS(write_valued_ply(folder / "b.ply", mesh, std::vector<Colour>(2), values), OutputError);
+    CHECK_THROWS_AS(write_valued_ply(folder / "b.ply", mesh, colours, std::vector<VertexValues>{{"few", {1.0}}}),
+                    OutputError);
+    CHECK(folder.n_files() == 1);
+}
+
+TEST_CASE("PLY: colours of values")
+{
+    CHECK(rainbow_colour(0.0) == Colour{0, 0, 255});
+    CHECK(rainbow_colour(0.125) == Colour{0, 128, 255});
+    CHECK(rainbow_colour(0.5) == Colour{0, 255, 0});
+    CHECK(rainbow_colour(1.0) == Colour{255, 0, 0});
+    CHECK(rainbow_colour(7.0) == Colour{255, 0, 0});
+    CHECK(rainbow_colour(-1.0) == Colour{0, 0, 255});
+    CHECK(rainbow_colour(std::numeric_limits<double>::quiet_NaN()) == Colour{128, 128, 128});
+    CHECK(signed_colour(-1.0) == Colour{0, 0, 255});
+    CHECK(signed_colour(0.0) == Colour{255, 255, 255});
+    CHECK(signed_colour(0.5) == Colour{255, 128, 128});
+    CHECK(signed_colour(9.0) == Colour{255, 0, 0});
+}

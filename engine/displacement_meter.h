@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/flow_report.h"
+#include "partition/metrics/displacement.h"
+
+namespace seamflow {
+
+/// Measures how the vertices of a flowing mesh move along the surface and out of it, step by step and in total. Runs in
+/// parallel, sums in order: the bits do not depend on the number of threads.
+class DisplacementMeter {
+  public:
+    /// @param mesh in its state before the first step; it and its topology must outlive the meter.
+    DisplacementMeter(const PolygonMesh& mesh, const Topology& topology);
+
+    /// Takes account of one step.
+    /// @param before, after #V by 3.
+    DisplacementStatistics add_step(const Points& before, const Points& after);
+
+    /// Of all steps so far.
+    [[nodiscard]] TotalDisplacement total() const;
+
+  private:
+    VertexNormals normals_;
+    /// #V by 3: unit normals of the latest state, and the sums of the tangential parts.
+    Points normal_;
+    Points drift_;
+    /// Parts of the latest step, and the sums of their lengths over those steps where they are defined.
+    DisplacementField latest_;
+    DisplacementField path_;
+};
+
+}  // namespace seamflow

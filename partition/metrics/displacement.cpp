@@ -1,0 +1,45 @@
+#include "partition/metrics/displacement.h"
+
+#include <limits>
+#include <string>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+Displacement split_displacement(const Point& displacement, const Point& normal_before, const Point& normal_after)
+{
+    const Point sum = normal_before + normal_after;
+    // Unit vectors more nearly opposite than this leave nothing but rounding.
+    constexpr double shortest = 1e-12;
+    const double length = sum.norm();
+    if (!(length > shortest))
+        return {};
+    const Point normal = sum / length;
+    const double along = displacement.dot(normal);
+    return {.tangential = displacement - along * normal, .normal = along, .defined = true};
+}
+
+DisplacementField displacement_field(const PolygonMesh& mesh, const Points& before, const Points& after)
+{
+    if (before.rows() != mesh.n_vertices() || after.rows() != mesh.n_vertices())
+        throw InputError("a mesh of " + std::to_string(mesh.n_vertices()) + " vertices cannot have moved from " +
+                         std::to_string(before.rows()) + " positions to " + std::to_string(after.rows()));
+    const Topology topology = make_topology(mesh);
+    const VertexNormals normals(mesh, topology);
+    constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+    DisplacementField field;
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const Displacement d = split_displacement(after.row(v) - before.row(v), normals(v, before), normals(v, after));
+        field.tangential.push_back(d.defined ? d.tangential.norm() : undefined);
+        field.normal.push_back(d.defined ? d.normal : undefined);
+    }
+    return field;
+}
+
+DisplacementStatistics displacement_statistics(const DisplacementField& field)
+{
+    return {.tangential = length_statistics(field.tangential), .normal = length_statistics(field.normal)};
+}
+
+}  // namespace seamflow

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "partition/metrics/length_statistics.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Distances from points to the surface of a mesh, whose polygons are triangulated (see triangulation.h); triangles
+/// without area count as the segments or points that they are. A spatial tree makes them fast: the time for a point
+/// grows with the logarithm of the number of faces where the point is near the surface.
+class SurfaceDistance {
+  public:
+    /// Builds the tree. The mesh is not needed afterwards.
+    /// @throws InputError for a mesh without faces.
+    explicit SurfaceDistance(const PolygonMesh& surface);
+    ~SurfaceDistance();
+    SurfaceDistance(SurfaceDistance&&) noexcept;
+    SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
+
+    /// The distance of every point from the closest point of the surface, in units of length; one entry per row. Exact
+    /// to rounding, wherever the origin is: a point and a triangle are taken relative to each other. For any number of
+    /// threads at once.
+    /// @param points finite, one a row.
+    [[nodiscard]] std::vector<double> operator()(const Points& points) const;
+
+  private:
+    class Tree;
+    std::unique_ptr<const Tree> tree_;
+};
+
+/// H_mean, H_RMS and H_max of the paper (section Evaluation), in units of length: the distances of the vertices of
+/// `from` to the closest points of the surface of `to`. Vertices of `from` without faces are no part of its surface and
+/// not counted: a mesh has the distance 0 from itself.
+/// @throws InputError if one of the meshes has no faces.
+LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to);
+
+/// The larger one of each pair of numbers. Of H in both directions it makes the measure that does not change when the
+/// two meshes change places.
+LengthStatistics larger_of(const LengthStatistics& a, const LengthStatistics& b);
+
+}  // namespace seamflow

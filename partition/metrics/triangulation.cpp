@@ -1,0 +1,154 @@
+#include "partition/metrics/triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+using Point2 = Eigen::RowVector2d;
+
+/// Better ears first.
+enum class Quality {
+    /// Turns left, and no other corner lies in its triangle.
+    Clean,
+    /// In line, or so nearly that the rounding decides.
+    Flat,
+    /// None of these: only a polygon that crosses itself has no other.
+    None,
+};
+
+/// A corner that could be cut off. Ears compare by what makes one go before another.
+struct Ear {
+    Quality quality = Quality::None;
+    double diagonal = std::numeric_limits<double>::infinity();
+    Index vertex = 0;
+
+    friend auto operator<=>(const Ear&, const Ear&) = default;
+};
+
+double turn(const Point2& a, const Point2& b, const Point2& c)
+{
+    const Point2 u = b - a;
+    const Point2 w = c - b;
+    return u.x() * w.y() - u.y() * w.x();
+}
+
+/// The polygon that is left, seen along the vector area of the whole, and its ears.
+class EarClipper {
+  public:
+    EarClipper(std::span<const Index> corners, const Points& positions);
+    void run(std::vector<Triangle>& triangles);
+
+  private:
+    [[nodiscard]] std::size_t after(std::size_t k) const { return k + 1 == left_.size() ? 0 : k + 1; }
+    [[nodiscard]] std::size_t before(std::size_t k) const { return k == 0 ? left_.size() - 1 : k - 1; }
+    [[nodiscard]] const Point2& flat(std::size_t k) const { return flat_[left_[k]]; }
+    [[nodiscard]] Index vertex(std::size_t k) const { return corners_[left_[k]]; }
+    [[nodiscard]] Quality quality_of(std::size_t k) const;
+    [[nodiscard]] bool is_empty(const Point2& a, const Point2& b, const Point2& c) const;
+    void examine(std::size_t k);
+    void examine_around(std::size_t k, Quality quality);
+
+    std::span<const Index> corners_;
+    const Points& positions_;
+    /// One per corner of the polygon.
+    std::vector<Point2> flat_;
+    /// What is left: places in `corners_`, and the ear at each.
+    std::vector<std::size_t> left_;
+    std::vector<Ear> ears_;
+};
+
+EarClipper::EarClipper(std::span<const Index> corners, const Points& positions)
+    : corners_(corners)
+    , positions_(positions)
+    , ears_(corners.size())
+{
+    const Point normal = vector_area(corners, positions).stableNormalized();
+    const Point x = normal.isZero(0.0) ? Point::UnitX() : normal.unitOrthogonal();
+    const Point y = normal.isZero(0.0) ? Point::UnitY() : normal.cross(x);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Point d = positions.row(corners[k]) - positions.row(corners[0]);
+        flat_.emplace_back(d.dot(x), d.dot(y));
+        left_.push_back(k);
+    }
+}
+
+/// Whether no corner that is left lies in the triangle or on its border; those that coincide with its corners may.
+bool EarClipper::is_empty(const Point2& a, const Point2& b, const Point2& c) const
+{
+    return std::ranges::none_of(left_, [&](std::size_t k) {
+        const Point2& p = flat_[k];
+        return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+    });
+}
+
+Quality EarClipper::quality_of(std::size_t k) const
+{
+    const Point2& a = flat(before(k));
+    const Point2& b = flat(k);
+    const Point2& c = flat(after(k));
+    const double turning = turn(a, b, c);
+    constexpr double flatness = 1e-12;
+    if (std::abs(turning) <= flatness * (b - a).norm() * (c - b).norm())
+        return Quality::Flat;
+    return turning > 0.0 && is_empty(a, b, c) ? Quality::Clean : Quality::None;
+}
+
+void EarClipper::examine(std::size_t k)
+{
+    const Point diagonal = positions_.row(vertex(before(k))) - positions_.row(vertex(after(k)));
+    ears_[k] = {quality_of(k), diagonal.squaredNorm(), vertex(k)};
+}
+
+/// After the corner that stood at k is gone. Without a clean ear nothing changes but its neighbours; a corner in line,
+/// however, can have lain on the diagonal of any other.
+void EarClipper::examine_around(std::size_t k, Quality quality)
+{
+    const std::size_t next = k == left_.size() ? 0 : k;
+    examine(next);
+    examine(before(next));
+    for (std::size_t other = 0; quality == Quality::Flat && other < left_.size(); ++other)
+        examine(other);
+}
+
+void EarClipper::run(std::vector<Triangle>& triangles)
+{
+    for (std::size_t k = 0; left_.size() > 3 && k < left_.size(); ++k)
+        examine(k);
+    while (left_.size() > 3) {
+        const auto best = std::ranges::min_element(ears_) - ears_.begin();
+        const auto k = static_cast<std::size_t>(best);
+        const Quality quality = ears_[k].quality;
+        triangles.push_back({vertex(before(k)), vertex(k), vertex(after(k))});
+        left_.erase(left_.begin() + best);
+        ears_.erase(ears_.begin() + best);
+        examine_around(k, quality);
+    }
+    triangles.push_back({vertex(0), vertex(1), vertex(2)});
+}
+
+}  // namespace
+
+void triangulate(std::span<const Index> corners, const Points& positions, std::vector<Triangle>& triangles)
+{
+    if (corners.size() == 3)
+        triangles.push_back({corners[0], corners[1], corners[2]});
+    else
+        EarClipper(corners, positions).run(triangles);
+}
+
+std::vector<Triangle> triangulate(const PolygonMesh& mesh)
+{
+    std::vector<Triangle> triangles;
+    triangles.reserve(at(mesh.n_corners()) - 2 * at(mesh.n_faces()));
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        triangulate(mesh.face(f), mesh.vertices, triangles);
+    return triangles;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The vertices of a triangle.
+using Triangle = std::array<Index, 3>;
+
+/// Cuts a polygon of n corners, convex or not, planar or not, into n − 2 triangles by diagonals: the surface that
+/// stands for the polygon where it has to be one. The polygon is looked at along its vector area. Of all ears there,
+/// corners that can be cut off without crossing the polygon, that with the shortest diagonal in space goes first, and
+/// so on until three corners are left; a convex quad is divided along its shorter diagonal. The result depends neither
+/// on the corner that the list starts from nor on its sense, except for the order and sense of the triangles: of
+/// diagonals of the same length, that one goes first whose ear has the lowest number. Polygons that cross themselves
+/// when looked at so, or have no area, are still covered by n − 2 triangles.
+/// @param corners at least three vertices, in order.
+/// @param positions #V by 3.
+/// @param triangles receives the triangles, some of them without area if corners lie in line or in one place.
+void triangulate(std::span<const Index> corners, const Points& positions, std::vector<Triangle>& triangles);
+
+/// All triangles of all faces, face by face.
+std::vector<Triangle> triangulate(const PolygonMesh& mesh);
+
+}  // namespace seamflow

@@ -1,0 +1,57 @@
+#include "partition/metrics/vertex_normals.h"
+
+#include <algorithm>
+
+namespace seamflow {
+
+namespace {
+
+bool is_oriented(const PolygonMesh& mesh, const Topology& topology)
+{
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        if (const Index twin = topology.twin[at(h)];
+            twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)])
+            return false;
+    return true;
+}
+
+/// Turns the faces of a fan alike. Its corners come in order around the vertex: a face that goes round it the same way
+/// has its previous vertex on the edge to the face before.
+void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, std::vector<std::int8_t>& sense)
+{
+    Index shared = fan.first;
+    for (const Index corner : fan.corners) {
+        const Index previous = mesh.face_vertices[at(topology.previous(mesh, corner))];
+        const bool along = previous == shared;
+        sense[at(corner)] = along ? 1 : -1;
+        shared = along ? mesh.face_vertices[at(topology.next(mesh, corner))] : previous;
+    }
+    if (sense[at(*std::ranges::min_element(fan.corners))] < 0)
+        for (const Index corner : fan.corners)
+            sense[at(corner)] = static_cast<std::int8_t>(-sense[at(corner)]);
+}
+
+}  // namespace
+
+VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
+    : mesh_(mesh)
+    , topology_(topology)
+    , sense_(at(mesh.n_corners()), 1)
+{
+    if (is_oriented(mesh, topology))
+        return;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        for (const Fan& fan : fans_at(mesh, topology, v, {}, 0))
+            align(mesh, topology, fan, sense_);
+}
+
+Point VertexNormals::operator()(Index v, const Points& positions) const
+{
+    Point sum = Point::Zero();
+    for (const Index corner : topology_.corners_at(v))
+        sum += sense_[at(corner)] * vector_area(mesh_.face(topology_.face_of[at(corner)]), positions);
+    sum.stableNormalize();
+    return sum;
+}
+
+}  // namespace seamflow

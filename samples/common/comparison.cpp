@@ -1,0 +1,98 @@
+#include "samples/common/comparison.h"
+
+#include <algorithm>
+
+#include "partition/errors.h"
+#include "partition/metrics/surface_distance.h"
+
+namespace seamflow {
+
+namespace {
+
+std::string difference(const char* what, Index reference, Index candidate)
+{
+    return "REFERENCE has " + std::to_string(reference) + " " + what + ", CANDIDATE " + std::to_string(candidate);
+}
+
+void measure_surfaces(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison)
+{
+    switch (comparison.direction) {
+    case Direction::ReferenceToCandidate:
+        comparison.surface_distance = surface_distance(reference, candidate);
+        break;
+    case Direction::CandidateToReference:
+        comparison.surface_distance = surface_distance(candidate, reference);
+        break;
+    case Direction::Both:
+        comparison.surface_distance = surface_distance(reference, candidate);
+        comparison.surface_distance_back = surface_distance(candidate, reference);
+        break;
+    case Direction::Symmetric:
+        comparison.surface_distance =
+            larger_of(surface_distance(reference, candidate), surface_distance(candidate, reference));
+        break;
+    }
+}
+
+void measure_vertices(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison)
+{
+    comparison.vertex_distance = vertex_distance(reference, reference.vertices, candidate.vertices);
+    comparison.displacement =
+        displacement_statistics(displacement_field(reference, reference.vertices, candidate.vertices));
+}
+
+}  // namespace
+
+std::string_view name_of(Direction direction)
+{
+    switch (direction) {
+    case Direction::ReferenceToCandidate:
+        return "reference-to-candidate";
+    case Direction::CandidateToReference:
+        return "candidate-to-reference";
+    case Direction::Both:
+        return "both";
+    case Direction::Symmetric:
+        return "symmetric";
+    }
+    return "";
+}
+
+std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMesh& candidate)
+{
+    if (reference.n_vertices() != candidate.n_vertices())
+        return difference("vertices", reference.n_vertices(), candidate.n_vertices());
+    if (reference.n_faces() != candidate.n_faces())
+        return difference("faces", reference.n_faces(), candidate.n_faces());
+    for (Index f = 0; f < reference.n_faces(); ++f)
+        if (!std::ranges::equal(reference.face(f), candidate.face(f)))
+            return "face " + std::to_string(f) +
+                   " (counted from 0) has different vertices, or the same in another order";
+    return {};
+}
+
+Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction)
+{
+    Comparison comparison;
+    comparison.vertices = reference.n_vertices();
+    comparison.faces = reference.n_faces();
+    comparison.mean_edge = mean_edge_length(reference);
+    comparison.direction = direction;
+    const std::string mismatch = why_not_corresponding(reference, candidate);
+    if (mismatch.empty())
+        measure_vertices(reference, candidate, comparison);
+    else
+        comparison.remarks.push_back(
+            "V_ and displacements are left out, for the vertices do not correspond: " + mismatch + ".");
+    if (reference.n_faces() > 0 && candidate.n_faces() > 0)
+        measure_surfaces(reference, candidate, comparison);
+    else if (mismatch.empty())
+        comparison.remarks.push_back("H_ is left out, for without faces there is no surface.");
+    else
+        throw InputError("the meshes have nothing to compare: without faces there is no surface, and their vertices do "
+                         "not correspond: " +
+                         mismatch);
+    return comparison;
+}
+
+}  // namespace seamflow

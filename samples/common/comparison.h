@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/metrics/displacement.h"
+#include "partition/metrics/length_statistics.h"
+#include "partition/metrics/vertex_distance.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// From the vertices of which mesh to the surface of which H_ is measured.
+enum class Direction {
+    /// The paper's.
+    ReferenceToCandidate,
+    CandidateToReference,
+    /// One after the other.
+    Both,
+    /// The larger one of both, number by number.
+    Symmetric,
+};
+
+/// As on the command line.
+std::string_view name_of(Direction direction);
+
+/// What `compare` found.
+struct Comparison {
+    /// Names of the files.
+    std::string reference;
+    std::string candidate;
+    /// Of the reference.
+    Index vertices = 0;
+    Index faces = 0;
+    /// Mean edge length of the reference, over its half-edges, in units of length; 0 without faces.
+    double mean_edge = 0.0;
+    /// V_, where the vertices correspond.
+    std::optional<VertexDistance> vertex_distance;
+    Direction direction = Direction::ReferenceToCandidate;
+    /// H_ in this direction (Both: from the reference to the candidate), where both meshes have faces.
+    std::optional<LengthStatistics> surface_distance;
+    /// With Direction::Both: H_ from the candidate to the reference.
+    std::optional<LengthStatistics> surface_distance_back;
+    /// From the reference to the candidate, where the vertices correspond.
+    std::optional<DisplacementStatistics> displacement;
+    /// Sentences for the user: what was left out, and why.
+    std::vector<std::string> remarks;
+};
+
+/// Why the vertices of two meshes do not correspond; empty if they do: the same number of vertices and the same faces.
+std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMesh& candidate);
+
+/// Measures all that can be measured of two meshes; the names of the files are left to the caller.
+/// @throws InputError if there is nothing.
+Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction);
+
+}  // namespace seamflow
