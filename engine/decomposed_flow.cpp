@@ -9,6 +9,7 @@
 
 #include "engine/single_threaded_libraries.h"
 #include "engine/sweep_order.h"
+#include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
 #include "solvers/interface/robin_parameter.h"
 
@@ -51,6 +52,19 @@ bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
     return options.sweep == Sweep::Alternating || (options.sweep == Sweep::Automatic && n_sub_meshes > 2);
 }
 
+/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
+Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                 std::span<const Index> rank, int layers)
+{
+    const Overlap overlap{cut.labels, rank, layers};
+    auto faces = faces_by_label(cut.labels, cut.n_parts);
+    std::vector<SubMesh> sub_meshes(faces.size());
+    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
+        sub_meshes[s] = make_overlapping_sub_mesh(mesh, topology, overlap, static_cast<Index>(s), std::move(faces[s]));
+    });
+    return connect_overlapping(std::move(sub_meshes), topology, overlap);
+}
+
 }  // namespace
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
@@ -58,10 +72,13 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     : decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
     , positions_(mesh.vertices)
 {
-    make_states(mesh, options);
     const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
-    plans_.push_back(plan_sweep(decomposition_, rank));
-    if (alternates(options, states_.size()))
+    const bool overlaps = options.conditions == Conditions::Schwarz;
+    if (overlaps)
+        decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.overlap);
+    make_states(mesh, options);
+    plans_.push_back(overlaps ? plan_overlapping_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank));
+    if (!overlaps && alternates(options, states_.size()))
         plans_.push_back(plan_sweep(decomposition_, reversed(rank)));
     for (const SweepPlan& plan : plans_)
         roots_.push_back(add_sweep(plan, options));
@@ -74,7 +91,7 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
         const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         on_behalf_of(sub_mesh, static_cast<Index>(s),
                      [&] { made[s].emplace(sub_mesh, options.laplacian, mesh.vertices); });
-        if (!sub_mesh.interface.vertices.empty())
+        if (options.conditions != Conditions::Schwarz && !sub_mesh.interface.vertices.empty())
             made[s]->p = options.p.value_or(optimal_robin_parameter(sub_mesh, made[s]->position));
     });
     states_.reserve(made.size());

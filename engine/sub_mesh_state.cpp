@@ -46,6 +46,8 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
+    for (const Index v : state.sub_mesh->interface.vertices)
+        state.solved.row(v) = state.position.row(v);
     receive(states, traces, &SubMeshState::solved, state.solved);
     state.system.solve(state.solved);
     state.seconds.solve += watch.lap();
@@ -65,12 +67,12 @@ void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vec
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::solved, state.solved);
-    const auto& interface = state.sub_mesh->interface;
-    for (Index i = 0; i < interface.size(); ++i) {
+    const auto& seam = state.sub_mesh->seam;
+    for (Index i = 0; i < static_cast<Index>(seam.vertices.size()); ++i) {
         Point sum = Point::Zero();
-        for (const Index neighbour : interface.neighbours[i])
+        for (const Index neighbour : seam.neighbours[i])
             sum += state.solved.row(neighbour);
-        state.position.row(interface.vertices[at(i)]) = sum / static_cast<double>(interface.neighbours[i].size());
+        state.position.row(seam.vertices[at(i)]) = sum / static_cast<double>(seam.neighbours[i].size());
     }
     state.seconds.correct += watch.lap();
 }

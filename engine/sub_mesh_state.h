@@ -36,7 +36,7 @@ struct SubMeshState {
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
                             std::span<const InterfaceRole> roles, double time_step);
 
-/// Fetches Vᵏ⁺¹ where the sub-mesh follows on Γ, and solves.
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces);
 
 /// Accepts Vᵏ⁺¹ as it was solved.

@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <map>
 
+#include "partition/decomposition/local_mesh.h"
+
 namespace seamflow {
 
 namespace {
-
-/// The labels of the faces around a vertex, ascending.
-std::vector<Index> labels_at(const Topology& topology, std::span<const Index> labels, Index v)
-{
-    std::vector<Index> found;
-    for (const Index corner : topology.corners_at(v))
-        found.push_back(labels[at(topology.face_of[at(corner)])]);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-}
 
 void list_sharing(const Topology& topology, std::span<const Index> labels, Index s, Decomposition& decomposition)
 {

@@ -23,8 +23,6 @@ struct SubMeshInterface {
     IndexLists own_faces;
     /// The other faces around the vertex, as indices into `halo_faces`.
     IndexLists complement_faces;
-    /// The edge neighbours, in ascending order of their global indices.
-    IndexLists neighbours;
     /// All sub-meshes at the vertex, in ascending order, this one among them, and its index in each.
     IndexLists sharing;
     IndexLists index_in_sharing;
@@ -32,6 +30,14 @@ struct SubMeshInterface {
     IndexLists halo_faces;
 
     [[nodiscard]] Index size() const { return static_cast<Index>(vertices.size()); }
+};
+
+/// The vertices of Γ in a sub-mesh's own part, which move to the centroids of their edge neighbours after a step.
+struct SubMeshSeam {
+    /// In ascending order.
+    std::vector<Index> vertices;
+    /// One list per vertex: its edge neighbours, in ascending order of their global indices.
+    IndexLists neighbours;
 };
 
 /// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
@@ -54,6 +60,7 @@ struct SubMesh {
     /// does so for each vertex that may move.
     std::vector<std::uint8_t> owned;
     SubMeshInterface interface;
+    SubMeshSeam seam;
 };
 
 /// Cuts out the sub-mesh of the given faces. `interface.sharing` and `index_in_sharing` are left empty: they need all

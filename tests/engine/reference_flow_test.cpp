@@ -8,7 +8,7 @@ using namespace seamflow;
 TEST_CASE("the flows of the paper's authors are reproduced, undecomposed and in two, three and four sub-meshes")
 {
     const auto files = test::reference_files("flow");
-    REQUIRE(files.size() >= 27);
+    REQUIRE(files.size() >= 39);
     for (const auto& file : files) {
         CAPTURE(file.filename().string());
         test::ReferenceFlow reference = test::read_flow(file);

@@ -87,6 +87,8 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
     options.steps = static_cast<int>(data.at("positions_after_step").size());
     options.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
     options.correction = data.at("correction").get<bool>() ? Correction::Centroid : Correction::None;
+    if (data.at("conditions") == "schwarz")
+        options.conditions = Conditions::Schwarz;
     if (data.at("conditions") == "none")
         options.subdomains = 1;
     else

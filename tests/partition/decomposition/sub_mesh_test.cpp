@@ -213,7 +213,7 @@ TEST_CASE("the neighbours of a vertex of the interface are the other ends of its
                  cut.topology.corners_at(sub_mesh.local_to_global[at(sub_mesh.interface.vertices[at(i)])]))
                 for (const Index end : {cut.topology.next(cut.mesh, corner), cut.topology.previous(cut.mesh, corner)})
                     expected.insert(cut.mesh.face_vertices[at(end)]);
-            const auto found = to_global(sub_mesh, sub_mesh.interface.neighbours[i]);
+            const auto found = to_global(sub_mesh, sub_mesh.seam.neighbours[i]);
             CHECK(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
         }
     });

@@ -1,0 +1,189 @@
+#include "partition/decomposition/overlap.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "partition/decomposition/local_mesh.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The faces around `front` that are not in `faces` and into which part s may grow.
+std::vector<Index> next_layer(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
+                              std::span<const Index> front, std::span<const Index> faces)
+{
+    std::vector<Index> layer;
+    for (const Index of_front : front)
+        for (const Index v : mesh.face(of_front))
+            for (const Index corner : topology.corners_at(v)) {
+                const Index f = topology.face_of[at(corner)];
+                const Index part = overlap.labels[at(f)];
+                if (part != s && overlap.rank[at(part)] >= overlap.rank[at(s)] && position_in(faces, f) < 0)
+                    layer.push_back(f);
+            }
+    sort_unique(layer);
+    return layer;
+}
+
+bool is_artificial_boundary(const Topology& topology, const SubMesh& sub_mesh, Index v)
+{
+    const auto corners = topology.corners_at(v);
+    return topology.kind[at(v)] == VertexKind::Interior && std::any_of(corners.begin(), corners.end(), [&](Index c) {
+               return position_in(sub_mesh.faces, topology.face_of[at(c)]) < 0;
+           });
+}
+
+void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
+{
+    auto& interface = sub_mesh.interface;
+    for (Index i = 0; i < sub_mesh.n_vertices; ++i) {
+        if (!is_artificial_boundary(topology, sub_mesh, sub_mesh.local_to_global[at(i)]))
+            continue;
+        interface.vertices.push_back(i);
+        interface.before.push_back(-1);
+        interface.after.push_back(-1);
+        interface.own_faces.close();
+        interface.complement_faces.close();
+    }
+}
+
+/// The vertices of Γ in part s.
+std::vector<Index> list_seam(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap,
+                             std::span<const Index> faces)
+{
+    std::vector<Index> seam;
+    for (const Index f : faces)
+        std::copy_if(mesh.face(f).begin(), mesh.face(f).end(), std::back_inserter(seam),
+                     [&](Index v) { return is_on_interface(topology, overlap.labels, v); });
+    sort_unique(seam);
+    return seam;
+}
+
+void list_sharing(const Topology& topology, const Overlap& overlap, std::span<const SubMesh> sub_meshes,
+                  SubMesh& sub_mesh)
+{
+    auto& interface = sub_mesh.interface;
+    for (const Index i : interface.vertices) {
+        const Index v = sub_mesh.local_to_global[at(i)];
+        for (const Index part : labels_at(topology, overlap.labels, v)) {
+            interface.sharing.values.push_back(part);
+            interface.index_in_sharing.values.push_back(local_index(sub_meshes[at(part)], v));
+        }
+        interface.sharing.close();
+        interface.index_in_sharing.close();
+    }
+}
+
+std::vector<Transfer> transfers_to(Index s, std::map<Index, Transfer>&& by_sender)
+{
+    std::vector<Transfer> transfers;
+    for (auto& [sender, transfer] : by_sender) {
+        transfer.from = sender;
+        transfer.to = s;
+        transfers.push_back(std::move(transfer));
+    }
+    return transfers;
+}
+
+/// For every vertex that is not of part s, the lowest part that has it; these are the ones that send it.
+std::vector<Transfer> list_halo_transfers(const Topology& topology, const Overlap& overlap, Index s,
+                                          std::span<const SubMesh> sub_meshes)
+{
+    const auto& local_to_global = sub_meshes[at(s)].local_to_global;
+    std::map<Index, Transfer> by_sender;
+    for (std::size_t i = 0; i < local_to_global.size(); ++i) {
+        const auto parts = labels_at(topology, overlap.labels, local_to_global[i]);
+        if (std::binary_search(parts.begin(), parts.end(), s))
+            continue;
+        Transfer& transfer = by_sender[parts.front()];
+        transfer.source.push_back(local_index(sub_meshes[at(parts.front())], local_to_global[i]));
+        transfer.target.push_back(static_cast<Index>(i));
+    }
+    return transfers_to(s, std::move(by_sender));
+}
+
+void list_adjacent(Decomposition& decomposition)
+{
+    decomposition.adjacency.resize(decomposition.halo.size());
+    for (const auto& transfers : decomposition.halo)
+        for (const Transfer& transfer : transfers) {
+            decomposition.adjacency[at(transfer.from)].push_back(transfer.to);
+            decomposition.adjacency[at(transfer.to)].push_back(transfer.from);
+        }
+    for (auto& adjacent : decomposition.adjacency)
+        sort_unique(adjacent);
+}
+
+}  // namespace
+
+std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
+                        std::vector<Index> faces)
+{
+    std::vector<Index> front = faces;
+    for (int layer = 0; layer < overlap.layers && !front.empty(); ++layer) {
+        front = next_layer(mesh, topology, overlap, s, front, faces);
+        const auto middle = static_cast<std::ptrdiff_t>(faces.size());
+        faces.insert(faces.end(), front.begin(), front.end());
+        std::inplace_merge(faces.begin(), faces.begin() + middle, faces.end());
+    }
+    return faces;
+}
+
+SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
+                                  std::vector<Index> faces)
+{
+    const std::vector<Index> seam = list_seam(mesh, topology, overlap, faces);
+    SubMesh sub_mesh = copy_faces(mesh, topology, grow(mesh, topology, overlap, s, std::move(faces)));
+    mark_owned(topology, overlap.labels, s, sub_mesh);
+    list_artificial_boundary(topology, sub_mesh);
+    std::vector<Index> around_seam;
+    for (const Index v : seam)
+        for (const Index neighbour : edge_neighbours(mesh, topology, v))
+            around_seam.push_back(neighbour);
+    append_halo(std::move(around_seam), sub_mesh);
+    for (const Index v : seam)
+        append_to_seam(mesh, topology, v, sub_mesh);
+    return sub_mesh;
+}
+
+Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topology& topology, const Overlap& overlap)
+{
+    Decomposition decomposition;
+    for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s) {
+        SubMesh& sub_mesh = sub_meshes[at(s)];
+        list_sharing(topology, overlap, sub_meshes, sub_mesh);
+        decomposition.halo.push_back(list_halo_transfers(topology, overlap, s, sub_meshes));
+        for (const Index v : sub_mesh.seam.vertices)
+            decomposition.n_interface_vertices += sub_mesh.owned[at(v)];
+    }
+    decomposition.sub_meshes = std::move(sub_meshes);
+    list_adjacent(decomposition);
+    return decomposition;
+}
+
+SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<const Index> rank)
+{
+    SweepPlan plan;
+    plan.rank.assign(rank.begin(), rank.end());
+    for (Index s = 0; s < static_cast<Index>(rank.size()); ++s) {
+        const auto& interface = decomposition.sub_meshes[at(s)].interface;
+        plan.roles.emplace_back(interface.vertices.size(), InterfaceRole::Follows);
+        std::map<Index, Transfer> by_sender;
+        for (Index i = 0; i < interface.size(); ++i) {
+            const auto parts = interface.sharing[i];
+            const auto first = std::min_element(parts.begin(), parts.end(),
+                                                [&](Index a, Index b) { return rank[at(a)] < rank[at(b)]; });
+            if (rank[at(*first)] >= rank[at(s)])
+                continue;
+            by_sender[*first].source.push_back(
+                interface.index_in_sharing[i][at(static_cast<Index>(first - parts.begin()))]);
+            by_sender[*first].target.push_back(interface.vertices[at(i)]);
+        }
+        plan.traces.push_back(transfers_to(s, std::move(by_sender)));
+    }
+    return plan;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+#include "partition/decomposition/sweep_plan.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+/// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. Schwarz A and B), in any number. Each one
+/// is its own part of the cut, grown into parts of equal or higher rank. What it finds counts on its own part only, and
+/// where own parts meet, on Γ, that of the lowest rank there counts.
+namespace seamflow {
+
+/// How a cut is made to overlap.
+struct Overlap {
+    /// #F, the part of every face.
+    std::span<const Index> labels;
+    /// #parts, different for parts that share a vertex of Γ: part i grows into those of equal or higher rank.
+    std::span<const Index> rank;
+    /// How often each part grows by all faces that share a vertex with it, at least 0.
+    int layers = 1;
+};
+
+/// The faces of part s, grown, in ascending order.
+/// @param faces those of the part itself.
+std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
+                        std::vector<Index> faces);
+
+/// Cuts out the sub-mesh of part s, grown. Its interface is its artificial boundary: the vertices that may move and
+/// have faces outside; of the interface's lists only `vertices` is filled in (the others are -1 or empty), which need
+/// no fan. Its seam and the vertices that it owns are those of the part itself. May be called for several sub-meshes at
+/// once.
+/// @param faces those of the part itself, in ascending order.
+SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
+                                  std::vector<Index> faces);
+
+/// Joins sub-meshes made by make_overlapping_sub_mesh. `interface.sharing` are the parts that have the vertex, the halo
+/// transfers fill all vertices that are not of the own part, and all that these join are adjacent.
+Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topology& topology, const Overlap& overlap);
+
+/// Plans the sweep for which the decomposition was made: everyone follows everywhere on its interface. The traces bring
+/// V^{k+1} where the part of lowest rank at the vertex solves before; elsewhere V^k holds.
+SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<const Index> rank);
+
+}  // namespace seamflow
