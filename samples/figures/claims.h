@@ -20,18 +20,22 @@ struct Claim {
     bool holds = false;
 };
 
-/// What "close" and "more" are taken to mean where the paper's words leave it open. Lengths in mean edge lengths.
+/// What the paper's words are taken to mean where they leave it open. Lengths in mean edge lengths.
 struct ClaimLimits {
-    /// Mean distance of vertices, and of surfaces, up to which two meshes count as close: half an edge, and a tenth.
+    /// "Small distances", "good outcomes": up to this V_mean a vertex is on average closer to its counterpart than to
+    /// any other vertex, ...
     double close_vertices = 0.5;
-    double close_surfaces = 0.1;
-    /// Mean distance of vertices up to which two meshes are hard to tell apart.
-    double alike = 0.1;
-    /// A Laplacian drags a texture if its drift is so many times that of those that do not.
-    double drags = 3.0;
-    /// How many times larger Schwarz's V_mean on the wavy cylinder is than Robin's.
+    /// ... and up to this H_mean the surfaces are, by the same factor, closer than half of that.
+    double close_surfaces = 0.25;
+    /// "Hard to distinguish": up to this V_mean. In the paper's picture of 60 by 60 faces an edge is about 0.6 mm.
+    double alike = 0.25;
+    /// "Tangential shifts": the drift is so many times that of the Laplacians that are said to have none.
+    double drags = 2.0;
+    /// "Significant artifacts", "much slower": how many times larger Schwarz's V_mean is than Robin's. The authors'
+    /// code gives 18 for Δ_F.
     double delays = 10.0;
-    /// Degrees of roughness beyond which a mesh counts as spiky.
+    double delays_velho = 5.0;
+    /// "Spiky": degrees of roughness. On average the faces stand at this angle to each other then.
     double spiky = 45.0;
 };
 

@@ -3,7 +3,7 @@
 #include "partition/polygon_mesh.h"
 
 /// Generated stand-ins for the meshes of the paper: of the same kind and, at their usual number of vertices, of the
-/// same size. Where the two halves of a mesh meet (see halves_by_rows) runs through its middle.
+/// same size. Their two halves (see halves_by_rows) meet in the middle.
 namespace seamflow {
 
 /// Quads, mixed polygons or triangles over the square from -1 to 1 in x and y: bumps of one wave length 1.
@@ -11,18 +11,18 @@ PolygonMesh quads_with_bumps(Index vertices);
 PolygonMesh polygons_with_bumps(Index vertices);
 PolygonMesh triangles_with_bumps(Index vertices);
 
-/// Hexagons over the unit square.
+/// Irregular hexagons over the unit square, the shortest edge about half as long as the mean one.
 PolygonMesh hexagons_with_bumps(Index vertices);
 
 /// Mixed polygons over the square from -1 to 1, a hill in one half and a hollow in the other: where they meet, at y =
 /// 0, the surface is straight and its mean curvature small.
 PolygonMesh polygons_with_hill_and_hollow(Index vertices);
 
-/// A wavy tube of quads along z that is widest at z = 0, where its two halves meet: 120 columns of quads, if it has
-/// 10,200 vertices.
+/// A tube of quads along z, from -π to π, in one wave that is three times as wide at z = 0, where the two halves of the
+/// mesh meet, as at its ends: 120 columns of quads, if it has 10,200 vertices.
 PolygonMesh wavy_cylinder(Index vertices);
 
-/// A bulging tube of quads from z = -π to π, its upper half twice as fine as the lower one, with a ring of pentagons in
+/// A noisy, bulging tube of quads from z = -π to π, its upper half twice as fine as the lower one, with a ring of pentagons in
 /// between that belongs to the lower half.
 PolygonMesh bulging_two_level_cylinder(Index vertices);
 
