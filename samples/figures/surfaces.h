@@ -22,8 +22,8 @@ PolygonMesh polygons_with_hill_and_hollow(Index vertices);
 /// mesh meet, as at its ends: 120 columns of quads, if it has 10,200 vertices.
 PolygonMesh wavy_cylinder(Index vertices);
 
-/// A noisy, bulging tube of quads from z = -π to π, its upper half twice as fine as the lower one, with a ring of pentagons in
-/// between that belongs to the lower half.
+/// A noisy, bulging tube of quads from z = -π to π, its upper half twice as fine as the lower one, with a ring of
+/// pentagons in between that belongs to the lower half.
 PolygonMesh bulging_two_level_cylinder(Index vertices);
 
 }  // namespace seamflow
