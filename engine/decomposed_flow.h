@@ -20,7 +20,9 @@ namespace seamflow {
 ///        sub-meshes that lead                      adjacent sub-meshes
 ///        it on Γ
 ///
-/// No barrier stands between colours. Belongs to the arena in which it is constructed.
+/// With Transmission::Predicted a fourth, predict, stands between the first two of each sub-mesh, and solve also waits
+/// for the predictions of the sub-meshes that it leads. No barrier stands between colours. Belongs to the arena in
+/// which it is constructed.
 class DecomposedFlow {
   public:
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
@@ -43,6 +45,10 @@ class DecomposedFlow {
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options);
     TaskGraph::Node add_sweep(const SweepPlan& plan, const FlowOptions& options);
+    void add_predictions(const SweepPlan& plan, const std::vector<TaskGraph::Node>& factorised,
+                         const std::vector<TaskGraph::Node>& solved);
+    template <class Body>
+    TaskGraph::Node add_task(Index s, Body body, TaskGraph::Priority priority);
     void join();
 
     Decomposition decomposition_;

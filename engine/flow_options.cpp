@@ -27,6 +27,15 @@ bool positive_and_finite(double value)
     return value > 0.0 && std::isfinite(value);
 }
 
+void require_valid_schwarz(const FlowOptions& options)
+{
+    if (options.sweep == Sweep::Alternating)
+        throw OptionError("sweep is alternating, but with the Schwarz conditions sub-meshes overlap for one order of "
+                          "solving only: leave the sweep fixed");
+    if (options.p)
+        throw OptionError("p is given, but the Schwarz conditions have no Robin parameter");
+}
+
 }  // namespace
 
 FlowOptions FlowOptions::plain()
@@ -47,6 +56,14 @@ void require_valid(const FlowOptions& options)
             "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
     if (options.p)
         require(positive_and_finite(*options.p), "p", *options.p, "positive and finite (1/length)");
+    if (options.q)
+        require(*options.q >= 0.0 && std::isfinite(*options.q), "q", *options.q, "at least 0 and finite");
+    if (options.q.has_value() != (options.conditions == Conditions::AdaptedVentcell))
+        throw OptionError(options.q ? "q is given, but belongs to the adapted Ventcell conditions alone"
+                                    : "q must be given with the adapted Ventcell conditions");
+    require(options.overlap >= 1, "overlap", options.overlap, "at least 1 (layers of faces)");
+    if (options.conditions == Conditions::Schwarz)
+        require_valid_schwarz(options);
     const auto negative =
         std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });
     if (negative != options.labels.end())

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "partition/polygon_mesh.h"
+#include "solvers/interface/robin_parameter.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -23,7 +24,8 @@ enum class Conditions {
     AdaptedRobin,
     /// The paper's adapted Ventcell conditions (eqs. adaptedVentcell A and B); FlowOptions::q is required.
     AdaptedVentcell,
-    /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of faces.
+    /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of
+    /// faces.
     Schwarz,
 };
 
@@ -31,7 +33,9 @@ enum class Conditions {
 enum class Scheme {
     /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. MCFbackwardEuler).
     BackwardEuler,
-    /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed. Stable only for dt up to the square of the shortest edge.
+    /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: everything here about sub-meshes, their order and what holds between
+    /// them plays no part. dt must be at most the square of the shortest edge (see largest_explicit_step), before
+    /// every step; a quarter of it is safe on regular grids.
     ExplicitEuler,
 };
 
@@ -41,16 +45,6 @@ enum class PRule {
     Paper,
     /// η = 1 / dt.
     InverseStep,
-};
-
-/// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
-enum class PEdge {
-    /// The shortest, as in the paper. One sliver makes p* huge.
-    Minimum,
-    /// The edge that 5 % of all are shorter than.
-    Percentile,
-    /// The mean over half-edges.
-    Mean,
 };
 
 /// How the first sub-mesh to solve at a vertex of Γ learns of the sub-meshes on the other side.
@@ -63,16 +57,19 @@ enum class Transmission {
 
 /// In which order the colours are solved.
 enum class Sweep {
-    /// Fixed for two sub-meshes, Alternating for more.
+    /// Fixed for two sub-meshes and with Conditions::Schwarz, else Alternating.
     Automatic,
     /// The same order in every step, as in the paper.
     Fixed,
-    /// First to last in even steps, last to first in odd steps.
+    /// First to last in even steps, last to first in odd steps. Not with Conditions::Schwarz, whose overlaps are made
+    /// for one order.
     Alternating,
 };
 
 /// What happens to the vertices of the interface after each step.
 enum class Correction {
+    /// Centroid where the conditions make it necessary, which is with all but Conditions::Schwarz: as the paper's authors do.
+    Automatic,
     /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction).
     Centroid,
     /// Nothing.
@@ -104,25 +101,29 @@ struct FlowOptions {
     Conditions conditions = Conditions::AdaptedRobin;
     /// How a step is taken.
     Scheme scheme = Scheme::BackwardEuler;
-    /// How sub-meshes learn of each other with Conditions::AdaptedRobin. Predicted stays much closer to the undecomposed flow.
+    /// How sub-meshes learn of each other with Conditions::AdaptedRobin. Predicted stays much closer to the
+    /// undecomposed flow.
     Transmission transmission = Transmission::Predicted;
-    /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper (eq. ourP)
-    /// for each sub-mesh, by the two rules that follow.
+    /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper
+    /// (eq. ourP) for each sub-mesh, by the two rules that follow.
     std::optional<double> p;
     PRule p_rule = PRule::Paper;
     PEdge p_edge = PEdge::Minimum;
-    /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only there.
+    /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only
+    /// there.
     std::optional<double> q;
-    /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1.
+    /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1: each grows that often by the
+    /// faces that share a vertex with it, into sub-meshes that do not solve before it. Of no use with other conditions.
     int overlap = 1;
     /// Direction of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
-    Correction correction = Correction::Centroid;
+    Correction correction = Correction::Automatic;
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
-    /// Also run the undecomposed flow and report the distance to it after each step.
+    /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
+    /// each step.
     bool reference = false;
 
     /// The paper to the letter, generalised to many sub-meshes and nothing else: fixed sweep, no improvements that

@@ -8,6 +8,7 @@
 #include "engine/choose_subdomains.h"
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
+#include "engine/explicit_flow.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
@@ -20,8 +21,18 @@ namespace seamflow {
 
 namespace {
 
+Cut uncut(const PolygonMesh& mesh)
+{
+    Cut cut;
+    cut.labels.assign(at(mesh.n_faces()), 0);
+    cut.n_parts = mesh.n_faces() > 0 ? 1 : 0;
+    return cut;
+}
+
 Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
 {
+    if (options.scheme == Scheme::ExplicitEuler)
+        return uncut(mesh);
     if (!options.labels.empty())
         return cut_by_labels(mesh, topology, options.labels);
     if (options.subdomains > 0)
@@ -66,8 +77,9 @@ void named(const std::string& name, Body&& body)
     }
 }
 
+template <class Flow>
 void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const StepObserver& on_step,
-               std::vector<double> curvature, DecomposedFlow& flow, DecomposedFlow* reference, FlowReport& report)
+               std::vector<double> curvature, Flow& flow, DecomposedFlow* reference, FlowReport& report)
 {
     double curvature_before = largest_curvature(curvature);
     DisplacementMeter meter(mesh, topology);
@@ -108,15 +120,19 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
     report.seconds.cut = watch.lap();
 
     const auto curvature = measure_curvature(input, topology, input.vertices, options.laplacian);
-    DecomposedFlow flow(input, topology, cut, options, curvature);
-    report.seconds.analyse = watch.lap();
-    report.seconds.total = report.seconds.cut + report.seconds.analyse;
-
-    std::optional<DecomposedFlow> reference;
-    if (options.reference)
-        reference.emplace(input, topology, cut_into(input, topology, 1), options, curvature);
-    run_steps(mesh, topology, options, on_step, curvature, flow, reference ? &*reference : nullptr, report);
-    flow.describe(report);
+    const auto run = [&](auto&& flow) {
+        report.seconds.analyse = watch.lap();
+        report.seconds.total = report.seconds.cut + report.seconds.analyse;
+        std::optional<DecomposedFlow> reference;
+        if (options.reference)
+            reference.emplace(input, topology, cut_into(input, topology, 1), options, curvature);
+        run_steps(mesh, topology, options, on_step, curvature, flow, reference ? &*reference : nullptr, report);
+        flow.describe(report);
+    };
+    if (options.scheme == Scheme::ExplicitEuler)
+        run(ExplicitFlow(input, topology, options));
+    else
+        run(DecomposedFlow(input, topology, cut, options, curvature));
 }
 
 }  // namespace

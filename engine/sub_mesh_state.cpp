@@ -19,9 +19,10 @@ void receive(const std::vector<SubMeshState>& states, const std::vector<Transfer
 
 }  // namespace
 
-SubMeshState::SubMeshState(const SubMesh& mesh, Laplacian laplacian, const Points& positions)
+SubMeshState::SubMeshState(const SubMesh& mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
+                           const Points& positions)
     : sub_mesh(&mesh)
-    , system(mesh, laplacian)
+    , system(mesh, laplacian, std::move(condition))
     , position(mesh.n_vertices + mesh.n_halo, 3)
     , solved(mesh.n_vertices + mesh.n_halo, 3)
 {
@@ -40,6 +41,25 @@ void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const st
     state.seconds.assemble += watch.lap();
     state.system.factorise();
     state.seconds.factorise += watch.lap();
+}
+
+void predict(std::vector<SubMeshState>& states, Index s)
+{
+    SubMeshState& state = states[at(s)];
+    Stopwatch watch;
+    state.predicted.resize(state.position.rows(), 3);
+    state.system.predict(state.position, state.predicted);
+    state.seconds.solve += watch.lap();
+}
+
+void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions)
+{
+    SubMeshState& state = states[at(s)];
+    Stopwatch watch;
+    state.other_side = state.position;
+    receive(states, predictions, &SubMeshState::predicted, state.other_side);
+    state.system.use_prediction(state.position, state.other_side);
+    state.seconds.solve += watch.lap();
 }
 
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
@@ -19,7 +21,8 @@ struct SubMeshSeconds {
 /// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read
 /// the states of the senders that a Transfer names, and write to their own alone.
 struct SubMeshState {
-    SubMeshState(const SubMesh& sub_mesh, Laplacian laplacian, const Points& positions);
+    SubMeshState(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
+                 const Points& positions);
 
     const SubMesh* sub_mesh;
     SubMeshSystem system;
@@ -29,12 +32,22 @@ struct SubMeshState {
     Points position;
     /// #local by 3: Vᵏ⁺¹ as solved, before the correction.
     Points solved;
+    /// #local by 3: what the sub-mesh itself would do with Γ held at Vᵏ (own vertices alone).
+    Points predicted;
+    /// #local by 3: Vᵏ at own vertices, and in the halo what the sub-meshes there predict.
+    Points other_side;
     SubMeshSeconds seconds;
 };
 
 /// Fetches Vᵏ for the halo, fills the equations and factorises them.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
                             std::span<const InterfaceRole> roles, double time_step);
+
+/// Solves with Γ held at Vᵏ.
+void predict(std::vector<SubMeshState>& states, Index s);
+
+/// Fetches what the sub-meshes beyond Γ predict, where this one leads.
+void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions);
 
 /// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces);

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "partition/errors.h"
-#include "solvers/interface/adapted_robin.h"
 
 namespace seamflow {
 
@@ -18,9 +17,10 @@ FaceView faces_of(const SubMesh& sub_mesh)
 
 }  // namespace
 
-SubMeshSystem::SubMeshSystem(const SubMesh& sub_mesh, Laplacian laplacian)
+SubMeshSystem::SubMeshSystem(const SubMesh& sub_mesh, Laplacian laplacian,
+                             std::unique_ptr<TransmissionCondition> condition)
     : sub_mesh_(&sub_mesh)
-    , stencils_(make_derivative_stencils(sub_mesh))
+    , condition_(std::move(condition))
     , laplacian_(make_assembler(laplacian, faces_of(sub_mesh)))
     , right_hand_side_(sub_mesh.n_vertices, 3)
     , solution_(sub_mesh.n_vertices, 3)
@@ -34,8 +34,9 @@ SubMeshSystem::SubMeshSystem(const SubMesh& sub_mesh, Laplacian laplacian)
     std::copy_if(laplacian_entries.begin(), laplacian_entries.end(), std::back_inserter(entries), is_laplacian);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
         entries.push_back({v, v});
-    for (Index i = 0; i < stencils_.columns.size(); ++i)
-        for (const Index column : stencils_.columns[i])
+    const IndexLists& interface_columns = condition_->columns();
+    for (Index i = 0; i < interface_columns.size(); ++i)
+        for (const Index column : interface_columns[i])
             entries.push_back({column, sub_mesh.interface.vertices[at(i)]});
     pattern_ = std::make_unique<SparsePattern>(make_pattern(sub_mesh.n_vertices, std::move(entries)));
 
@@ -45,8 +46,8 @@ SubMeshSystem::SubMeshSystem(const SubMesh& sub_mesh, Laplacian laplacian)
         laplacian_slots_.push_back(is_laplacian(entry) ? pattern_->slot(entry) : unread);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
         diagonal_slots_.push_back(pattern_->slot({v, v}));
-    for (Index i = 0; i < stencils_.columns.size(); ++i)
-        for (const Index column : stencils_.columns[i])
+    for (Index i = 0; i < interface_columns.size(); ++i)
+        for (const Index column : interface_columns[i])
             interface_slots_.push_back(pattern_->slot({column, sub_mesh.interface.vertices[at(i)]}));
     values_.resize(at(unread) + 1);
     solver_ = std::make_unique<UmfpackSolver>(*pattern_);
@@ -72,20 +73,22 @@ void SubMeshSystem::assemble(const Points& positions, double time_step, double p
             values_[at(diagonal_slots_[at(v)])] += 1.0;
         right_hand_side_.row(v) = positions.row(v);
     }
-    assemble_interface(positions, time_step * p);
+    condition_->begin_step(positions, time_step, p);
+    assemble_interface(positions);
 }
 
-void SubMeshSystem::assemble_interface(const Points& positions, double dt_p)
+void SubMeshSystem::assemble_interface(const Points& positions)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i) {
-        const auto begin = at(stencils_.columns.offsets[at(i)]);
+        const auto begin = at(condition_->columns().offsets[at(i)]);
         if (roles_[at(i)] == InterfaceRole::Follows) {
             values_[at(diagonal_slots_[at(vertices[at(i)])])] = 1.0;
             continue;
         }
-        row_.resize(stencils_.columns[i].size());
-        right_hand_side_.row(vertices[at(i)]) = adapted_robin_row(*sub_mesh_, stencils_, i, positions, dt_p, row_);
+        row_.resize(condition_->columns()[i].size());
+        condition_->left_hand_side(i, positions, row_);
+        right_hand_side_.row(vertices[at(i)]) = condition_->right_hand_side(i, positions, positions);
         for (std::size_t k = 0; k < row_.size(); ++k)
             values_[at(interface_slots_[begin + k])] = row_[k];
     }
@@ -101,12 +104,32 @@ void SubMeshSystem::factorise()
     solver_->factorise(values);
 }
 
+void SubMeshSystem::use_prediction(const Points& positions, const Points& other_side)
+{
+    const auto& vertices = sub_mesh_->interface.vertices;
+    for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i)
+        if (roles_[at(i)] == InterfaceRole::Leads)
+            right_hand_side_.row(vertices[at(i)]) = condition_->right_hand_side(i, positions, other_side);
+}
+
+void SubMeshSystem::predict(const Points& positions, Points& prediction)
+{
+    solve_with(positions, prediction);
+}
+
 void SubMeshSystem::solve(Points& solution)
+{
+    solve_with(solution, solution);
+    solver_->free_factor();
+}
+
+/// @param given #local by 3: Vᵏ⁺¹, or what stands for it, where the sub-mesh follows; may be the solution itself.
+void SubMeshSystem::solve_with(const Points& given, Points& solution)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (roles_[i] == InterfaceRole::Follows)
-            right_hand_side_.row(vertices[i]) = solution.row(vertices[i]);
+            right_hand_side_.row(vertices[i]) = given.row(vertices[i]);
     solver_->solve(std::span<const double>(values_).first(values_.size() - 1), right_hand_side_, solution_);
     if (!solution_.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step");

@@ -56,6 +56,7 @@ class UmfpackSolver::Backend {
     virtual ~Backend() = default;
     virtual void factorise(std::span<const double> values) = 0;
     virtual void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution) = 0;
+    virtual void free_factor() = 0;
 };
 
 template <class Interface>
@@ -103,17 +104,16 @@ class UmfpackSolver::BackendFor final : public Backend {
                                         right_hand_side.col(c).data(), numeric_, control_.data(), info_.data(),
                                         integer_work_.data(), work_.data()),
                        "solution");
-        free_factor();
     }
 
-  private:
-    void free_factor()
+    void free_factor() override
     {
         if (numeric_ != nullptr)
             Interface::free_numeric(&numeric_);
         numeric_ = nullptr;
     }
 
+  private:
     Integer n_;
     std::vector<Integer> offsets_;
     std::vector<Integer> rows_;
@@ -145,6 +145,11 @@ void UmfpackSolver::factorise(std::span<const double> values)
 void UmfpackSolver::solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution)
 {
     backend_->solve(values, right_hand_side, solution);
+}
+
+void UmfpackSolver::free_factor()
+{
+    backend_->free_factor();
 }
 
 }  // namespace seamflow

@@ -13,7 +13,8 @@ namespace seamflow {
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor>;
 
 /// LU factorisation of sparse matrices of one pattern by UMFPACK: analysed once, factorised for each set of values, a
-/// factor used for three right-hand sides. Different objects may be used by different threads at the same time.
+/// factor used for any number of right-hand sides, three at a time. Different objects may be used by different threads
+/// at the same time.
 class UmfpackSolver {
   public:
     /// Analyses the pattern, which must outlive the solver.
@@ -27,10 +28,14 @@ class UmfpackSolver {
     /// @throws ComputationError if the matrix is singular or memory runs out.
     void factorise(std::span<const double> values);
 
-    /// Solves for three right-hand sides, then gives the factor's memory back.
-    /// @pre factorise has been called since the last solve.
+    /// Solves for three right-hand sides.
+    /// @pre there is a factor: factorise has been called since the last free_factor.
+    /// @param solution n by 3.
     /// @throws ComputationError if UMFPACK fails.
     void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution);
+
+    /// Gives the factor's memory back.
+    void free_factor();
 
   private:
     class Backend;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <utility>
 
 namespace seamflow {
 
@@ -37,6 +38,44 @@ void plan_sub_mesh(const Decomposition& decomposition, Index s, SweepPlan& plan)
     }
 }
 
+/// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ.
+std::pair<Index, Index> sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s,
+                                  Index vertex)
+{
+    for (const Index t : sharing)
+        if (t != s)
+            if (const Index local = local_index(decomposition.sub_meshes[at(t)], vertex); local >= 0)
+                return {t, local};
+    return {-1, -1};
+}
+
+void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
+{
+    const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+    const auto& interface = sub_mesh.interface;
+    std::vector<bool> planned(at(sub_mesh.n_halo), false);
+    std::map<Index, Transfer> by_sender;
+    for (Index i = 0; i < interface.size(); ++i) {
+        if (plan.roles[at(s)][at(i)] == InterfaceRole::Follows)
+            continue;
+        for (const Index f : interface.complement_faces[i])
+            for (const Index v : interface.halo_faces[f]) {
+                if (v < sub_mesh.n_vertices || planned[at(v - sub_mesh.n_vertices)])
+                    continue;
+                planned[at(v - sub_mesh.n_vertices)] = true;
+                const auto [sender, local] =
+                    sender_of(decomposition, interface.sharing[i], s, sub_mesh.local_to_global[at(v)]);
+                by_sender[sender].source.push_back(local);
+                by_sender[sender].target.push_back(v);
+            }
+    }
+    for (auto& [sender, transfer] : by_sender) {
+        transfer.from = sender;
+        transfer.to = s;
+        plan.predictions[at(s)].push_back(std::move(transfer));
+    }
+}
+
 }  // namespace
 
 SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank)
@@ -45,8 +84,11 @@ SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank
     plan.rank = std::move(rank);
     plan.roles.resize(decomposition.sub_meshes.size());
     plan.traces.resize(decomposition.sub_meshes.size());
+    plan.predictions.resize(decomposition.sub_meshes.size());
     for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s)
         plan_sub_mesh(decomposition, s, plan);
+    for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s)
+        plan_predictions(decomposition, s, plan);
     return plan;
 }
 

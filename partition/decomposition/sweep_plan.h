@@ -25,6 +25,10 @@ struct SweepPlan {
     /// For each receiving sub-mesh, the Vᵏ⁺¹ on Γ that it takes over, available as soon as the sender (of lower rank)
     /// has solved. Senders in ascending order.
     std::vector<std::vector<Transfer>> traces;
+    /// For each receiving sub-mesh, what a prediction of its surroundings consists of: those vertices of its halo that
+    /// share a face with a vertex of Γ where it leads. The senders, all of higher rank, know them before the receiver
+    /// solves. Senders in ascending order.
+    std::vector<std::vector<Transfer>> predictions;
 };
 
 /// Plans the sweep in which sub-meshes solve in ascending order of `rank`.

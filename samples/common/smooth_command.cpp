@@ -1,5 +1,8 @@
 #include "samples/common/smooth_command.h"
 
+#include <limits>
+#include <vector>
+
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
 #include "samples/common/command_line.h"
@@ -8,6 +11,33 @@
 namespace seamflow {
 
 namespace {
+
+/// Options that only mean something for the derivatives of the paper, and so ask for them.
+void add_parameters(CLI::App& app, FlowOptions& options)
+{
+    std::vector<CLI::Option*> of_derivatives;
+    of_derivatives.push_back(
+        add_real(app, "--p", options.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]"));
+    of_derivatives.push_back(add_choice<PRule>(app, "--p-rule", options.p_rule,
+                                               {{"paper", PRule::Paper}, {"inverse-step", PRule::InverseStep}},
+                                               "η in p*: 1 or 1/dt [paper]"));
+    of_derivatives.push_back(
+        add_choice<PEdge>(app, "--p-edge", options.p_edge,
+                          {{"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}},
+                          "edge in p*: the shortest, the 5th percentile or the mean [min]"));
+    add_real(app, "--q", options.q, {0.0, std::numeric_limits<double>::max()},
+             "Ventcell parameter, for adapted-ventcell");
+    app.callback([of_derivatives, &app, &options] {
+        for (const CLI::Option* option : of_derivatives) {
+            if (option->count() == 0)
+                continue;
+            if (app.count("--transmission") > 0 && options.transmission == Transmission::Predicted)
+                throw OptionError(option->get_name() +
+                                  " is for the derivatives of the paper; --transmission predicted has none");
+            options.transmission = Transmission::Derivative;
+        }
+    });
+}
 
 void add_flow_options(CLI::App& app, SmoothCommand& command)
 {
@@ -24,6 +54,10 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_real(*time_step, "--time-step", options.time_step, positive(), "in length²");
     add_real(*time_step, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths");
     time_step->require_option(1);
+    add_choice<Scheme>(app, "--scheme", options.scheme,
+                       {{"implicit", Scheme::BackwardEuler}, {"explicit", Scheme::ExplicitEuler}},
+                       "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
+                       "small time steps only [implicit]");
     add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
     auto* subdomains =
         add_integer(app, "--subdomains", options.subdomains, 0, "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
@@ -33,9 +67,17 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice<Coloring>(app, "--coloring", options.coloring,
                          {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
                          "order of the sub-meshes in a step [greedy]");
-    add_choice<Conditions>(app, "--conditions", options.conditions, {{"adapted-robin", Conditions::AdaptedRobin}},
-                           "what holds between sub-meshes [adapted-robin]");
-    add_real(app, "--p", options.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]");
+    add_choice<Conditions>(
+        app, "--conditions", options.conditions,
+        {{"adapted-robin", Conditions::AdaptedRobin},
+         {"adapted-ventcell", Conditions::AdaptedVentcell},
+         {"schwarz", Conditions::Schwarz}},
+        "what holds between sub-meshes [adapted-robin]");
+    add_choice<Transmission>(app, "--transmission", options.transmission,
+                             {{"predicted", Transmission::Predicted}, {"derivative", Transmission::Derivative}},
+                             "how the first sub-mesh at the interface learns of the others [predicted]");
+    add_parameters(app, options);
+    add_integer(app, "--overlap", options.overlap, 1, "layers of faces by which sub-meshes overlap with schwarz [1]");
     app.add_flag_callback(
         "--no-correction", [&options] { options.correction = Correction::None; },
         "leave the vertices of the interface where the step puts them");
@@ -55,10 +97,20 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
     app.add_option("--report", command.report, "write times, sizes and distances")->type_name("REPORT.json");
 }
 
-void require_consistent(bool plain, const SmoothCommand& command)
+void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
-    if (plain && command.options.sweep != FlowOptions::plain().sweep)
+    if (app.count("--overlap") > 0 && command.options.conditions != Conditions::Schwarz)
+        throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
+    if (command.options.conditions == Conditions::Schwarz && command.options.sweep == Sweep::Alternating)
+        throw OptionError(
+            "--conditions schwarz sweeps in the same order in every step; --sweep alternating contradicts "
+            "it");
+    if (command.options.conditions == Conditions::Schwarz && command.options.p)
+        throw OptionError("--p is for --conditions adapted-robin; schwarz has no Robin parameter");
+    if (app.count("--plain") > 0 && command.options.sweep != FlowOptions::plain().sweep)
         throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
+    if (app.count("--plain") > 0 && command.options.transmission != FlowOptions::plain().transmission)
+        throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
     kind_for_writing(command.output, FileKind{});
     if (command.every_step)
         kind_for_writing(command.every_step->path(1), FileKind{});
@@ -105,7 +157,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     command.arguments.assign(argv + 1, argv + argc);
     if (!every_step.empty())
         command.every_step.emplace(every_step);
-    require_consistent(app.count("--plain") > 0, command);
+    require_consistent(app, command);
     require_usable_files(command);
     return std::nullopt;
 }

@@ -89,6 +89,17 @@ void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& st
         coefficient /= conormal.norm;
 }
 
+Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conormal& conormal, const Points& other_side)
+{
+    const auto& interface = sub_mesh.interface;
+    const Point v = other_side.row(interface.vertices[at(i)]);
+    Point sum = Point::Zero();
+    for (const Index f : interface.complement_faces[i])
+        sum += v - centroid(interface.halo_faces[f], other_side);
+    const Point tau = other_side.row(interface.after[at(i)]) - other_side.row(interface.before[at(i)]);
+    return (sum - conormal.alpha * tau) / conormal.norm;
+}
+
 void tangential_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
                                const Points& positions, std::span<double> row)
 {

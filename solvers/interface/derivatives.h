@@ -46,6 +46,11 @@ std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, co
 void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
                            const Conormal& conormal, std::span<double> row);
 
+/// ∂n of the other side at the i-th vertex of Γ, applied to positions, α and ‖N‖ held as above. Without dimension.
+/// @param other_side #local by 3, the halo included.
+Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conormal& conormal,
+                                   const Points& other_side);
+
 /// The row of ∂t at the i-th vertex of Γ (paper, eq. tangentialDerivative), in 1/length², lengths held: 2 / (l₁ + l₂) ·
 /// ((v - v_before) / l₁ + (v - v_after) / l₂).
 /// @param row receives one coefficient per vertex of the stencil.

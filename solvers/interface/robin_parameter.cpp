@@ -4,8 +4,10 @@
 #include <cmath>
 #include <compare>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -48,13 +50,25 @@ EdgeLists list_edges(const SubMesh& sub_mesh, const Points& positions)
     return lists;
 }
 
-double shortest_edge(const EdgeLists& edges)
+/// The edge that stands for ‖e‖; infinite if none has a positive length.
+double representative_edge(const EdgeLists& edges, PEdge which)
 {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const double length : edges.lengths)
-        if (length > 0.0)
-            shortest = std::min(shortest, length);
-    return shortest;
+    constexpr double percentile = 0.05;
+    std::vector<double> lengths;
+    std::copy_if(edges.lengths.begin(), edges.lengths.end(), std::back_inserter(lengths),
+                 [](double length) { return length > 0.0; });
+    if (lengths.empty())
+        return std::numeric_limits<double>::infinity();
+    std::sort(lengths.begin(), lengths.end());
+    switch (which) {
+    case PEdge::Minimum:
+        return lengths.front();
+    case PEdge::Percentile:
+        return lengths[static_cast<std::size_t>(percentile * static_cast<double>(lengths.size()))];
+    case PEdge::Mean:
+        break;
+    }
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
 }
 
 /// The largest distance along edges from any vertex to the nearest one of Γ (Dijkstra's algorithm).
@@ -88,18 +102,18 @@ double largest_distance_from_interface(const SubMesh& sub_mesh, const EdgeLists&
 
 }  // namespace
 
-double optimal_robin_parameter(const SubMesh& sub_mesh, const Points& positions)
+double optimal_robin_parameter(const SubMesh& sub_mesh, const Points& positions, double eta, PEdge edge)
 {
     if (sub_mesh.interface.vertices.empty())
         return 0.0;
     const EdgeLists edges = list_edges(sub_mesh, positions);
-    const double shortest = shortest_edge(edges);
-    if (!std::isfinite(shortest))
+    const double length = representative_edge(edges, edge);
+    if (!std::isfinite(length))
         return 0.0;
-    const double width = std::max(shortest, largest_distance_from_interface(sub_mesh, edges));
+    const double width = std::max(length, largest_distance_from_interface(sub_mesh, edges));
     const double k_min = std::numbers::pi / width;
-    const double k_max = std::numbers::pi / shortest;
-    return std::sqrt(std::sqrt((k_min * k_min + 1.0) * (k_max * k_max + 1.0)));
+    const double k_max = std::numbers::pi / length;
+    return std::sqrt(std::sqrt((k_min * k_min + eta) * (k_max * k_max + eta)));
 }
 
 }  // namespace seamflow

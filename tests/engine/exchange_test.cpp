@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -6,6 +7,7 @@
 #include "engine/sweep_order.h"
 #include "partition/cut/cut.h"
 #include "samples/common/meshes.h"
+#include "solvers/conditions/predicted_side.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;
@@ -27,8 +29,9 @@ class Machines {
         const std::vector<double> no_curvature(at(mesh.n_vertices()), 0.0);
         plan_ = plan_sweep(decomposition_, rank_sub_meshes(decomposition_, options.coloring, no_curvature));
         for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
-            SubMeshState& state = states_.emplace_back(sub_mesh, options.laplacian, mesh.vertices);
-            state.p = *options.p;
+            SubMeshState& state = states_.emplace_back(sub_mesh, options.laplacian,
+                                                       make_predicted_side(sub_mesh, options.laplacian), mesh.vertices);
+            state.p = 0.7 / std::sqrt(options.time_step);
             forget_halo(state.position, sub_mesh);
             state.solved.setConstant(unknown);
         }
@@ -43,6 +46,12 @@ class Machines {
         }
         for (Index s = 0; s < n(); ++s)
             assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step);
+        for (Index s = 0; s < n(); ++s) {
+            predict(states_, s);
+            forget_halo(states_[at(s)].predicted, decomposition_.sub_meshes[at(s)]);
+        }
+        for (Index s = 0; s < n(); ++s)
+            use_predictions(states_, s, plan_.predictions[at(s)]);
         for (Index rank = 0; rank < n(); ++rank)
             for (Index s = 0; s < n(); ++s)
                 if (plan_.rank[at(s)] == rank)
@@ -97,7 +106,6 @@ TEST_CASE("transfers carry all that crosses an interface: sub-meshes that know n
             options.subdomains = 7;
             options.coloring = Coloring::Label;
             options.sweep = Sweep::Fixed;
-            options.p = 20.0;
             Machines machines(mesh, options);
             for (int step = 0; step < options.steps; ++step)
                 machines.step();

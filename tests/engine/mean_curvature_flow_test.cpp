@@ -96,7 +96,7 @@ TEST_CASE("sweeps alternate with more than two sub-meshes, unless told otherwise
 TEST_CASE("the plain options are the paper's: a fixed sweep")
 {
     CHECK(FlowOptions::plain().sweep == Sweep::Fixed);
-    CHECK(FlowOptions::plain().correction == Correction::Centroid);
+    CHECK(FlowOptions::plain().correction == Correction::Automatic);
     CHECK_FALSE(FlowOptions::plain().p);
 }
 
@@ -158,6 +158,19 @@ TEST_CASE("options outside their limits are refused by name")
     refused([](FlowOptions& o) { o.threads = -1; }, "threads");
     refused([](FlowOptions& o) { o.threads = 1025; }, "threads");
     refused([](FlowOptions& o) { o.steps = 2'000'000'000; }, "steps");
+    refused([](FlowOptions& o) { o.overlap = 0; }, "overlap");
+    refused(
+        [](FlowOptions& o) {
+            o.conditions = Conditions::Schwarz;
+            o.sweep = Sweep::Alternating;
+        },
+        "sweep");
+    refused(
+        [](FlowOptions& o) {
+            o.conditions = Conditions::Schwarz;
+            o.p = 20.0;
+        },
+        "p is given");
 }
 
 TEST_CASE("labels that do not fit the mesh are refused")
@@ -195,4 +208,23 @@ TEST_CASE("a computation that fails names the sub-mesh and leaves the last compl
     options.p = 1.0;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), std::runtime_error);
     CHECK(mesh.vertices == before);
+}
+
+TEST_CASE("the decomposed flow stays nearer to the undecomposed one than with the paper's conditions")
+{
+    for (const Laplacian laplacian : test::all_laplacians) {
+        CAPTURE(name_of(laplacian));
+        FlowOptions options;
+        options.laplacian = laplacian;
+        options.time_step = 0.003;
+        options.steps = 4;
+        options.subdomains = 8;
+        options.reference = true;
+        const auto distance = [&](Transmission transmission) {
+            options.transmission = transmission;
+            PolygonMesh mesh = make_quads(2000);
+            return mean_curvature_flow(mesh, options).steps.back().distance->rms;
+        };
+        CHECK(distance(Transmission::Predicted) < 0.8 * distance(Transmission::Derivative));
+    }
 }

@@ -5,8 +5,9 @@
 
 #include "partition/errors.h"
 #include "samples/common/meshes/random_numbers.h"
-#include "solvers/interface/adapted_robin.h"
+#include "solvers/conditions/adapted_robin.h"
 #include "solvers/sub_mesh_system.h"
+#include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
@@ -53,16 +54,17 @@ Points nearby(Points positions, RandomNumbers& random)
 void check_interface_rows(const SubMesh& sub_mesh, const Points& positions, std::span<const InterfaceRole> roles,
                           const Points& given, const Points& solution)
 {
-    const DerivativeStencils stencils = make_derivative_stencils(sub_mesh);
+    AdaptedRobin condition(sub_mesh);
+    condition.begin_step(positions, time_step, p);
     for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
         const Index v = sub_mesh.interface.vertices[at(i)];
         if (roles[at(i)] == InterfaceRole::Follows) {
             CHECK(solution.row(v) == given.row(v));
             continue;
         }
-        const auto columns = stencils.columns[i];
+        const auto columns = condition.columns()[i];
         std::vector<double> row(columns.size());
-        Point residual = -adapted_robin_row(sub_mesh, stencils, i, positions, time_step * p, row);
+        Point residual = -row_of(condition, i, positions, row);
         double largest = 1.0;
         for (std::size_t k = 0; k < row.size(); ++k) {
             residual += row[k] * solution.row(columns[k]);
@@ -99,7 +101,7 @@ TEST_CASE("the system of the only sub-mesh is backward Euler on the whole mesh")
             CAPTURE(name_of(laplacian));
             const Decomposition whole =
                 seamflow::decompose(m.mesh, m.topology, std::vector<Index>(at(m.mesh.n_faces()), 0), 1);
-            SubMeshSystem system(whole.sub_meshes.front(), laplacian);
+            SubMeshSystem system(whole.sub_meshes.front(), laplacian, make_adapted_robin(whole.sub_meshes.front()));
             system.assemble(m.mesh.vertices, time_step, p, {});
             system.factorise();
             Points solution = Points::Zero(m.mesh.n_vertices(), 3);
@@ -121,7 +123,7 @@ TEST_CASE("every row of a sub-mesh's system holds, and what is given comes out t
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(name_of(laplacian));
             const SubMesh& sub_mesh = decomposition.sub_meshes[at(random.below(cut.n_parts))];
-            SubMeshSystem system(sub_mesh, laplacian);
+            SubMeshSystem system(sub_mesh, laplacian, make_adapted_robin(sub_mesh));
             for (int step = 0; step < 2; ++step) {
                 const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                 const Points given = nearby(positions, random);
@@ -143,7 +145,7 @@ TEST_CASE("the pattern covers every role, so that it does not depend on them")
     const CutMesh& cut = cut_meshes().front();
     const Decomposition decomposition = test::decompose(cut);
     const SubMesh& sub_mesh = decomposition.sub_meshes.front();
-    SubMeshSystem system(sub_mesh, Laplacian::Fujiwara);
+    SubMeshSystem system(sub_mesh, Laplacian::Fujiwara, make_adapted_robin(sub_mesh));
     const Index n_entries = system.n_entries();
     CHECK(n_entries > sub_mesh.n_vertices);
     const Points positions = localised(sub_mesh, cut.mesh.vertices);
@@ -159,7 +161,7 @@ TEST_CASE("equations that are not finite are refused, and the system goes on wit
     const PolygonMesh mesh = cut_meshes().front().mesh;
     const Topology topology = make_topology(mesh);
     const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(at(mesh.n_faces()), 0), 1);
-    SubMeshSystem system(whole.sub_meshes.front(), Laplacian::Fujiwara);
+    SubMeshSystem system(whole.sub_meshes.front(), Laplacian::Fujiwara, make_adapted_robin(whole.sub_meshes.front()));
     Points positions = mesh.vertices;
     positions.row(16) = positions.row(17);
     system.assemble(positions, time_step, p, {});

@@ -86,13 +86,18 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
     options.time_step = data.at("time_step").get<double>();
     options.steps = static_cast<int>(data.at("positions_after_step").size());
     options.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
-    options.correction = data.at("correction").get<bool>() ? Correction::Centroid : Correction::None;
+    // The authors correct after adapted conditions only; the files say true for Schwarz, too.
+    options.correction = data.at("correction").get<bool>() ? Correction::Automatic : Correction::None;
     if (data.at("conditions") == "schwarz")
         options.conditions = Conditions::Schwarz;
     if (data.at("conditions") == "none")
         options.subdomains = 1;
     else
         options.labels = data.at("labels").get<std::vector<Index>>();
+    if (data.at("conditions") == "adapted-ventcell") {
+        options.conditions = Conditions::AdaptedVentcell;
+        options.q = data.at("q").get<double>();
+    }
     if (!data.at("p").is_null())
         options.p = data.at("p").get<double>();
     for (const json& positions : data.at("positions_after_step"))

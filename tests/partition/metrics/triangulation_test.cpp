@@ -107,9 +107,9 @@ TEST_CASE("neither the first corner nor the sense of a polygon matters")
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());
         const auto expected = triangles_of(corners, mesh.vertices);
-        std::ranges::rotate(corners, corners.begin() + f % static_cast<Index>(corners.size()));
+        std::rotate(corners.begin(), corners.begin() + f % static_cast<Index>(corners.size()), corners.end());
         CHECK(triangles_of(corners, mesh.vertices) == expected);
-        std::ranges::reverse(corners);
+        std::reverse(corners.begin(), corners.end());
         CHECK(triangles_of(corners, mesh.vertices) == expected);
     }
 }

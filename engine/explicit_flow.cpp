@@ -1,0 +1,116 @@
+#include "engine/explicit_flow.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include "partition/errors.h"
+#include "solvers/mean_curvature.h"
+
+namespace seamflow {
+
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// dt beyond this part of the squared shortest edge is unstable on regular grids.
+constexpr double safe_part = 0.25;
+
+std::string text_of(double value)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << value;
+    return text.str();
+}
+
+/// The squared length of the shortest edge at a vertex, edges without length left out.
+double shortest_edge_squared(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v)
+{
+    double shortest = infinity;
+    for (const Index corner : topology.corners_at(v))
+        for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)}) {
+            const double squared = (positions.row(mesh.face_vertices[at(end)]) - positions.row(v)).squaredNorm();
+            if (squared > 0.0)
+                shortest = std::min(shortest, squared);
+        }
+    return shortest;
+}
+
+}  // namespace
+
+double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions)
+{
+    const auto of_range = [&](const tbb::blocked_range<Index>& range, double shortest) {
+        for (Index v = range.begin(); v != range.end(); ++v)
+            if (topology.kind[at(v)] == VertexKind::Interior)
+                shortest = std::min(shortest, shortest_edge_squared(mesh, topology, positions, v));
+        return shortest;
+    };
+    return tbb::parallel_reduce(tbb::blocked_range<Index>(0, mesh.n_vertices()), infinity, of_range,
+                                [](double a, double b) { return std::min(a, b); });
+}
+
+ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , laplacian_(options.laplacian)
+    , time_step_(options.time_step)
+    , positions_(mesh.vertices)
+    , next_(mesh.vertices)
+    , smallest_limit_(infinity)
+{
+}
+
+void ExplicitFlow::require_stable()
+{
+    const double limit = largest_explicit_step(*mesh_, *topology_, positions_);
+    smallest_limit_ = std::min(smallest_limit_, limit);
+    if (time_step_ <= limit)
+        return;
+    if (!started_)
+        throw OptionError("time_step is " + text_of(time_step_) + ", but must be at most " + text_of(limit) +
+                          " (length²), the square of the shortest edge, for explicit Euler steps to be stable: use a "
+                          "smaller one, or backward Euler steps");
+    throw ComputationError("the time step is too large since edges have shrunk; explicit Euler steps are now stable up "
+                           "to " +
+                           text_of(limit) + " (length²): use a smaller time step or fewer steps");
+}
+
+void ExplicitFlow::step()
+{
+    require_stable();
+    started_ = true;
+    tbb::parallel_for(Index{0}, mesh_->n_vertices(), [&](Index v) {
+        if (topology_->kind[at(v)] == VertexKind::Interior)
+            next_.row(v) =
+                positions_.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, positions_, laplacian_, v);
+    });
+    if (!next_.allFinite())
+        throw ComputationError("the result is not finite: use a smaller time step or backward Euler steps");
+    positions_.swap(next_);
+}
+
+void ExplicitFlow::describe(FlowReport& report) const
+{
+    if (mesh_->n_faces() == 0)
+        return;
+    report.subdomains = 1;
+    report.colors = 1;
+    report.subdomain_faces = {mesh_->n_faces()};
+    report.subdomain_vertices = {mesh_->n_vertices()};
+    report.subdomain_colors = {0};
+    report.p = {0.0};
+    if (time_step_ > safe_part * smallest_limit_)
+        report.remarks.push_back("The time step is above a quarter of the square of the shortest edge: explicit Euler "
+                                 "steps may not be stable.");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "engine/flow_options.h"
+#include "engine/flow_report.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The square of the shortest edge that has an end that may move, in length²: the largest step that the paper (after
+/// Desbrun et al. 1999) calls stable for explicit Euler. Edges without length do not count; infinite where nothing
+/// moves. On regular grids of quads or triangles the largest eigenvalue of Δ_F asks for a quarter of it. Runs in
+/// parallel.
+double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions);
+
+/// A mesh flowing as one, by explicit Euler steps V^{k+1} = (I - dt Δ(V^k)) V^k, vertex by vertex in parallel. The bits
+/// do not depend on the number of threads.
+class ExplicitFlow {
+  public:
+    /// @param mesh, topology must outlive the flow.
+    ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options);
+
+    /// One step. After an exception the positions are those before the step.
+    /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if it is
+    /// so
+    ///         in a later one, because edges have shrunk, or if the result is not finite.
+    void step();
+
+    /// #V by 3, after the last complete step.
+    [[nodiscard]] const Points& positions() const { return positions_; }
+
+    /// Fills in what the flow knows of itself: it is one sub-mesh, and how sure its step is.
+    void describe(FlowReport& report) const;
+
+  private:
+    void require_stable();
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    Laplacian laplacian_;
+    double time_step_;
+    Points positions_;
+    Points next_;
+    /// The smallest of largest_explicit_step so far.
+    double smallest_limit_;
+    bool started_ = false;
+};
+
+}  // namespace seamflow

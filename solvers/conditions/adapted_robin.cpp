@@ -1,0 +1,90 @@
+#include "solvers/conditions/adapted_robin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seamflow {
+
+namespace {
+
+/// Mean length of the edges at the i-th vertex of Γ.
+double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
+{
+    double sum = 0.0;
+    for (const Index neighbour : sub_mesh.seam.neighbours[i])
+        sum += (positions.row(neighbour) - positions.row(sub_mesh.seam.vertices[at(i)])).norm();
+    return sum / static_cast<double>(sub_mesh.seam.neighbours[i].size());
+}
+
+/// Whether the coefficients of a fan's ∂n are neither vanishing nor huge against 1 / edge. Bounds found by measurement.
+bool is_in_proportion(std::span<const Index> fan, const IndexLists& faces, const Conormal& conormal, double edge)
+{
+    constexpr double least_diagonal = 0.2;
+    constexpr double largest_coefficient = 6.0;
+    double diagonal = 0.0;
+    for (const Index f : fan)
+        diagonal += 1.0 - 1.0 / static_cast<double>(faces[f].size());
+    const double largest = std::max(diagonal, std::abs(conormal.alpha) + 1.0) * edge / conormal.norm;
+    return diagonal * edge / conormal.norm > least_diagonal && largest < largest_coefficient;
+}
+
+}  // namespace
+
+AdaptedRobin::AdaptedRobin(const SubMesh& sub_mesh)
+    : sub_mesh_(&sub_mesh)
+    , stencils_(make_derivative_stencils(sub_mesh))
+    , conormals_(sub_mesh.interface.vertices.size())
+{
+}
+
+void AdaptedRobin::begin_step(const Points& positions, double time_step, double p)
+{
+    dt_p_ = time_step * p;
+    for (Index i = 0; i < sub_mesh_->interface.size(); ++i) {
+        const auto own = own_conormal(*sub_mesh_, i, positions);
+        const auto other = complement_conormal(*sub_mesh_, i, positions);
+        conormals_[at(i)] = own && other ? std::optional(Conormals{*own, *other}) : std::nullopt;
+    }
+}
+
+void AdaptedRobin::left_hand_side(Index i, const Points&, std::span<double> row) const
+{
+    if (conormals_[at(i)]) {
+        normal_derivative_row(*sub_mesh_, stencils_, i, conormals_[at(i)]->own, row);
+        for (double& coefficient : row)
+            coefficient *= dt_p_;
+    } else {
+        std::fill(row.begin(), row.end(), 0.0);
+    }
+    row[at(stencils_.centre[at(i)])] += 1.0;
+}
+
+Point AdaptedRobin::right_hand_side(Index i, const Points& positions, const Points& other_side) const
+{
+    const Point v = positions.row(sub_mesh_->interface.vertices[at(i)]);
+    if (!conormals_[at(i)])
+        return v;
+    return v - dt_p_ * complement_normal_derivative(*sub_mesh_, i, conormals_[at(i)]->other, other_side);
+}
+
+bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
+{
+    constexpr double most_aligned = -0.5;
+    constexpr double shortest_tangent = 0.3;
+    if (!conormals_[at(i)])
+        return false;
+    const auto& [own, other] = *conormals_[at(i)];
+    const auto& interface = sub_mesh_->interface;
+    const double edge = mean_edge_at(*sub_mesh_, i, positions);
+    const double tangent = (positions.row(interface.after[at(i)]) - positions.row(interface.before[at(i)])).norm();
+    return own.direction.dot(other.direction) < most_aligned && tangent > shortest_tangent * edge &&
+           is_in_proportion(interface.own_faces[i], sub_mesh_->face_vertices, own, edge) &&
+           is_in_proportion(interface.complement_faces[i], interface.halo_faces, other, edge);
+}
+
+std::unique_ptr<TransmissionCondition> make_adapted_robin(const SubMesh& sub_mesh)
+{
+    return std::make_unique<AdaptedRobin>(sub_mesh);
+}
+
+}  // namespace seamflow

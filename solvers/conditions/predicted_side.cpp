@@ -1,0 +1,177 @@
+#include "solvers/conditions/predicted_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "solvers/conditions/adapted_robin.h"
+#include "solvers/interface/star_laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Which row stands at a vertex in this step.
+enum class RowKind : std::uint8_t {
+    /// The undecomposed step's, the other side yielding to Γ.
+    Yielding,
+    /// The undecomposed step's, the other side as predicted.
+    Held,
+    Robin,
+};
+
+/// What is left of a disturbance after one step at distance d from where it is 1.
+double remainder_at(double squared_distance, double time_step)
+{
+    const double cosh = 1.0 + 0.5 * squared_distance / time_step;
+    return 1.0 / (cosh + std::sqrt((cosh - 1.0) * (cosh + 1.0)));
+}
+
+class PredictedSide final : public TransmissionCondition {
+  public:
+    PredictedSide(const SubMesh& sub_mesh, Laplacian laplacian)
+        : sub_mesh_(&sub_mesh)
+        , star_(sub_mesh, laplacian == Laplacian::Fujiwara ? Laplacian::Fujiwara : Laplacian::AlexaWardetzky)
+        , robin_(sub_mesh)
+        , kinds_(sub_mesh.interface.vertices.size(), RowKind::Robin)
+        , yields_(sub_mesh.interface.vertices.size())
+    {
+        for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
+            list_columns(i);
+            yields_[at(i)] =
+                laplacian == Laplacian::Fujiwara || (laplacian == Laplacian::AlexaWardetzky && has_only_triangles(i));
+        }
+    }
+
+    [[nodiscard]] const IndexLists& columns() const override { return columns_; }
+
+    void begin_step(const Points& positions, double time_step, double p) override
+    {
+        time_step_ = time_step;
+        star_.assemble(positions);
+        robin_.begin_step(positions, time_step, p);
+        for (Index i = 0; i < sub_mesh_->interface.size(); ++i)
+            kinds_[at(i)] = choose_kind(i, positions);
+    }
+
+    void left_hand_side(Index i, const Points& positions, std::span<double> row) const override
+    {
+        std::fill(row.begin(), row.end(), 0.0);
+        if (kinds_[at(i)] == RowKind::Robin)
+            return robin_left_hand_side(i, positions, row);
+        const auto star = star_.row(i);
+        const auto columns = star_.columns()[i];
+        double diagonal = 1.0;
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            if (columns[k] < sub_mesh_->n_vertices)
+                row[place_of(i, columns[k])] += time_step_ * star[k];
+            else
+                diagonal += time_step_ * star[k] * yielding(i, columns[k], positions);
+        row[place_of(i, sub_mesh_->interface.vertices[at(i)])] += diagonal;
+    }
+
+    [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points& other_side) const override
+    {
+        if (kinds_[at(i)] == RowKind::Robin)
+            return robin_.right_hand_side(i, positions, other_side);
+        const auto star = star_.row(i);
+        const auto columns = star_.columns()[i];
+        const Point v = positions.row(sub_mesh_->interface.vertices[at(i)]);
+        Point sum = v;
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            if (columns[k] >= sub_mesh_->n_vertices)
+                sum -= time_step_ * star[k] * (other_side.row(columns[k]) - yielding(i, columns[k], positions) * v);
+        return sum;
+    }
+
+  private:
+    /// All that either kind of row may depend on.
+    void list_columns(Index i)
+    {
+        std::vector<Index> columns(robin_.columns()[i].begin(), robin_.columns()[i].end());
+        for (const Index column : star_.columns()[i])
+            if (column < sub_mesh_->n_vertices)
+                columns.push_back(column);
+        std::sort(columns.begin(), columns.end());
+        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+        columns_.values.insert(columns_.values.end(), columns.begin(), columns.end());
+        columns_.close();
+    }
+
+    [[nodiscard]] bool has_only_triangles(Index i) const
+    {
+        const auto& interface = sub_mesh_->interface;
+        const auto all_triangles = [](std::span<const Index> fan, const IndexLists& faces) {
+            return std::all_of(fan.begin(), fan.end(), [&](Index f) { return faces[f].size() == 3; });
+        };
+        return all_triangles(interface.own_faces[i], sub_mesh_->face_vertices) &&
+               all_triangles(interface.complement_faces[i], interface.halo_faces);
+    }
+
+    [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
+    {
+        if (!yields_[at(i)])
+            return robin_.is_well_defined(i, positions) ? RowKind::Robin : RowKind::Held;
+        return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Yielding : RowKind::Held;
+    }
+
+    /// What the Laplacian's diagonal keeps when the other side yields. Obtuse triangles can make it negative.
+    [[nodiscard]] double remaining_diagonal(Index i, const Points& positions) const
+    {
+        const auto star = star_.row(i);
+        const auto columns = star_.columns()[i];
+        const Index vertex = sub_mesh_->interface.vertices[at(i)];
+        double sum = 0.0;
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            if (columns[k] == vertex)
+                sum += star[k];
+            else if (columns[k] >= sub_mesh_->n_vertices)
+                sum += star[k] * remainder(vertex, columns[k], positions);
+        return sum;
+    }
+
+    [[nodiscard]] double remainder(Index vertex, Index beyond, const Points& positions) const
+    {
+        return remainder_at((positions.row(beyond) - positions.row(vertex)).squaredNorm(), time_step_);
+    }
+
+    /// ρ of a vertex beyond Γ in row i; 0 where the other side is held.
+    [[nodiscard]] double yielding(Index i, Index beyond, const Points& positions) const
+    {
+        return kinds_[at(i)] == RowKind::Yielding ? remainder(sub_mesh_->interface.vertices[at(i)], beyond, positions)
+                                                  : 0.0;
+    }
+
+    [[nodiscard]] std::size_t place_of(Index i, Index column) const
+    {
+        const auto columns = columns_[i];
+        return static_cast<std::size_t>(std::lower_bound(columns.begin(), columns.end(), column) - columns.begin());
+    }
+
+    void robin_left_hand_side(Index i, const Points& positions, std::span<double> row) const
+    {
+        const auto columns = robin_.columns()[i];
+        std::vector<double> robin_row(columns.size());
+        robin_.left_hand_side(i, positions, robin_row);
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            row[place_of(i, columns[k])] = robin_row[k];
+    }
+
+    const SubMesh* sub_mesh_;
+    StarLaplacian star_;
+    AdaptedRobin robin_;
+    IndexLists columns_;
+    std::vector<RowKind> kinds_;
+    /// Per vertex of Γ, whether the Laplacian allows the other side to yield there.
+    std::vector<bool> yields_;
+    double time_step_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian)
+{
+    return std::make_unique<PredictedSide>(sub_mesh, laplacian);
+}
+
+}  // namespace seamflow

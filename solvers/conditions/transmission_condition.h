@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+
+#include "partition/index_lists.h"
+#include "solvers/geometry.h"
+
+namespace seamflow {
+
+/// The rows of a sub-mesh at those vertices of its Γ where it is the first to solve. They stand for the sub-meshes on
+/// the other side, of which no more is known than a guess: Vᵏ, or a prediction. Vertices are local, row i is that of
+/// the i-th vertex of Γ (see SubMeshInterface).
+class TransmissionCondition {
+  public:
+    virtual ~TransmissionCondition() = default;
+
+    /// The own vertices on which each row may depend, the vertex itself among them; ascending, the same in every step.
+    [[nodiscard]] virtual const IndexLists& columns() const = 0;
+
+    /// Takes over the geometry of a new step; to be called before the other two.
+    /// @param positions #local by 3, the halo included: Vᵏ.
+    /// @param time_step dt, in length².
+    /// @param p Robin parameter, in 1/length.
+    virtual void begin_step(const Points& positions, double time_step, double p) = 0;
+
+    /// The left-hand side of row i.
+    /// @param row receives one coefficient per entry of columns()[i].
+    virtual void left_hand_side(Index i, const Points& positions, std::span<double> row) const = 0;
+
+    /// The right-hand side of row i.
+    /// @param other_side #local by 3: Vᵏ at own vertices, and at those of the halo what is guessed of Vᵏ⁺¹.
+    [[nodiscard]] virtual Point right_hand_side(Index i, const Points& positions, const Points& other_side) const = 0;
+};
+
+}  // namespace seamflow
