@@ -48,7 +48,7 @@ struct Workshop {
 TEST_CASE("help and success end with 0")
 {
     const Workshop w;
-    for (const char* program : {SMOOTH, COMPARE, GENERATE})
+    for (const char* program : {SMOOTH, COMPARE, GENERATE, FIGURES})
         CHECK(w.run(std::string(program) + " --help") == 0);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
     CHECK(w.has("out.obj"));
@@ -273,4 +273,17 @@ TEST_CASE("the alternating Schwarz method and explicit Euler steps are options")
     CHECK(test::content_of(w.directory / "one.obj") != test::content_of(w.directory / "three.obj"));
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --scheme explicit") == 2);
     CHECK(w.said().find("must be at most") != std::string::npos);
+}
+
+TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
+{
+    const Workshop w;
+    CHECK(w.run(FIGURES " --out results texture") == 0);
+    CHECK(w.has("results/texture-input.ply"));
+    CHECK(w.count_lines("results/texture.csv", "texture,generated,3721,") == 6);
+    CHECK(w.count_lines("results/claims.csv", "texture,") == 1);
+    CHECK(w.run(FIGURES " --out results figure-1") == 2);
+    CHECK(w.said().find("there are teaser, ") != std::string::npos);
+    CHECK(w.run(FIGURES " texture") == 2);
+    CHECK(w.run(FIGURES " --out results --meshes none texture") == 3);
 }

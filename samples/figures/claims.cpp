@@ -1,0 +1,265 @@
+#include "samples/figures/claims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ostream>
+
+#include "samples/common/output_files.h"
+#include "samples/figures/measured.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr Laplacian fujiwara = Laplacian::Fujiwara;
+constexpr Laplacian alexa = Laplacian::AlexaWardetzky;
+constexpr Laplacian velho = Laplacian::PtackovaVelho;
+constexpr std::string_view robin = "adapted-robin";
+constexpr std::string_view schwarz = "schwarz";
+constexpr std::string_view undecomposed = "undecomposed";
+
+using Laplacians = std::vector<Laplacian>;
+
+/// Shorter than std::to_string: "0.1", "10".
+std::string written(double limit)
+{
+    return csv_number(limit);
+}
+
+/// Makes the claims of one figure.
+class Claims {
+  public:
+    Claims(const Table& table, const ClaimLimits& limits)
+        : table_(table)
+        , limits_(limits)
+    {
+    }
+
+    void teaser();
+    void polygons();
+    void schwarz_on_polygons();
+    void hexagons();
+    void triangles();
+    void wavy_cylinder();
+    void texture();
+
+    std::vector<Claim> made;
+
+  private:
+    void add(std::string text, const std::vector<Measured>& values, bool holds)
+    {
+        made.push_back({table_.figure, std::move(text), listed(values), holds});
+    }
+
+    /// After the last step the quantity is at most the limit for all of these flows.
+    void add_at_most(const std::string& text, const Laplacians& laplacians, std::string_view conditions, Quantity what,
+                     double limit)
+    {
+        const auto values = last_step(table_, laplacians, conditions, what);
+        add(text + " ≤ " + written(limit), values, at_most(values, limit));
+    }
+
+    void add_close(const std::string& text, const Laplacians& laplacians, std::string_view conditions)
+    {
+        add_at_most(text + ": V_mean", laplacians, conditions, v_mean, limits_.close_vertices);
+        add_at_most(text + ": H_mean", laplacians, conditions, h_mean, limits_.close_surfaces);
+    }
+
+    /// Δ_F drags the texture, the others do not.
+    void add_drag(const std::string& where, const Laplacians& others, std::string_view conditions)
+    {
+        auto values = last_step(table_, others, conditions, drift);
+        const double drag = quantity(table_, fujiwara, conditions, table_.steps, drift);
+        const bool holds = at_most(values, drag / limits_.drags);
+        values.insert(values.begin(), {symbol_of(fujiwara), drag});
+        add("Δ_F shifts vertices tangentially" + where + ": drift of Δ_F ≥ " + written(limits_.drags) +
+                " times that of the others",
+            values, holds);
+    }
+
+    /// The undecomposed flow ends in a spiky mesh.
+    void add_spiky(Laplacian laplacian)
+    {
+        auto values = last_step(table_, {laplacian}, undecomposed, rough);
+        const bool holds = values[0].value > std::max(limits_.spiky, table_.roughness);
+        values.push_back({"input", table_.roughness});
+        add(symbol_of(laplacian) + " flows into a spiky mesh without decomposition, too: roughness > " +
+                written(limits_.spiky) + "° and > that of the input",
+            values, holds);
+    }
+
+    /// Not rougher than the input.
+    void add_smoothed(const std::string& text, const Laplacians& laplacians, std::string_view conditions)
+    {
+        auto values = last_step(table_, laplacians, conditions, rough);
+        const bool holds = at_most(values, table_.roughness);
+        values.push_back({"input", table_.roughness});
+        add(text + ": roughness ≤ that of the input", values, holds);
+    }
+
+    void add_authors_numbers();
+
+    const Table& table_;
+    const ClaimLimits& limits_;
+};
+
+/// The numbers of the authors' own code, to the digits given.
+void Claims::add_authors_numbers()
+{
+    struct Known {
+        Laplacian laplacian;
+        int step;
+        Quantity what;
+        double value;
+        double half_digit;
+    };
+    constexpr Known numbers[] = {
+        {fujiwara, 1, v_mean, 0.037, 5e-4}, {fujiwara, 5, v_mean, 0.277, 5e-4}, {alexa, 1, v_mean, 0.0135, 5e-5},
+        {alexa, 5, v_mean, 0.0241, 5e-5},   {velho, 1, v_mean, 0.0109, 5e-5},   {velho, 5, v_mean, 0.0299, 5e-5},
+        {fujiwara, 1, v_max, 0.85, 5e-3},   {fujiwara, 5, v_max, 3.66, 5e-3},   {alexa, 1, v_max, 0.233, 5e-4},
+        {alexa, 5, v_max, 0.325, 5e-4},     {velho, 1, v_max, 0.199, 5e-4},     {velho, 5, v_max, 0.326, 5e-4},
+    };
+    std::vector<Measured> values;
+    bool holds = true;
+    for (const Known& known : numbers) {
+        const double value = quantity(table_, known.laplacian, robin, known.step, known.what);
+        values.push_back({symbol_of(known.laplacian) + (known.what == v_max ? " V_max " : " V_mean ") + "step " +
+                              std::to_string(known.step),
+                          value});
+        holds = holds && std::abs(value - known.value) <= known.half_digit;
+    }
+    add("the numbers of the authors' code in all their digits", values, holds);
+}
+
+void Claims::teaser()
+{
+    add_smoothed("two levels of detail are smoothed well with decomposition", {fujiwara, alexa, velho}, robin);
+    add_close("decomposed and undecomposed meshes stay together", {alexa, velho}, robin);
+    const std::vector<Measured> values{{"with", quantity(table_, fujiwara, robin, table_.steps, drift)},
+                                       {"without", quantity(table_, fujiwara, undecomposed, table_.steps, drift)}};
+    add("decomposition prevents tangential shifting by Δ_F: drift with decomposition < without", values,
+        values[0].value < values[1].value);
+    if (table_.as_authors)
+        add_authors_numbers();
+}
+
+void Claims::polygons()
+{
+    add_drag("", {alexa, velho}, undecomposed);
+    const auto values = last_step(table_, {velho, alexa}, undecomposed, rough);
+    add("Δ_A develops artifacts, Δ_P does better: roughness of Δ_P < that of Δ_A", values,
+        values[0].value < values[1].value);
+    add_smoothed("Δ_P performs well", {velho}, undecomposed);
+}
+
+void Claims::schwarz_on_polygons()
+{
+    add_at_most("Schwarz has good outcomes where the interface has small curvature: V_mean", {velho}, schwarz, v_mean,
+                limits_.close_vertices);
+    add_at_most("the same: H_mean", {velho}, schwarz, h_mean, limits_.close_surfaces);
+}
+
+void Claims::hexagons()
+{
+    add_close("the distances of Δ_F and Δ_P are small", {fujiwara, velho}, robin);
+    add_spiky(alexa);
+}
+
+void Claims::triangles()
+{
+    add_close("the distances of Δ_F and Δ_A are small", {fujiwara, alexa}, robin);
+    add_spiky(velho);
+}
+
+void Claims::wavy_cylinder()
+{
+    for (const Laplacian laplacian : {fujiwara, velho}) {
+        const double times = laplacian == fujiwara ? limits_.delays : limits_.delays_velho;
+        const std::vector<Measured> values{{"Schwarz", quantity(table_, laplacian, schwarz, table_.steps, v_mean)},
+                                           {"Robin", quantity(table_, laplacian, robin, table_.steps, v_mean)}};
+        add("Schwarz delays the interface, adapted Robin does not, with " + symbol_of(laplacian) +
+                ": V_mean of Schwarz ≥ " + written(times) + " times that of Robin",
+            values, values[0].value >= times * values[1].value);
+    }
+    add_at_most("adapted Robin works well: V_mean", {fujiwara, velho}, robin, v_mean, limits_.alike);
+    add_drag(" without decomposition", {velho}, undecomposed);
+    add_drag(" with decomposition, too", {velho}, robin);
+}
+
+void Claims::texture()
+{
+    add_at_most("with and without decomposition hard to distinguish: V_mean", {fujiwara, alexa, velho}, robin, v_mean,
+                limits_.alike);
+}
+
+/// The V_mean after the last step, by everything but the settings.
+using FinalDistances = std::map<std::tuple<std::string, Laplacian, Index>, double>;
+
+/// Of all flows whose reference is still a smooth surface in the end; there is nothing to stay close to where it is
+/// not.
+FinalDistances final_distances(const std::vector<Table>& tables, std::string_view settings, double spiky)
+{
+    FinalDistances distances;
+    for (const Table& table : tables)
+        for (const Row& row : table.rows)
+            if (row.step == table.steps && row.conditions == robin && row.settings == settings &&
+                quantity(table, row.laplacian, undecomposed, table.steps, rough) <= spiky)
+                distances[{row.figure, row.laplacian, row.subdomains}] = row.v.mean;
+    return distances;
+}
+
+Claim counted(const std::string& text, Index count, std::size_t all)
+{
+    return {std::string("subdomains"), text, std::to_string(count) + " of " + std::to_string(all),
+            all > 0 && at(count) == all};
+}
+
+}  // namespace
+
+std::vector<Claim> claims_of(const Table& table, const ClaimLimits& limits)
+{
+    static const std::map<std::string, void (Claims::*)(), std::less<>> makers{
+        {"teaser", &Claims::teaser},     {"polygons", &Claims::polygons},   {"schwarz", &Claims::schwarz_on_polygons},
+        {"hexagons", &Claims::hexagons}, {"triangles", &Claims::triangles}, {"wavy-cylinder", &Claims::wavy_cylinder},
+        {"texture", &Claims::texture},
+    };
+    Claims claims(table, limits);
+    if (const auto maker = makers.find(table.figure); maker != makers.end())
+        (claims.*maker->second)();
+    return claims.made;
+}
+
+std::vector<Claim> claims_of_many(const std::vector<Table>& tables, const ClaimLimits& limits)
+{
+    const FinalDistances plain = final_distances(tables, "plain", limits.spiky);
+    const FinalDistances better = final_distances(tables, "default", limits.spiky);
+    Index closer = 0;
+    Index close = 0;
+    for (const auto& [flow, distance] : better) {
+        const auto other = plain.find(flow);
+        closer += other == plain.end() || distance <= other->second ? 1 : 0;
+        close += distance <= limits.close_vertices ? 1 : 0;
+    }
+    return {counted("not in the paper: the library's defaults keep as close as the plain method or closer, by V_mean",
+                    closer, better.size()),
+            counted("not in the paper: they keep V_mean ≤ " + written(limits.close_vertices), close, better.size())};
+}
+
+void write_claims(const std::filesystem::path& path, const std::vector<Claim>& claims)
+{
+    std::string text = "figure,claim,measured,holds\n";
+    for (const Claim& claim : claims)
+        text += csv_text(claim.figure) + "," + csv_text(claim.text) + "," + csv_text(claim.measured) + "," +
+                (claim.holds ? "yes\n" : "no\n");
+    write_text(path, text);
+}
+
+void print_claims(std::ostream& out, const std::vector<Claim>& claims)
+{
+    for (const Claim& claim : claims)
+        out << (claim.holds ? "holds          " : "does not hold  ") << claim.figure << ": " << claim.text
+            << "\n               " << claim.measured << '\n';
+}
+
+}  // namespace seamflow

@@ -1,0 +1,72 @@
+#include "samples/figures/figures_command.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "partition/errors.h"
+#include "samples/common/command_line.h"
+#include "samples/common/output_files.h"
+#include "samples/figures/experiment.h"
+
+namespace seamflow {
+
+namespace {
+
+std::vector<std::string> all_names()
+{
+    std::vector<std::string> names;
+    for (const Experiment& experiment : experiments())
+        names.emplace_back(experiment.name);
+    names.emplace_back(many_sub_meshes);
+    return names;
+}
+
+std::string listed_names()
+{
+    std::string text;
+    for (const std::string& name : all_names())
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+void require_known(const std::vector<std::string>& figures)
+{
+    const std::vector<std::string> known = all_names();
+    for (const std::string& figure : figures)
+        if (std::find(known.begin(), known.end(), figure) == known.end())
+            throw OptionError("no figure is called \"" + figure + "\"; there are " + listed_names());
+}
+
+void require_folders(const FiguresCommand& command)
+{
+    std::error_code error;
+    if (!command.meshes.empty() && !std::filesystem::is_directory(command.meshes, error))
+        throw InputError(command.meshes.string() + ": is not a folder that can be read");
+    std::filesystem::create_directories(command.out, error);
+    if (error)
+        throw OutputError(command.out.string() + ": cannot be made, " + error.message());
+    require_writable(command.out / "claims.csv");
+}
+
+}  // namespace
+
+bool FiguresCommand::wants(std::string_view figure) const
+{
+    return figures.empty() || std::find(figures.begin(), figures.end(), figure) != figures.end();
+}
+
+std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCommand& command)
+{
+    CLI::App app("Repeats the experiments of the paper and tells which of its claims hold.", "figures");
+    app.add_option("FIGURE", command.figures, "any of " + listed_names() + " [all]")->type_name("");
+    app.add_option("--meshes", command.meshes, "folder with the authors' own meshes [all are generated]")
+        ->type_name("DIR");
+    app.add_option("--out", command.out, "folder for tables, meshes and claims")->required()->type_name("DIR");
+    if (const auto end = parse_command_line(app, argc, argv))
+        return end;
+    require_known(command.figures);
+    require_folders(command);
+    return std::nullopt;
+}
+
+}  // namespace seamflow

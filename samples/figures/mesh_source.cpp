@@ -1,0 +1,66 @@
+#include "samples/figures/mesh_source.h"
+
+#include <algorithm>
+
+#include "partition/io/mesh_io.h"
+
+namespace seamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file of that name in a folder, with or without its prefix; empty: there is none.
+fs::path find_file(std::string_view name, const fs::path& folder)
+{
+    for (const std::string prefix : {"", "ddm__"}) {
+        fs::path path = folder / (prefix + std::string(name));
+        if (!folder.empty() && fs::exists(path))
+            return path;
+    }
+    return {};
+}
+
+FigureMesh read_file(const MeshSource& source, const fs::path& path)
+{
+    FigureMesh result{.name = path.filename().string(), .mesh = read_mesh(path).mesh, .labels = {}, .authors = {}};
+    if (source.authors && source.authors->faces == result.mesh.n_faces())
+        result.authors = source.authors;
+    const Index first = result.authors ? result.authors->first_part : result.mesh.n_faces() / 2;
+    result.labels = halves_by_number(result.mesh, first);
+    return result;
+}
+
+}  // namespace
+
+FigureMesh load(const MeshSource& source, const fs::path& folder)
+{
+    if (const fs::path path = find_file(source.file, folder); !path.empty())
+        return read_file(source, path);
+    FigureMesh result{.name = "generated", .mesh = source.generate(source.vertices), .labels = {}, .authors = {}};
+    result.labels = halves_by_rows(result.mesh, source.axis);
+    return result;
+}
+
+std::vector<Index> halves_by_rows(const PolygonMesh& mesh, Eigen::Index axis)
+{
+    const auto height = mesh.vertices.col(axis);
+    const double middle = (height.minCoeff() + height.maxCoeff()) / 2.0;
+    std::vector<Index> labels;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        double sum = 0.0;
+        for (const Index v : mesh.face(f))
+            sum += height(v) - middle;
+        labels.push_back(sum < 0.0 ? 0 : 1);
+    }
+    return labels;
+}
+
+std::vector<Index> halves_by_number(const PolygonMesh& mesh, Index first)
+{
+    std::vector<Index> labels(at(mesh.n_faces()), 1);
+    std::fill_n(labels.begin(), std::clamp(first, Index{0}, mesh.n_faces()), 0);
+    return labels;
+}
+
+}  // namespace seamflow

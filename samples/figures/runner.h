@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+#include "samples/figures/experiment.h"
+#include "samples/figures/table.h"
+
+namespace seamflow {
+
+/// Where an experiment finds its mesh and leaves what there is to look at.
+struct Places {
+    /// With the authors' files; empty: all meshes are generated.
+    std::filesystem::path meshes;
+    /// For PLY files: the input and the last state of each flow (see write_picture); empty: none.
+    std::filesystem::path pictures;
+};
+
+/// Runs all flows of an experiment and measures each of their steps against the undecomposed flow by the same
+/// Laplacian. A flow that cannot go on (a singular system, results that are not finite) ends there with a remark.
+/// @param log gets a line for each flow.
+/// @throws InputError, OutputError.
+Table run_experiment(const Experiment& experiment, const Places& places, std::ostream& log);
+
+}  // namespace seamflow
