@@ -65,6 +65,7 @@ ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, co
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
+    , first_limit_(infinity)
     , smallest_limit_(infinity)
 {
 }
@@ -72,22 +73,20 @@ ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, co
 void ExplicitFlow::require_stable()
 {
     const double limit = largest_explicit_step(*mesh_, *topology_, positions_);
+    const bool first = smallest_limit_ == infinity;
     smallest_limit_ = std::min(smallest_limit_, limit);
-    if (time_step_ <= limit)
+    if (!first)
         return;
-    if (!started_)
+    first_limit_ = limit;
+    if (time_step_ > limit)
         throw OptionError("time_step is " + text_of(time_step_) + ", but must be at most " + text_of(limit) +
                           " (length²), the square of the shortest edge, for explicit Euler steps to be stable: use a "
                           "smaller one, or backward Euler steps");
-    throw ComputationError("the time step is too large since edges have shrunk; explicit Euler steps are now stable up "
-                           "to " +
-                           text_of(limit) + " (length²): use a smaller time step or fewer steps");
 }
 
 void ExplicitFlow::step()
 {
     require_stable();
-    started_ = true;
     tbb::parallel_for(Index{0}, mesh_->n_vertices(), [&](Index v) {
         if (topology_->kind[at(v)] == VertexKind::Interior)
             next_.row(v) =
@@ -108,7 +107,10 @@ void ExplicitFlow::describe(FlowReport& report) const
     report.subdomain_vertices = {mesh_->n_vertices()};
     report.subdomain_colors = {0};
     report.p = {0.0};
-    if (time_step_ > safe_part * smallest_limit_)
+    if (time_step_ > smallest_limit_)
+        report.remarks.push_back("Edges have shrunk so far that the time step is above the square of the shortest one: "
+                                 "explicit Euler steps may no longer be stable.");
+    else if (time_step_ > safe_part * first_limit_)
         report.remarks.push_back("The time step is above a quarter of the square of the shortest edge: explicit Euler "
                                  "steps may not be stable.");
 }

@@ -21,15 +21,15 @@ class ExplicitFlow {
     ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options);
 
     /// One step. After an exception the positions are those before the step.
-    /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if it is
-    /// so
-    ///         in a later one, because edges have shrunk, or if the result is not finite.
+    /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
+    /// result
+    ///         is not finite, or farther outside the box around the input than that box's diagonal.
     void step();
 
     /// #V by 3, after the last complete step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
-    /// Fills in what the flow knows of itself: it is one sub-mesh, and how sure its step is.
+    /// Fills in what the flow knows of itself: that it is one sub-mesh, and a remark where steps may not be stable.
     void describe(FlowReport& report) const;
 
   private:
@@ -41,9 +41,9 @@ class ExplicitFlow {
     double time_step_;
     Points positions_;
     Points next_;
-    /// The smallest of largest_explicit_step so far.
+    /// largest_explicit_step of the first step, and the smallest so far.
+    double first_limit_;
     double smallest_limit_;
-    bool started_ = false;
 };
 
 }  // namespace seamflow

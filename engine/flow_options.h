@@ -34,8 +34,9 @@ enum class Scheme {
     /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. MCFbackwardEuler).
     BackwardEuler,
     /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: everything here about sub-meshes, their order and what holds between
-    /// them plays no part. dt must be at most the square of the shortest edge (see largest_explicit_step), before
-    /// every step; a quarter of it is safe on regular grids.
+    /// them plays no part. dt must be at most the square of the shortest edge (see largest_explicit_step); a quarter
+    /// of it is safe on regular grids. Beyond that the surface can become rough instead of smooth; a remark of the
+    /// report says so.
     ExplicitEuler,
 };
 
@@ -68,7 +69,8 @@ enum class Sweep {
 
 /// What happens to the vertices of the interface after each step.
 enum class Correction {
-    /// Centroid where the conditions make it necessary, which is with all but Conditions::Schwarz: as the paper's authors do.
+    /// Centroid where the conditions make it necessary, which is with all but Conditions::Schwarz: as the paper's
+    /// authors do.
     Automatic,
     /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction).
     Centroid,

@@ -59,7 +59,8 @@ struct FlowReport {
     /// Number of sub-meshes used, and of colours.
     Index subdomains = 0;
     Index colors = 0;
-    /// Faces and vertices of each sub-mesh (vertices of the interface counted in each).
+    /// Faces and vertices of each sub-mesh (vertices of the interface, and the overlap of Conditions::Schwarz, counted
+    /// in each).
     std::vector<Index> subdomain_faces;
     std::vector<Index> subdomain_vertices;
     /// Colour of each sub-mesh; colour 0 solves first in even steps.
@@ -72,7 +73,8 @@ struct FlowReport {
     Index repaired_faces = 0;
     /// Vertices held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
     Index non_manifold_vertices = 0;
-    /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface).
+    /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface, and with conditions that have
+    /// none).
     std::vector<double> p;
     /// dt, in length².
     double time_step = 0.0;

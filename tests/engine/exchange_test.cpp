@@ -1,12 +1,17 @@
+#include <algorithm>
+#include <cmath>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include <doctest/doctest.h>
 
 #include "engine/sub_mesh_state.h"
 #include "engine/sweep_order.h"
 #include "partition/cut/cut.h"
+#include "partition/decomposition/overlap.h"
 #include "samples/common/meshes.h"
+#include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
 #include "tests/support/flows.h"
 
@@ -27,13 +32,15 @@ class Machines {
         , decomposition_(decompose(mesh, topology_, cut_.labels, cut_.n_parts))
     {
         const std::vector<double> no_curvature(at(mesh.n_vertices()), 0.0);
-        plan_ = plan_sweep(decomposition_, rank_sub_meshes(decomposition_, options.coloring, no_curvature));
+        const auto rank = rank_sub_meshes(decomposition_, options.coloring, no_curvature);
+        if (options.conditions == Conditions::Schwarz)
+            grow_sub_meshes(mesh, rank);
+        else
+            plan_ = plan_sweep(decomposition_, rank);
         for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
-            SubMeshState& state = states_.emplace_back(sub_mesh, options.laplacian,
-                                                       make_predicted_side(sub_mesh, options.laplacian), mesh.vertices);
+            SubMeshState& state =
+                states_.emplace_back(sub_mesh, options.laplacian, condition_for(sub_mesh, options), mesh.vertices);
             state.p = 0.7 / std::sqrt(options.time_step);
-            forget_halo(state.position, sub_mesh);
-            state.solved.setConstant(unknown);
         }
     }
 
@@ -41,46 +48,83 @@ class Machines {
     void step()
     {
         for (Index s = 0; s < n(); ++s) {
-            forget_halo(states_[at(s)].position, decomposition_.sub_meshes[at(s)]);
+            forget_others(s);
             states_[at(s)].solved.setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
             assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step);
-        for (Index s = 0; s < n(); ++s) {
-            predict(states_, s);
-            forget_halo(states_[at(s)].predicted, decomposition_.sub_meshes[at(s)]);
-        }
-        for (Index s = 0; s < n(); ++s)
-            use_predictions(states_, s, plan_.predictions[at(s)]);
+        if (options_.conditions == Conditions::AdaptedRobin)
+            exchange_predictions();
         for (Index rank = 0; rank < n(); ++rank)
             for (Index s = 0; s < n(); ++s)
                 if (plan_.rank[at(s)] == rank)
                     solve(states_, s, plan_.traces[at(s)]);
         for (Index s = 0; s < n(); ++s)
-            accept_corrected(states_, s, decomposition_.halo[at(s)]);
+            options_.correction == Correction::None ? accept(states_, s)
+                                                    : accept_corrected(states_, s, decomposition_.halo[at(s)]);
     }
 
     /// The positions, #V by 3, from all sub-meshes; every copy of a vertex must have the same bits.
     [[nodiscard]] Points joined(Points positions) const
     {
-        for (Index s = 0; s < n(); ++s)
-            for (Index v = 0; v < decomposition_.sub_meshes[at(s)].n_vertices; ++v)
-                positions.row(global(s, v)) = states_[at(s)].position.row(v);
-        for (Index s = 0; s < n(); ++s)
-            for (Index v = 0; v < decomposition_.sub_meshes[at(s)].n_vertices; ++v)
-                CHECK(positions.row(global(s, v)) == states_[at(s)].position.row(v));
+        for_each_own([&](Index s, Index v) { positions.row(global(s, v)) = states_[at(s)].position.row(v); });
+        for_each_own([&](Index s, Index v) { CHECK(positions.row(global(s, v)) == states_[at(s)].position.row(v)); });
         return positions;
     }
 
   private:
+    void exchange_predictions()
+    {
+        for (Index s = 0; s < n(); ++s) {
+            predict(states_, s);
+            states_[at(s)].predicted.bottomRows(decomposition_.sub_meshes[at(s)].n_halo).setConstant(unknown);
+        }
+        for (Index s = 0; s < n(); ++s)
+            use_predictions(states_, s, plan_.predictions[at(s)]);
+    }
+
+    static std::unique_ptr<TransmissionCondition> condition_for(const SubMesh& sub_mesh, const FlowOptions& options)
+    {
+        if (options.conditions == Conditions::Schwarz)
+            return make_dirichlet(sub_mesh);
+        return make_predicted_side(sub_mesh, options.laplacian);
+    }
+
     [[nodiscard]] Index n() const { return cut_.n_parts; }
     [[nodiscard]] Index global(Index s, Index v) const
     {
         return decomposition_.sub_meshes[at(s)].local_to_global[at(v)];
     }
-    static void forget_halo(Points& positions, const SubMesh& sub_mesh)
+    [[nodiscard]] bool is_own(Index s, Index v) const
     {
-        positions.bottomRows(sub_mesh.n_halo).setConstant(unknown);
+        const auto corners = topology_.corners_at(global(s, v));
+        return std::any_of(corners.begin(), corners.end(),
+                           [&](Index corner) { return cut_.labels[at(topology_.face_of[at(corner)])] == s; });
+    }
+    template <class Action>
+    void for_each_own(Action&& action) const
+    {
+        for (Index s = 0; s < n(); ++s)
+            for (Index v = 0; v < decomposition_.sub_meshes[at(s)].n_vertices; ++v)
+                if (is_own(s, v))
+                    action(s, v);
+    }
+    void forget_others(Index s)
+    {
+        Points& positions = states_[at(s)].position;
+        for (Index v = 0; v < static_cast<Index>(positions.rows()); ++v)
+            if (!is_own(s, v))
+                positions.row(v).setConstant(unknown);
+    }
+    void grow_sub_meshes(const PolygonMesh& mesh, const std::vector<Index>& rank)
+    {
+        const Overlap overlap{cut_.labels, rank, options_.overlap};
+        std::vector<SubMesh> grown;
+        for (Index s = 0; s < n(); ++s)
+            grown.push_back(
+                make_overlapping_sub_mesh(mesh, topology_, overlap, s, decomposition_.sub_meshes[at(s)].faces));
+        decomposition_ = connect_overlapping(std::move(grown), topology_, overlap);
+        plan_ = plan_overlapping_sweep(decomposition_, rank);
     }
 
     FlowOptions options_;
@@ -91,26 +135,54 @@ class Machines {
     std::vector<SubMeshState> states_;
 };
 
+void compare_machines(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    Machines machines(mesh, options);
+    for (int step = 0; step < options.steps; ++step)
+        machines.step();
+    const Points expected = test::flowed(mesh, options);
+    REQUIRE(expected.allFinite());
+    CHECK(machines.joined(mesh.vertices) == expected);
+}
+
+FlowOptions options_for(Laplacian laplacian)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = 0.001;
+    options.steps = 3;
+    options.subdomains = 7;
+    options.coloring = Coloring::Label;
+    options.sweep = Sweep::Fixed;
+    return options;
+}
+
+std::vector<PolygonMesh> meshes()
+{
+    return {make_triangles(900), make_hexagons(900), make_mixed_polygons(900), make_noisy_sphere(900)};
+}
+
 }  // namespace
 
 TEST_CASE("transfers carry all that crosses an interface: sub-meshes that know nothing else get the same bits")
 {
-    for (const PolygonMesh& mesh :
-         {make_triangles(900), make_hexagons(900), make_mixed_polygons(900), make_noisy_sphere(900)})
+    for (const PolygonMesh& mesh : meshes())
         for (const Laplacian laplacian : test::all_laplacians) {
             CAPTURE(name_of(laplacian));
-            FlowOptions options;
-            options.laplacian = laplacian;
-            options.time_step = 0.001;
-            options.steps = 3;
-            options.subdomains = 7;
-            options.coloring = Coloring::Label;
-            options.sweep = Sweep::Fixed;
-            Machines machines(mesh, options);
-            for (int step = 0; step < options.steps; ++step)
-                machines.step();
-            const Points expected = test::flowed(mesh, options);
-            REQUIRE(expected.allFinite());
-            CHECK(machines.joined(mesh.vertices) == expected);
+            compare_machines(mesh, options_for(laplacian));
         }
+}
+
+TEST_CASE("the same holds for sub-meshes that overlap, corrected and not")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const Laplacian laplacian : test::all_laplacians)
+            for (const Correction correction : {Correction::None, Correction::Centroid}) {
+                CAPTURE(name_of(laplacian));
+                FlowOptions options = options_for(laplacian);
+                options.conditions = Conditions::Schwarz;
+                options.overlap = 2;
+                options.correction = correction;
+                compare_machines(mesh, options);
+            }
 }

@@ -80,6 +80,12 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step 1 --coloring best",
              "mesh.obj out.obj --time-step 1 --conditions none",
              "mesh.obj out.obj --time-step 1 --plain --sweep alternating",
+             "mesh.obj out.obj --time-step 1 --overlap 2",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --overlap 0",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --sweep alternating",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --p 3",
+             "mesh.obj out.obj --time-step 1 --scheme euler",
+             "mesh.obj out.obj --time-step 1 --scheme explicit",
              "mesh.obj out.obj --time-step 1 --every-step step.obj",
              "mesh.obj out.obj --time-step 1 --every-step %d%s.obj",
              "mesh.obj out.obj --time-step 1 --parts parts.obj",
@@ -266,4 +272,18 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     CHECK(w.said().find("there are teaser, ") != std::string::npos);
     CHECK(w.run(FIGURES " texture") == 2);
     CHECK(w.run(FIGURES " --out results --meshes none texture") == 3);
+}
+
+TEST_CASE("the alternating Schwarz method and explicit Euler steps are options")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj robin.obj --time-step 1e-3 --subdomains 4") == 0);
+    REQUIRE(w.smooth("mesh.obj one.obj --time-step 1e-3 --subdomains 4 --conditions schwarz") == 0);
+    REQUIRE(w.smooth("mesh.obj three.obj --time-step 1e-3 --subdomains 4 --conditions schwarz --overlap 3 --plain") ==
+            0);
+    REQUIRE(w.smooth("mesh.obj explicit.obj --time-step 1e-7 --scheme explicit") == 0);
+    CHECK(test::content_of(w.directory / "robin.obj") != test::content_of(w.directory / "one.obj"));
+    CHECK(test::content_of(w.directory / "one.obj") != test::content_of(w.directory / "three.obj"));
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --scheme explicit") == 2);
+    CHECK(w.said().find("must be at most") != std::string::npos);
 }
