@@ -67,12 +67,11 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice<Coloring>(app, "--coloring", options.coloring,
                          {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
                          "order of the sub-meshes in a step [greedy]");
-    add_choice<Conditions>(
-        app, "--conditions", options.conditions,
-        {{"adapted-robin", Conditions::AdaptedRobin},
-         {"adapted-ventcell", Conditions::AdaptedVentcell},
-         {"schwarz", Conditions::Schwarz}},
-        "what holds between sub-meshes [adapted-robin]");
+    add_choice<Conditions>(app, "--conditions", options.conditions,
+                           {{"adapted-robin", Conditions::AdaptedRobin},
+                            {"adapted-ventcell", Conditions::AdaptedVentcell},
+                            {"schwarz", Conditions::Schwarz}},
+                           "what holds between sub-meshes [adapted-robin]");
     add_choice<Transmission>(app, "--transmission", options.transmission,
                              {{"predicted", Transmission::Predicted}, {"derivative", Transmission::Derivative}},
                              "how the first sub-mesh at the interface learns of the others [predicted]");

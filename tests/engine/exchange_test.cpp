@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cmath>
 #include <limits>
 #include <memory>
 
