@@ -111,8 +111,8 @@ struct FlowOptions {
     std::optional<double> p;
     PRule p_rule = PRule::Paper;
     PEdge p_edge = PEdge::Minimum;
-    /// Ventcell parameter q of the tangential derivative, in 1, not negative; required with AdaptedVentcell, and only
-    /// there.
+    /// Ventcell parameter q of the tangential derivative, without dimension, not negative; required with
+    /// AdaptedVentcell, and only there.
     std::optional<double> q;
     /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1: each grows that often by the
     /// faces that share a vertex with it, into sub-meshes that do not solve before it. Of no use with other conditions.

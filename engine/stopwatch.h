@@ -15,6 +15,12 @@ class Stopwatch {
         return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
     }
 
+    /// Seconds since then; goes on.
+    [[nodiscard]] double seconds() const
+    {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
   private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-#include "samples/common/stopwatch.h"
+#include "engine/stopwatch.h"
 #include "samples/figures/claims.h"
 #include "samples/figures/figures_command.h"
 #include "samples/figures/runner.h"

@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/stopwatch.h"
 #include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
@@ -18,7 +19,6 @@
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
 #include "samples/common/smooth_command.h"
-#include "samples/common/stopwatch.h"
 
 using namespace seamflow;
 
