@@ -130,6 +130,7 @@ Index LoosePieces::best_neighbour(Index piece)
             double& length = shared_length_[at(labels_[at(g)])];
             if (length == 0)
                 candidates_.push_back(labels_[at(g)]);
+            // Not zero even for an edge without length, so that each part becomes a candidate once.
             length += 1e-300 + (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
         });
     const Index best = *std::max_element(candidates_.begin(), candidates_.end(), [&](Index a, Index b) {

@@ -30,6 +30,9 @@ VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference,
         throw InputError("the reference has " + std::to_string(reference.rows()) + " vertices, the candidate " +
                          std::to_string(candidate.rows()) +
                          ": only meshes with corresponding vertices can be compared");
+    if (reference.rows() != mesh.vertices.rows())
+        throw InputError("there are " + std::to_string(reference.rows()) + " positions, but the mesh has " +
+                         std::to_string(mesh.vertices.rows()) + " vertices");
     VertexDistance distance;
     distance.mean_edge = mean_edge_length(mesh, reference);
     if (reference.rows() == 0)

@@ -21,7 +21,7 @@ double mean_edge_length(const PolygonMesh& mesh);
 double mean_edge_length(const PolygonMesh& mesh, const Points& positions);
 
 /// Distances between `candidate` and `reference`, #V by 3 each, over all vertices; `mesh` gives the faces.
-/// @throws InputError if the numbers of vertices differ.
+/// @throws InputError if the numbers of vertices differ, those of `mesh` included.
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate);
 
 }  // namespace seamflow

@@ -64,3 +64,10 @@ TEST_CASE("meshes of different numbers of vertices cannot be compared")
                          "be compared",
                          InputError);
 }
+
+TEST_CASE("positions that are not the mesh's in number are refused")
+{
+    const PolygonMesh mesh = quad_grid(2, 2);
+    const Points fewer = mesh.vertices.topRows(4);
+    CHECK_THROWS_WITH_AS(vertex_distance(mesh, fewer, fewer), doctest::Contains("the mesh has 9 vertices"), InputError);
+}
