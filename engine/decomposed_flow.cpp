@@ -117,6 +117,8 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
     : decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
+    , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
+    , graph_(recorder_.get())
     , positions_(mesh.vertices)
 {
     const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
@@ -147,9 +149,13 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
 }
 
 template <class Body>
-TaskGraph::Node DecomposedFlow::add_task(Index s, Body body, TaskGraph::Priority priority)
+TaskGraph::Node DecomposedFlow::add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority)
 {
-    return graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); }, priority);
+    const auto node =
+        graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); }, priority);
+    if (recorder_)
+        recorder_->add_task(node, {phase, s, priority});
+    return node;
 }
 
 TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptions& options)
@@ -169,15 +175,15 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
     std::vector<TaskGraph::Node> factorised;
     std::vector<TaskGraph::Node> solved;
     for (Index s = 0; s < n; ++s) {
-        factorised.push_back(add_task(s, assemble_one, TaskGraph::Priority::Normal));
-        solved.push_back(add_task(s, solve_one, TaskGraph::Priority::High));
+        factorised.push_back(add_task(Phase::AssembleAndFactorise, s, assemble_one, TaskGraph::Priority::Normal));
+        solved.push_back(add_task(Phase::Solve, s, solve_one, TaskGraph::Priority::High));
         graph_.add_dependency(root, factorised.back());
         graph_.add_dependency(factorised.back(), solved.back());
     }
     if (predicts(options))
         add_predictions(plan, factorised, solved);
     for (Index s = 0; s < n; ++s) {
-        const auto accepted = add_task(s, accept_one, TaskGraph::Priority::High);
+        const auto accepted = add_task(Phase::Accept, s, accept_one, TaskGraph::Priority::High);
         graph_.add_dependency(solved[at(s)], accepted);
         for (const Transfer& trace : plan.traces[at(s)])
             graph_.add_dependency(solved[at(trace.from)], solved[at(s)]);
@@ -198,14 +204,14 @@ void DecomposedFlow::add_predictions(const SweepPlan& plan, const std::vector<Ta
     for (Index s = 0; s < n; ++s) {
         if (plan.traces[at(s)].empty())
             continue;
-        predicted[at(s)] = add_task(s, predict_one, TaskGraph::Priority::High);
+        predicted[at(s)] = add_task(Phase::Predict, s, predict_one, TaskGraph::Priority::High);
         graph_.add_dependency(factorised[at(s)], predicted[at(s)]);
         graph_.add_dependency(predicted[at(s)], solved[at(s)]);
     }
     for (Index s = 0; s < n; ++s) {
         if (plan.predictions[at(s)].empty())
             continue;
-        const auto used = add_task(s, use_one, TaskGraph::Priority::High);
+        const auto used = add_task(Phase::UsePredictions, s, use_one, TaskGraph::Priority::High);
         graph_.add_dependency(factorised[at(s)], used);
         graph_.add_dependency(used, solved[at(s)]);
         if (predicted[at(s)] >= 0)
@@ -217,9 +223,13 @@ void DecomposedFlow::add_predictions(const SweepPlan& plan, const std::vector<Ta
 
 void DecomposedFlow::step()
 {
+    if (recorder_)
+        recorder_->begin_step();
     graph_.run(roots_[static_cast<std::size_t>(steps_done_) % roots_.size()]);
     ++steps_done_;
     join();
+    if (recorder_)
+        recorder_->end_step();
 }
 
 void DecomposedFlow::join()
@@ -247,6 +257,8 @@ void DecomposedFlow::describe(FlowReport& report) const
         report.seconds.solve += state.seconds.solve;
         report.seconds.correct += state.seconds.correct;
     }
+    if (recorder_)
+        report.schedule = recorder_->schedule();
 }
 
 }  // namespace seamflow

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
+#include "engine/schedule_recorder.h"
 #include "engine/sub_mesh_state.h"
 #include "engine/task_graph.h"
 #include "partition/cut/cut.h"
@@ -39,7 +41,7 @@ class DecomposedFlow {
     /// #V by 3, after the last complete step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
-    /// Fills in what the flow knows of itself: sub-meshes, colours, p, seconds spent in tasks.
+    /// Fills in what the flow knows of itself: sub-meshes, colours, p, seconds spent in tasks, the schedule.
     void describe(FlowReport& report) const;
 
   private:
@@ -48,7 +50,7 @@ class DecomposedFlow {
     void add_predictions(const SweepPlan& plan, const std::vector<TaskGraph::Node>& factorised,
                          const std::vector<TaskGraph::Node>& solved);
     template <class Body>
-    TaskGraph::Node add_task(Index s, Body body, TaskGraph::Priority priority);
+    TaskGraph::Node add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority);
     void join();
 
     Decomposition decomposition_;
@@ -56,6 +58,8 @@ class DecomposedFlow {
     /// Forward, and backward where the sweep alternates.
     std::vector<SweepPlan> plans_;
     std::vector<TaskGraph::Node> roots_;
+    /// nullptr: the schedule is not recorded.
+    std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;
     Points positions_;
     int steps_done_ = 0;

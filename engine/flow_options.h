@@ -127,6 +127,9 @@ struct FlowOptions {
     /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
     /// each step.
     bool reference = false;
+    /// Record what ran when, in which thread (FlowReport::schedule): 32 bytes for each task and step. Steps of
+    /// Scheme::ExplicitEuler have no tasks.
+    bool record_schedule = false;
 
     /// The paper to the letter, generalised to many sub-meshes and nothing else: fixed sweep, no improvements that
     /// other defaults may hold now or later.

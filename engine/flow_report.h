@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/schedule.h"
 #include "partition/metrics/displacement.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"
@@ -83,6 +84,8 @@ struct FlowReport {
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
     TotalDisplacement displacement;
+    /// With FlowOptions::record_schedule, of a flow in backward Euler steps.
+    std::optional<Schedule> schedule;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
     std::vector<std::string> remarks;
 };

@@ -8,6 +8,8 @@
 
 #include <oneapi/tbb/flow_graph.h>
 
+#include "engine/schedule_recorder.h"
+
 namespace seamflow {
 
 namespace {
@@ -53,8 +55,9 @@ class TaskGraph::Nodes {
     FirstFailure failure;
 };
 
-TaskGraph::TaskGraph()
+TaskGraph::TaskGraph(ScheduleRecorder* recorder)
     : nodes_(std::make_unique<Nodes>())
+    , recorder_(recorder)
 {
 }
 
@@ -70,11 +73,12 @@ TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priorit
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
     // Exceptions stay inside: a flow graph that one has left starts its next run with wrong counts.
-    auto guarded = [failure = &nodes_->failure, node, body = std::move(body)](const flow::continue_msg& message) {
+    auto guarded = [failure = &nodes_->failure, recorder = recorder_, node,
+                    body = std::move(body)](const flow::continue_msg& message) {
         if (failure->failed())
             return message;
         try {
-            body();
+            recorder != nullptr ? recorder->timed(node, body) : body();
         } catch (...) {
             failure->record(node, std::current_exception());
         }
@@ -88,6 +92,8 @@ TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priorit
 void TaskGraph::add_dependency(Node before, Node after)
 {
     flow::make_edge(nodes_->nodes[at(before)], nodes_->nodes[at(after)]);
+    if (recorder_ != nullptr)
+        recorder_->add_dependency(before, after);
 }
 
 void TaskGraph::run(Node root)

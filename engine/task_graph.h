@@ -7,6 +7,8 @@
 
 namespace seamflow {
 
+class ScheduleRecorder;
+
 /// A graph of tasks with fixed dependencies, built once and run as often as wanted (a oneTBB flow graph of continue
 /// nodes). Belongs to the arena in which it is constructed.
 ///
@@ -20,7 +22,8 @@ class TaskGraph {
     /// Which of the tasks that are ready starts first.
     enum class Priority { Normal, High };
 
-    TaskGraph();
+    /// @param recorder hears of dependencies and times the tasks; must outlive the graph. nullptr: none.
+    explicit TaskGraph(ScheduleRecorder* recorder = nullptr);
     ~TaskGraph();
     TaskGraph(const TaskGraph&) = delete;
     TaskGraph& operator=(const TaskGraph&) = delete;
@@ -41,6 +44,7 @@ class TaskGraph {
   private:
     class Nodes;
     std::unique_ptr<Nodes> nodes_;
+    ScheduleRecorder* recorder_;
 };
 
 }  // namespace seamflow

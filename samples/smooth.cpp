@@ -18,6 +18,7 @@
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
+#include "samples/common/schedule_trace.h"
 #include "samples/common/smooth_command.h"
 
 using namespace seamflow;
@@ -101,6 +102,8 @@ ExitStatus smooth(int argc, char** argv)
     run.write_seconds += writing.seconds();
     if (!command.report.empty())
         write_text(command.report, smooth_report_json(run, report));
+    if (!command.trace.empty())
+        write_schedule_trace(command.trace, report);
     print_summary(std::cout, run, report);
     return ExitStatus::Success;
 }

@@ -15,7 +15,7 @@ struct RunRecord {
     std::string laplacian;
     /// Mean edge length of the input, in units of length.
     double mean_edge = 0.0;
-    /// Wall-clock time for reading all inputs and for writing all results, the report excepted.
+    /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;
 };

@@ -94,6 +94,8 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
         ->type_name("PATTERN");
     app.add_option("--parts", command.parts, "write the cut: faces with colours and labels")->type_name("PARTS.ply");
     app.add_option("--report", command.report, "write times, sizes and distances")->type_name("REPORT.json");
+    app.add_option("--trace", command.trace, "write which task ran when in which thread, for ui.perfetto.dev")
+        ->type_name("TRACE.json");
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
@@ -110,6 +112,8 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
     if (app.count("--plain") > 0 && command.options.transmission != FlowOptions::plain().transmission)
         throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
+    if (!command.trace.empty() && command.options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("--trace shows the tasks of the sub-meshes; --scheme explicit has none");
     kind_for_writing(command.output, FileKind{});
     if (command.every_step)
         kind_for_writing(command.every_step->path(1), FileKind{});
@@ -129,7 +133,7 @@ void require_usable_files(const SmoothCommand& command)
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
-    for (const auto& path : {command.parts, command.report})
+    for (const auto& path : {command.parts, command.report, command.trace})
         if (!path.empty())
             results.push_back(path);
     std::vector<std::filesystem::path> files = results;
@@ -154,6 +158,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     command.arguments.assign(argv + 1, argv + argc);
+    command.options.record_schedule = !command.trace.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);
     require_consistent(app, command);

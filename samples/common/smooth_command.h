@@ -23,6 +23,7 @@ struct SmoothCommand {
     std::filesystem::path labels;
     std::filesystem::path parts;
     std::filesystem::path report;
+    std::filesystem::path trace;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
     /// As the user typed it.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -91,6 +92,10 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step 1 --parts parts.obj",
              "mesh.obj out.obj --time-step 1 --report out.obj",
              "mesh.obj out.obj --time-step 1 --report mesh.obj",
+             "mesh.obj out.obj --time-step 1 --trace out.obj",
+             "mesh.obj out.obj --time-step 1 --trace mesh.obj",
+             "mesh.obj out.obj --time-step 1 --trace a.json --report a.json",
+             "mesh.obj out.obj --time-step 1e-7 --scheme explicit --trace trace.json",
              "mesh.obj out.xyz --time-step 1",
              "mesh.obj out.obj more.obj --time-step 1",
              "mesh.obj out.obj --time-step 1 --speed 3",
@@ -140,6 +145,7 @@ TEST_CASE("output that cannot be written ends with 5, before the work begins")
     const Workshop w;
     CHECK(w.smooth("mesh.obj nowhere/out.obj --time-step 1") == 5);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --report nowhere/report.json") == 5);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --trace nowhere/trace.json") == 5);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --parts nowhere/parts.ply") == 5);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --every-step nowhere/%d.obj") == 5);
     CHECK(w.smooth("mesh.obj out.stl --time-step 1") == 5);
@@ -178,6 +184,29 @@ TEST_CASE("the report of smooth has its keys")
     CHECK(report["time_step"].get<double>() == doctest::Approx(2.0 * edge * edge));
     CHECK(w.count_lines("said", "step ") == 3);
     CHECK(w.said().find("V_mean") != std::string::npos);
+}
+
+TEST_CASE("--trace writes which task ran when, and changes nothing else")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj silent.obj --time-step-edges 2 --subdomains 4 --steps 3") == 0);
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 2 --subdomains 4 --steps 3 --trace trace.json "
+                     "--report report.json") == 0);
+    CHECK(test::content_of(w.directory / "silent.obj") == test::content_of(w.directory / "out.obj"));
+    std::map<std::string, int> slices;
+    std::ptrdiff_t starts = 0;
+    const Json trace = w.json("trace.json");
+    for (const Json& event : trace["traceEvents"]) {
+        if (event["ph"] == "X")
+            ++slices[event["name"]];
+        starts += event["ph"] == "s" ? 1 : 0;
+    }
+    for (int s = 0; s < w.json("report.json")["subdomains"]; ++s)
+        for (const char* phase : {"assemble and factorise ", "solve ", "accept "})
+            CHECK_MESSAGE(slices[phase + std::to_string(s)] == 3, phase, s);
+    CHECK(slices["step 3"] == 1);
+    CHECK(starts > 0);
+    CHECK(w.count_lines("trace.json", R"({"ph": "f")") == starts);
 }
 
 TEST_CASE("compare tells V_, H_ and displacements of meshes that correspond")

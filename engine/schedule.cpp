@@ -1,0 +1,22 @@
+#include "engine/schedule.h"
+
+namespace seamflow {
+
+std::string_view name_of(Phase phase)
+{
+    switch (phase) {
+    case Phase::AssembleAndFactorise:
+        return "assemble and factorise";
+    case Phase::Predict:
+        return "predict";
+    case Phase::UsePredictions:
+        return "use predictions";
+    case Phase::Solve:
+        return "solve";
+    case Phase::Accept:
+        return "accept";
+    }
+    return "";
+}
+
+}  // namespace seamflow

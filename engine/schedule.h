@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "engine/task_graph.h"
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// What a task does for its sub-mesh (see sub_mesh_state.h).
+enum class Phase {
+    AssembleAndFactorise,
+    Predict,
+    UsePredictions,
+    Solve,
+    Accept,
+};
+
+/// "assemble and factorise", "predict", "use predictions", "solve" or "accept".
+std::string_view name_of(Phase phase);
+
+/// A task of the graph. It runs at most once in a step.
+struct ScheduledTask {
+    Phase phase = Phase::Solve;
+    Index sub_mesh = 0;
+    TaskGraph::Priority priority = TaskGraph::Priority::Normal;
+};
+
+/// `after` starts when `before` is done; both are numbers of tasks.
+struct Dependency {
+    Index before = 0;
+    Index after = 0;
+};
+
+/// One run of a task.
+struct TaskRecord {
+    /// From 1.
+    int step = 0;
+    /// Its number in Schedule::tasks.
+    Index task = 0;
+    /// Slot of the thread in its TBB arena, from 0; the calling thread's is one of them.
+    int thread = 0;
+    /// Seconds since the first step began.
+    double start = 0.0;
+    double end = 0.0;
+};
+
+/// One step, from its first task to where all sub-meshes are joined.
+struct StepRecord {
+    /// Seconds since the first step began.
+    double start = 0.0;
+    double end = 0.0;
+};
+
+/// What ran when in a flow, and what had to wait for what.
+struct Schedule {
+    /// Those of all sweeps; a step runs the tasks of its own sweep alone.
+    std::vector<ScheduledTask> tasks;
+    std::vector<Dependency> dependencies;
+    /// In order of their steps; within a step in order of their tasks.
+    std::vector<TaskRecord> records;
+    /// #steps.
+    std::vector<StepRecord> steps;
+};
+
+}  // namespace seamflow
