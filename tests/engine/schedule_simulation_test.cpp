@@ -63,7 +63,7 @@ TEST_CASE("a fork is as fast as its longest branch, once there are workers enoug
 
 TEST_CASE("of the tasks that are ready the one with priority starts first, and among equals the first")
 {
-    using enum Priority;
+    using enum TaskGraph::Priority;
     // One worker is busy with task 0; the other one must take 3, on which the long task 4 waits, before 1 and 2.
     const std::vector<double> seconds{10.0, 2.0, 3.0, 1.0, 8.0};
     CHECK(simulate(schedule_of(seconds, {{3, 4}}, {High, Normal, Normal, High, High}), 1, 2).makespan == 13.0);
@@ -74,7 +74,7 @@ TEST_CASE("of the tasks that are ready the one with priority starts first, and a
 
 TEST_CASE("tasks that end together free what waits for them before the next one starts")
 {
-    using enum Priority;
+    using enum TaskGraph::Priority;
     // At 1 both workers are free, and 3 and 4 (after 1, with priority) go before 2 (after 0).
     const Schedule schedule =
         schedule_of({1.0, 1.0, 10.0, 5.0, 5.0}, {{0, 2}, {1, 3}, {1, 4}}, {Normal, Normal, Normal, High, High});

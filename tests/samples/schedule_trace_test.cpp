@@ -1,6 +1,6 @@
 #include <map>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
