@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "engine/copies_of_interface.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "engine/sub_mesh_state.h"
@@ -21,7 +23,8 @@ namespace seamflow {
 ///        it on Γ
 ///
 /// With Transmission::Predicted a fourth, predict, stands between the first two of each sub-mesh, and solve also waits
-/// for the predictions of the sub-meshes that it leads. No barrier stands between colours. Belongs to the arena in
+/// for the predictions of the sub-meshes that it leads. With the classical conditions nobody leads, and solve waits for
+/// those of lower colour. No barrier stands between colours. Belongs to the arena in
 /// which it is constructed.
 class DecomposedFlow {
   public:
@@ -39,6 +42,12 @@ class DecomposedFlow {
     /// #V by 3, after the last complete step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
+    /// The sub-meshes after the last complete step (see FlowReport::pieces); null without FlowOptions::keep_gaps.
+    [[nodiscard]] const PolygonMesh* pieces() const { return copies_ ? copies_->pieces() : nullptr; }
+
+    /// Fills in what the flow knows of its last step.
+    void describe(StepReport& report) const;
+
     /// Fills in what the flow knows of itself: sub-meshes, colours, p, seconds spent in tasks.
     void describe(FlowReport& report) const;
 
@@ -47,6 +56,7 @@ class DecomposedFlow {
     TaskGraph::Node add_sweep(const SweepPlan& plan, const FlowOptions& options);
     void add_predictions(const SweepPlan& plan, const std::vector<TaskGraph::Node>& factorised,
                          const std::vector<TaskGraph::Node>& solved);
+    void add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved);
     template <class Body>
     TaskGraph::Node add_task(Index s, Body body, TaskGraph::Priority priority);
     void join();
@@ -56,6 +66,8 @@ class DecomposedFlow {
     /// Forward, and backward where the sweep alternates.
     std::vector<SweepPlan> plans_;
     std::vector<TaskGraph::Node> roots_;
+    /// With the classical conditions.
+    std::optional<CopiesOfInterface> copies_;
     TaskGraph graph_;
     Points positions_;
     int steps_done_ = 0;
