@@ -17,6 +17,8 @@
 #include "solvers/conditions/adapted_ventcell.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
+#include "solvers/conditions/robin.h"
+#include "solvers/conditions/ventcell.h"
 #include "solvers/interface/robin_parameter.h"
 
 namespace seamflow {
@@ -57,18 +59,24 @@ std::vector<SubMesh> cut_out(const PolygonMesh& mesh, const Topology& topology, 
 bool predicts(const FlowOptions& options)
 {
     return options.conditions == Conditions::AdaptedRobin && options.transmission == Transmission::Predicted &&
-           !options.p;
+           !options.p && options.p_rule == PRule::Paper && options.p_edge == PEdge::Automatic;
 }
 
 std::unique_ptr<TransmissionCondition> make_condition(const SubMesh& sub_mesh, const FlowOptions& options)
 {
-    if (predicts(options))
-        return make_predicted_side(sub_mesh, options.laplacian);
-    if (options.conditions == Conditions::Schwarz)
-        return make_dirichlet(sub_mesh);
-    if (options.conditions == Conditions::AdaptedVentcell)
+    switch (options.conditions) {
+    case Conditions::AdaptedRobin:
+        break;
+    case Conditions::AdaptedVentcell:
         return make_adapted_ventcell(sub_mesh, options.q.value());
-    return make_adapted_robin(sub_mesh);
+    case Conditions::Robin:
+        return make_robin(sub_mesh);
+    case Conditions::Ventcell:
+        return make_ventcell(sub_mesh, options.q.value());
+    case Conditions::Schwarz:
+        return make_dirichlet(sub_mesh);
+    }
+    return predicts(options) ? make_predicted_side(sub_mesh, options.laplacian) : make_adapted_robin(sub_mesh);
 }
 
 /// With a good prediction the other side answers to what Γ adds like a half plane: with the derivative 1/√dt, so that
@@ -96,7 +104,15 @@ bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
 bool corrects(const FlowOptions& options)
 {
     return options.correction == Correction::Centroid ||
-           (options.correction == Correction::Automatic && options.conditions != Conditions::Schwarz);
+           (options.correction == Correction::Automatic &&
+            (options.conditions == Conditions::AdaptedRobin || options.conditions == Conditions::AdaptedVentcell));
+}
+
+SweepPlan make_plan(const Decomposition& decomposition, Conditions conditions, const std::vector<Index>& rank)
+{
+    if (conditions == Conditions::Schwarz)
+        return plan_overlapping_sweep(decomposition, rank);
+    return is_classical(conditions) ? plan_mutual_sweep(decomposition, rank) : plan_sweep(decomposition, rank);
 }
 
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
@@ -126,9 +142,11 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     if (overlaps)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.overlap);
     make_states(mesh, options);
-    plans_.push_back(overlaps ? plan_overlapping_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank));
+    if (is_classical(options.conditions))
+        copies_.emplace(mesh, decomposition_, options.keep_gaps);
+    plans_.push_back(make_plan(decomposition_, options.conditions, rank));
     if (!overlaps && alternates(options, states_.size()))
-        plans_.push_back(plan_sweep(decomposition_, reversed(rank)));
+        plans_.push_back(make_plan(decomposition_, options.conditions, reversed(rank)));
     for (const SweepPlan& plan : plans_)
         roots_.push_back(add_sweep(plan, options));
 }
@@ -163,10 +181,14 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
     const auto n = static_cast<Index>(states_.size());
     const double time_step = options.time_step;
     const bool corrected = corrects(options);
-    const auto assemble_one = [this, &plan, time_step](Index s) {
-        assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan.roles[at(s)], time_step);
+    const bool mutual = is_classical(options.conditions);
+    const auto assemble_one = [this, &plan, time_step, mutual](Index s) {
+        mutual ? assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan, time_step)
+               : assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan.roles[at(s)], time_step);
     };
-    const auto solve_one = [this, &plan](Index s) { solve(states_, s, plan.traces[at(s)]); };
+    const auto solve_one = [this, &plan, mutual](Index s) {
+        mutual ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan) : solve(states_, s, plan.traces[at(s)]);
+    };
     const auto accept_one = [this, corrected](Index s) {
         corrected ? accept_corrected(states_, s, decomposition_.halo[at(s)]) : accept(states_, s);
     };
@@ -180,17 +202,28 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
         graph_.add_dependency(root, factorised.back());
         graph_.add_dependency(factorised.back(), solved.back());
     }
+    add_traces(plan, solved);
     if (predicts(options))
         add_predictions(plan, factorised, solved);
     for (Index s = 0; s < n; ++s) {
         const auto accepted = add_task(Phase::Accept, s, accept_one, TaskGraph::Priority::High);
         graph_.add_dependency(solved[at(s)], accepted);
-        for (const Transfer& trace : plan.traces[at(s)])
-            graph_.add_dependency(solved[at(trace.from)], solved[at(s)]);
         for (const Index neighbour : decomposition_.adjacency[at(s)])
             graph_.add_dependency(solved[at(neighbour)], accepted);
     }
     return root;
+}
+
+/// A solve waits for those whose Vᵏ⁺¹ it takes.
+void DecomposedFlow::add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved)
+{
+    for (std::size_t s = 0; s < states_.size(); ++s) {
+        for (const Transfer& trace : plan.traces[s])
+            graph_.add_dependency(solved[at(trace.from)], solved[s]);
+        for (const Transfer& copies : plan.copies[s])
+            if (plan.rank[at(copies.from)] < plan.rank[s])
+                graph_.add_dependency(solved[at(copies.from)], solved[s]);
+    }
 }
 
 /// Between factorising and solving: every sub-mesh that another one leads predicts, and the leading one takes that up.
@@ -240,6 +273,14 @@ void DecomposedFlow::join()
             if (sub_mesh.owned[at(v)] != 0)
                 positions_.row(sub_mesh.local_to_global[at(v)]) = states_[s].position.row(v);
     });
+    if (copies_)
+        copies_->join(states_, positions_);
+}
+
+void DecomposedFlow::describe(StepReport& report) const
+{
+    if (copies_)
+        report.gap = copies_->gap();
 }
 
 void DecomposedFlow::describe(FlowReport& report) const

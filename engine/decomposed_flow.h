@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "engine/copies_of_interface.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "engine/schedule_recorder.h"
@@ -23,7 +25,8 @@ namespace seamflow {
 ///        it on Γ
 ///
 /// With Transmission::Predicted a fourth, predict, stands between the first two of each sub-mesh, and solve also waits
-/// for the predictions of the sub-meshes that it leads. No barrier stands between colours. Belongs to the arena in
+/// for the predictions of the sub-meshes that it leads. With the classical conditions nobody leads, and solve waits for
+/// those of lower colour. No barrier stands between colours. Belongs to the arena in
 /// which it is constructed.
 class DecomposedFlow {
   public:
@@ -41,6 +44,12 @@ class DecomposedFlow {
     /// #V by 3, after the last complete step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
+    /// The sub-meshes after the last complete step (see FlowReport::pieces); null without FlowOptions::keep_gaps.
+    [[nodiscard]] const PolygonMesh* pieces() const { return copies_ ? copies_->pieces() : nullptr; }
+
+    /// Fills in what the flow knows of its last step.
+    void describe(StepReport& report) const;
+
     /// Fills in what the flow knows of itself: sub-meshes, colours, p, seconds spent in tasks, the schedule.
     void describe(FlowReport& report) const;
 
@@ -49,6 +58,7 @@ class DecomposedFlow {
     TaskGraph::Node add_sweep(const SweepPlan& plan, const FlowOptions& options);
     void add_predictions(const SweepPlan& plan, const std::vector<TaskGraph::Node>& factorised,
                          const std::vector<TaskGraph::Node>& solved);
+    void add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved);
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority);
     void join();
@@ -58,6 +68,8 @@ class DecomposedFlow {
     /// Forward, and backward where the sweep alternates.
     std::vector<SweepPlan> plans_;
     std::vector<TaskGraph::Node> roots_;
+    /// With the classical conditions.
+    std::optional<CopiesOfInterface> copies_;
     /// nullptr: the schedule is not recorded.
     std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;

@@ -29,6 +29,12 @@ class ExplicitFlow {
     /// #V by 3, after the last complete step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
+    /// There are no pieces.
+    [[nodiscard]] static const PolygonMesh* pieces() { return nullptr; }
+
+    /// Of a single step it knows nothing to tell.
+    static void describe(StepReport&) {}
+
     /// Fills in what the flow knows of itself: that it is one sub-mesh, and a remark where steps may not be stable.
     void describe(FlowReport& report) const;
 

@@ -36,13 +36,39 @@ void require_valid_schwarz(const FlowOptions& options)
         throw OptionError("p is given, but the Schwarz conditions have no Robin parameter");
 }
 
+void require_valid_copies(const FlowOptions& options)
+{
+    if (is_classical(options.conditions) && options.correction == Correction::Centroid)
+        throw OptionError(
+            "correction is centroid, but with the classical conditions every sub-mesh has an interface of "
+            "its own: leave it uncorrected");
+    if (!options.keep_gaps)
+        return;
+    if (!is_classical(options.conditions))
+        throw OptionError(
+            "keep_gaps is for the classical Robin and Ventcell conditions; with others there are no gaps");
+    if (options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("keep_gaps is for backward Euler steps; explicit ones are taken undecomposed, without gaps");
+}
+
+bool has_tangential_derivative(Conditions conditions)
+{
+    return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
+}
+
 }  // namespace
+
+bool is_classical(Conditions conditions)
+{
+    return conditions == Conditions::Robin || conditions == Conditions::Ventcell;
+}
 
 FlowOptions FlowOptions::plain()
 {
     FlowOptions options;
     options.sweep = Sweep::Fixed;
     options.transmission = Transmission::Derivative;
+    options.p_edge = PEdge::Minimum;
     return options;
 }
 
@@ -58,12 +84,13 @@ void require_valid(const FlowOptions& options)
         require(positive_and_finite(*options.p), "p", *options.p, "positive and finite (1/length)");
     if (options.q)
         require(*options.q >= 0.0 && std::isfinite(*options.q), "q", *options.q, "at least 0 and finite");
-    if (options.q.has_value() != (options.conditions == Conditions::AdaptedVentcell))
-        throw OptionError(options.q ? "q is given, but belongs to the adapted Ventcell conditions alone"
-                                    : "q must be given with the adapted Ventcell conditions");
+    if (options.q.has_value() != has_tangential_derivative(options.conditions))
+        throw OptionError(options.q ? "q is given, but belongs to the Ventcell conditions alone"
+                                    : "q must be given with the Ventcell conditions");
     require(options.overlap >= 1, "overlap", options.overlap, "at least 1 (layers of faces)");
     if (options.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);
+    require_valid_copies(options);
     const auto negative =
         std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });
     if (negative != options.labels.end())

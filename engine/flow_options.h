@@ -18,12 +18,17 @@ enum class Coloring {
     Label,
 };
 
-/// What holds on the interface between sub-meshes. All for any number of sub-meshes.
+/// What holds on the interface Γ between sub-meshes. All for any number of sub-meshes.
 enum class Conditions {
     /// The paper's adapted Robin conditions (eqs. adaptedVentcell A and B with q = 0).
     AdaptedRobin,
     /// The paper's adapted Ventcell conditions (eqs. adaptedVentcell A and B); FlowOptions::q is required.
     AdaptedVentcell,
+    /// The classical Robin conditions (eqs. Ventcell A and B with q = 0): every sub-mesh has derivative rows on Γ and a
+    /// copy of Γ of its own, which drift apart (StepReport::gap). The result has the mean of the copies.
+    Robin,
+    /// The classical Ventcell conditions (eqs. Ventcell A and B); FlowOptions::q is required.
+    Ventcell,
     /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of
     /// faces.
     Schwarz,
@@ -69,10 +74,10 @@ enum class Sweep {
 
 /// What happens to the vertices of the interface after each step.
 enum class Correction {
-    /// Centroid where the conditions make it necessary, which is with all but Conditions::Schwarz: as the paper's
-    /// authors do.
+    /// Centroid with the adapted conditions, which need it; as the paper's authors do.
     Automatic,
-    /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction).
+    /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction). Not with the classical
+    /// conditions, with which there is more than one of each.
     Centroid,
     /// Nothing.
     None,
@@ -107,12 +112,12 @@ struct FlowOptions {
     /// undecomposed flow.
     Transmission transmission = Transmission::Predicted;
     /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper
-    /// (eq. ourP) for each sub-mesh, by the two rules that follow.
+    /// (eq. ourP) for each sub-mesh, by the two rules that follow, which imply it too where they are not the default.
     std::optional<double> p;
     PRule p_rule = PRule::Paper;
-    PEdge p_edge = PEdge::Minimum;
+    PEdge p_edge = PEdge::Automatic;
     /// Ventcell parameter q of the tangential derivative, without dimension, not negative; required with
-    /// AdaptedVentcell, and only there.
+    /// AdaptedVentcell and Ventcell, and only there.
     std::optional<double> q;
     /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1: each grows that often by the
     /// faces that share a vertex with it, into sub-meshes that do not solve before it. Of no use with other conditions.
@@ -121,6 +126,9 @@ struct FlowOptions {
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
     Correction correction = Correction::Automatic;
+    /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::pieces, StepState::pieces). For
+    /// the classical conditions with Scheme::BackwardEuler alone: with others the copies are the same.
+    bool keep_gaps = false;
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
@@ -135,6 +143,9 @@ struct FlowOptions {
     /// other defaults may hold now or later.
     static FlowOptions plain();
 };
+
+/// Whether every sub-mesh keeps a copy of Γ of its own.
+bool is_classical(Conditions conditions);
 
 /// Checks every field against its limits.
 /// @throws OptionError naming the field, its value and its limits; InputError naming the face for a negative label.

@@ -8,6 +8,7 @@
 
 #include "engine/schedule.h"
 #include "partition/metrics/displacement.h"
+#include "partition/metrics/length_statistics.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/polygon_mesh.h"
 
@@ -47,6 +48,9 @@ struct StepReport {
     double max_mean_curvature_after = 0.0;
     /// How far the vertices moved in this step, in units of length (see split_displacement).
     DisplacementStatistics displacement;
+    /// With the classical conditions, how far the copies of Γ are apart after this step: over the vertices of Γ, the
+    /// largest distance between two copies, in units of length.
+    std::optional<LengthStatistics> gap;
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.
@@ -84,6 +88,9 @@ struct FlowReport {
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
     TotalDisplacement displacement;
+    /// The sub-meshes at the end, none sharing a vertex with another, with FlowOptions::keep_gaps: the faces in the
+    /// order of the mesh; its vertices first, then the further copies.
+    std::optional<PolygonMesh> pieces;
     /// With FlowOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
@@ -97,6 +104,8 @@ struct StepState {
     /// #V by 3, the positions after the step.
     const Points& positions;
     const StepReport& report;
+    /// See FlowReport::pieces; null without FlowOptions::keep_gaps.
+    const PolygonMesh* pieces = nullptr;
 };
 
 /// Called after each step, in the thread that called the flow.

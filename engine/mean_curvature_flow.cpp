@@ -89,6 +89,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         StepReport& of_step = report.steps.emplace_back();
         of_step.seconds = watch.lap();
         report.seconds.step += of_step.seconds;
+        flow.describe(of_step);
         of_step.displacement = meter.add_step(mesh.vertices, flow.positions());
         mesh.vertices = flow.positions();
 
@@ -102,9 +103,11 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
             of_step.distance = vertex_distance(mesh, reference->positions(), flow.positions());
         }
         if (on_step)
-            on_step({step, flow.positions(), of_step});
+            on_step({step, flow.positions(), of_step, flow.pieces()});
     }
     report.displacement = meter.total();
+    if (flow.pieces() != nullptr)
+        report.pieces = *flow.pieces();
 }
 
 void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,

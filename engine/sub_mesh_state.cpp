@@ -7,14 +7,43 @@ namespace seamflow {
 namespace {
 
 /// Carries rows of one array of the senders into the receiver's.
-void receive(const std::vector<SubMeshState>& states, const std::vector<Transfer>& transfers,
-             Points SubMeshState::*array, Points& target)
+void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> transfers, Points SubMeshState::*array,
+             Points& target)
 {
     for (const Transfer& transfer : transfers) {
         const Points& source = states[at(transfer.from)].*array;
         for (std::size_t i = 0; i < transfer.source.size(); ++i)
             target.row(transfer.target[i]) = source.row(transfer.source[i]);
     }
+}
+
+/// What a sub-mesh of a mutual sweep can know of the other side, with `array_of` the latest array of each sender.
+template <class ArrayOf>
+void receive_other_side(const std::vector<SubMeshState>& states, const std::vector<Transfer>& halo,
+                        const std::vector<Transfer>& copies, ArrayOf array_of, SubMeshState& state)
+{
+    state.other_side = state.position;
+    for (const Transfer& transfer : halo)
+        receive(states, std::span(&transfer, 1), array_of(transfer.from), state.other_side);
+    const auto& interface = state.sub_mesh->interface;
+    for (const Index v : interface.vertices)
+        state.other_side.row(v).setZero();
+    for (const Transfer& transfer : copies) {
+        const Points& source = states[at(transfer.from)].*array_of(transfer.from);
+        for (std::size_t i = 0; i < transfer.source.size(); ++i)
+            state.other_side.row(transfer.target[i]) += source.row(transfer.source[i]);
+    }
+    for (Index i = 0; i < interface.size(); ++i)
+        state.other_side.row(interface.vertices[at(i)]) /= static_cast<double>(interface.sharing[i].size() - 1);
+}
+
+void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span<const InterfaceRole> roles,
+                        double time_step, Stopwatch& watch)
+{
+    state.system.assemble(state.position, other_side, time_step, state.p, roles);
+    state.seconds.assemble += watch.lap();
+    state.system.factorise();
+    state.seconds.factorise += watch.lap();
 }
 
 }  // namespace
@@ -37,10 +66,18 @@ void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const st
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
-    state.system.assemble(state.position, time_step, state.p, roles);
-    state.seconds.assemble += watch.lap();
-    state.system.factorise();
-    state.seconds.factorise += watch.lap();
+    fill_and_factorise(state, state.position, roles, time_step, watch);
+}
+
+void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                                   const SweepPlan& plan, double time_step)
+{
+    SubMeshState& state = states[at(s)];
+    Stopwatch watch;
+    receive(states, halo, &SubMeshState::position, state.position);
+    receive_other_side(
+        states, halo, plan.copies[at(s)], [](Index) { return &SubMeshState::position; }, state);
+    fill_and_factorise(state, state.other_side, plan.roles[at(s)], time_step, watch);
 }
 
 void predict(std::vector<SubMeshState>& states, Index s)
@@ -58,7 +95,7 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
     Stopwatch watch;
     state.other_side = state.position;
     receive(states, predictions, &SubMeshState::predicted, state.other_side);
-    state.system.use_prediction(state.position, state.other_side);
+    state.system.use_other_side(state.position, state.other_side);
     state.seconds.solve += watch.lap();
 }
 
@@ -69,6 +106,19 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
     for (const Index v : state.sub_mesh->interface.vertices)
         state.solved.row(v) = state.position.row(v);
     receive(states, traces, &SubMeshState::solved, state.solved);
+    state.system.solve(state.solved);
+    state.seconds.solve += watch.lap();
+}
+
+void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan)
+{
+    SubMeshState& state = states[at(s)];
+    Stopwatch watch;
+    const auto latest = [&](Index t) {
+        return plan.rank[at(t)] < plan.rank[at(s)] ? &SubMeshState::solved : &SubMeshState::position;
+    };
+    receive_other_side(states, halo, plan.copies[at(s)], latest, state);
+    state.system.use_other_side(state.position, state.other_side);
     state.system.solve(state.solved);
     state.seconds.solve += watch.lap();
 }

@@ -34,7 +34,8 @@ struct SubMeshState {
     Points solved;
     /// #local by 3: what the sub-mesh itself would do with Γ held at Vᵏ (own vertices alone).
     Points predicted;
-    /// #local by 3: Vᵏ at own vertices, and in the halo what the sub-meshes there predict.
+    /// #local by 3: what is known of the other side, on Γ and in the halo: predictions, or the other sub-meshes'
+    /// copies.
     Points other_side;
     SubMeshSeconds seconds;
 };
@@ -42,6 +43,10 @@ struct SubMeshState {
 /// Fetches Vᵏ for the halo, fills the equations and factorises them.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
                             std::span<const InterfaceRole> roles, double time_step);
+
+/// The same in a mutual sweep: also fetches the copies that the others have of Γ.
+void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                                   const SweepPlan& plan, double time_step);
 
 /// Solves with Γ held at Vᵏ.
 void predict(std::vector<SubMeshState>& states, Index s);
@@ -51,6 +56,10 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
 
 /// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces);
+
+/// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of lower rank and
+/// Vᵏ from those of higher rank, and solves. Where there are several other copies of a vertex their mean counts.
+void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan);
 
 /// Accepts Vᵏ⁺¹ as it was solved.
 void accept(std::vector<SubMeshState>& states, Index s);

@@ -39,17 +39,18 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double me
 }
 
 /// Prints every step, and writes it where --every-step asks for that.
-StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double& write_seconds)
+StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds)
 {
     const FileKind kind = command.every_step ? kind_for_writing(command.every_step->path(1), input.kind) : FileKind{};
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &write_seconds, kind, snapshot](const StepState& state) mutable {
-        print_step(std::cout, state.report, state.step, command.options.steps);
+    return [&command, &write_seconds, kind, mean_edge, snapshot](const StepState& state) mutable {
+        print_step(std::cout, state.report, state.step, command.options.steps, mean_edge);
         if (!command.every_step)
             return;
         const Stopwatch watch;
-        snapshot.vertices = state.positions;
-        write_mesh(command.every_step->path(state.step), snapshot, kind);
+        if (state.pieces == nullptr)
+            snapshot.vertices = state.positions;
+        write_mesh(command.every_step->path(state.step), state.pieces == nullptr ? snapshot : *state.pieces, kind);
         write_seconds += watch.seconds();
     };
 }
@@ -57,7 +58,7 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
 void write_results(const SmoothCommand& command, const PolygonMesh& mesh, const FileKind& kind,
                    const FlowReport& report)
 {
-    write_mesh(command.output, mesh, kind);
+    write_mesh(command.output, report.pieces ? *report.pieces : mesh, kind);
     if (!command.parts.empty())
         write_labelled_ply(command.parts, mesh, report.labels);
 }
@@ -94,7 +95,7 @@ ExitStatus smooth(int argc, char** argv)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    const StepObserver on_step = make_observer(command, file, run.write_seconds);
+    const StepObserver on_step = make_observer(command, file, run.mean_edge, run.write_seconds);
     const FlowReport report = run_flow(command, file.mesh, on_step);
 
     const Stopwatch writing;

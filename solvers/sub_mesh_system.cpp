@@ -63,7 +63,8 @@ void SubMeshSystem::make_rows()
         row_of_[at(v)] = Row::Interface;
 }
 
-void SubMeshSystem::assemble(const Points& positions, double time_step, double p, std::span<const InterfaceRole> roles)
+void SubMeshSystem::assemble(const Points& positions, const Points& other_side, double time_step, double p,
+                             std::span<const InterfaceRole> roles)
 {
     roles_.assign(roles.begin(), roles.end());
     std::fill(values_.begin(), values_.end(), 0.0);
@@ -73,11 +74,11 @@ void SubMeshSystem::assemble(const Points& positions, double time_step, double p
             values_[at(diagonal_slots_[at(v)])] += 1.0;
         right_hand_side_.row(v) = positions.row(v);
     }
-    condition_->begin_step(positions, time_step, p);
-    assemble_interface(positions);
+    condition_->begin_step(positions, other_side, time_step, p);
+    assemble_interface(positions, other_side);
 }
 
-void SubMeshSystem::assemble_interface(const Points& positions)
+void SubMeshSystem::assemble_interface(const Points& positions, const Points& other_side)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i) {
@@ -88,7 +89,7 @@ void SubMeshSystem::assemble_interface(const Points& positions)
         }
         row_.resize(condition_->columns()[i].size());
         condition_->left_hand_side(i, positions, row_);
-        right_hand_side_.row(vertices[at(i)]) = condition_->right_hand_side(i, positions, positions);
+        right_hand_side_.row(vertices[at(i)]) = condition_->right_hand_side(i, positions, other_side);
         for (std::size_t k = 0; k < row_.size(); ++k)
             values_[at(interface_slots_[begin + k])] = row_[k];
     }
@@ -104,7 +105,7 @@ void SubMeshSystem::factorise()
     solver_->factorise(values);
 }
 
-void SubMeshSystem::use_prediction(const Points& positions, const Points& other_side)
+void SubMeshSystem::use_other_side(const Points& positions, const Points& other_side)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i)

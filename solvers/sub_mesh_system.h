@@ -28,10 +28,13 @@ class SubMeshSystem {
 
     /// Fills A, and B as far as it follows from Vᵏ.
     /// @param positions #local by 3, the halo included: Vᵏ.
+    /// @param other_side #local by 3: Vᵏ as the sub-meshes beyond Γ have it, on Γ and in the halo. The same as
+    ///        `positions` but where every sub-mesh has a copy of Γ of its own.
     /// @param time_step dt, in length².
     /// @param p Robin parameter, in 1/length.
     /// @param roles one per vertex of Γ.
-    void assemble(const Points& positions, double time_step, double p, std::span<const InterfaceRole> roles);
+    void assemble(const Points& positions, const Points& other_side, double time_step, double p,
+                  std::span<const InterfaceRole> roles);
 
     /// @throws ComputationError if A is singular or not finite.
     void factorise();
@@ -44,8 +47,8 @@ class SubMeshSystem {
 
     /// Renews B where the sub-mesh leads.
     /// @param positions #local by 3: Vᵏ.
-    /// @param other_side #local by 3: Vᵏ at own vertices, a prediction of Vᵏ⁺¹ in the halo.
-    void use_prediction(const Points& positions, const Points& other_side);
+    /// @param other_side #local by 3: what is known of Vᵏ⁺¹ beyond Γ, on Γ and in the halo.
+    void use_other_side(const Points& positions, const Points& other_side);
 
     /// Solves for Vᵏ⁺¹, then gives the factor's memory back.
     /// @param solution #local by 3. In: Vᵏ⁺¹ at those vertices of Γ where the sub-mesh follows. Out: Vᵏ⁺¹ at all own
@@ -61,7 +64,7 @@ class SubMeshSystem {
     enum class Row : std::uint8_t { Laplacian, Fixed, Interface };
 
     void make_rows();
-    void assemble_interface(const Points& positions);
+    void assemble_interface(const Points& positions, const Points& other_side);
     void solve_with(const Points& given, Points& solution);
 
     const SubMesh* sub_mesh_;

@@ -165,11 +165,10 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
 
 SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<const Index> rank)
 {
-    SweepPlan plan;
-    plan.rank.assign(rank.begin(), rank.end());
+    SweepPlan plan = empty_plan({rank.begin(), rank.end()});
     for (Index s = 0; s < static_cast<Index>(rank.size()); ++s) {
         const auto& interface = decomposition.sub_meshes[at(s)].interface;
-        plan.roles.emplace_back(interface.vertices.size(), InterfaceRole::Follows);
+        plan.roles[at(s)].assign(interface.vertices.size(), InterfaceRole::Follows);
         std::map<Index, Transfer> by_sender;
         for (Index i = 0; i < interface.size(); ++i) {
             const auto parts = interface.sharing[i];
@@ -181,7 +180,7 @@ SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<c
                 interface.index_in_sharing[i][at(static_cast<Index>(first - parts.begin()))]);
             by_sender[*first].target.push_back(interface.vertices[at(i)]);
         }
-        plan.traces.push_back(transfers_to(s, std::move(by_sender)));
+        plan.traces[at(s)] = transfers_to(s, std::move(by_sender));
     }
     return plan;
 }

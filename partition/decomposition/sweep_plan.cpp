@@ -76,15 +76,52 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
     }
 }
 
+std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
+{
+    const auto& interface = decomposition.sub_meshes[at(s)].interface;
+    std::map<Index, Transfer> by_sender;
+    for (Index i = 0; i < interface.size(); ++i)
+        for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
+            if (const Index t = interface.sharing[i][k]; t != s) {
+                by_sender[t].source.push_back(interface.index_in_sharing[i][k]);
+                by_sender[t].target.push_back(interface.vertices[at(i)]);
+            }
+    std::vector<Transfer> copies;
+    for (auto& [sender, transfer] : by_sender) {
+        transfer.from = sender;
+        transfer.to = s;
+        copies.push_back(std::move(transfer));
+    }
+    return copies;
+}
+
 }  // namespace
+
+SweepPlan empty_plan(std::vector<Index> rank)
+{
+    const std::size_t n = rank.size();
+    SweepPlan plan;
+    plan.rank = std::move(rank);
+    plan.roles.resize(n);
+    plan.traces.resize(n);
+    plan.predictions.resize(n);
+    plan.copies.resize(n);
+    return plan;
+}
+
+SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank)
+{
+    SweepPlan plan = empty_plan(std::move(rank));
+    for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
+        plan.roles[s].assign(at(decomposition.sub_meshes[s].interface.size()), InterfaceRole::Leads);
+        plan.copies[s] = list_copies(decomposition, static_cast<Index>(s));
+    }
+    return plan;
+}
 
 SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank)
 {
-    SweepPlan plan;
-    plan.rank = std::move(rank);
-    plan.roles.resize(decomposition.sub_meshes.size());
-    plan.traces.resize(decomposition.sub_meshes.size());
-    plan.predictions.resize(decomposition.sub_meshes.size());
+    SweepPlan plan = empty_plan(std::move(rank));
     for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s)
         plan_sub_mesh(decomposition, s, plan);
     for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s)

@@ -10,7 +10,9 @@ namespace seamflow {
 
 /// What a sub-mesh does at a vertex of Γ in a sweep.
 enum class InterfaceRole : std::uint8_t {
-    /// It is the first to solve there: its row is a transmission condition against the complement fan.
+    /// Its row is a transmission condition against the complement fan: it is the first to solve there, or everyone
+    /// keeps
+    /// a copy of its own.
     Leads,
     /// Another sub-mesh has solved there before: it takes over that Vᵏ⁺¹.
     Follows,
@@ -29,10 +31,21 @@ struct SweepPlan {
     /// share a face with a vertex of Γ where it leads. The senders, all of higher rank, know them before the receiver
     /// solves. Senders in ascending order.
     std::vector<std::vector<Transfer>> predictions;
+    /// For each receiving sub-mesh of a mutual sweep, the copies that the other sub-meshes have of its Γ: one transfer
+    /// from each adjacent one, in ascending order. Empty in other sweeps.
+    std::vector<std::vector<Transfer>> copies;
 };
+
+/// A plan for as many sub-meshes as there are ranks, with nothing to do yet.
+SweepPlan empty_plan(std::vector<Index> rank);
 
 /// Plans the sweep in which sub-meshes solve in ascending order of `rank`.
 /// @param rank #sub-meshes, different for adjacent sub-meshes.
 SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank);
+
+/// Plans a sweep in which everyone leads everywhere, so that each sub-mesh keeps a copy of Γ of its own (the classical
+/// conditions). There are no traces and no predictions.
+/// @param rank #sub-meshes, different for adjacent sub-meshes.
+SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank);
 
 }  // namespace seamflow

@@ -44,12 +44,13 @@ void add_relative(Json& json, const std::string& name, const LengthStatistics& l
     json[name + "_max"] = number(lengths.max / unit);
 }
 
-void add_surface_distance(Json& json, const std::string& name, const LengthStatistics& distance, double mean_edge)
+/// In units of `mean_edge`, and in units of length.
+void add_statistics(Json& json, const std::string& name, const LengthStatistics& lengths, double mean_edge)
 {
-    add_relative(json, name, distance, mean_edge);
-    json[name + "_mean_absolute"] = number(distance.mean);
-    json[name + "_rms_absolute"] = number(distance.rms);
-    json[name + "_max_absolute"] = number(distance.max);
+    add_relative(json, name, lengths, mean_edge);
+    json[name + "_mean_absolute"] = number(lengths.mean);
+    json[name + "_rms_absolute"] = number(lengths.rms);
+    json[name + "_max_absolute"] = number(lengths.max);
 }
 
 void add_displacement(Json& json, const DisplacementStatistics& displacement, double mean_edge)
@@ -83,6 +84,8 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
                   {"max_mean_curvature_before", number(step.max_mean_curvature_before)},
                   {"max_mean_curvature_after", number(step.max_mean_curvature_after)}};
         add_displacement(json, step.displacement, mean_edge);
+        if (step.gap)
+            add_statistics(json, "gap", *step.gap, mean_edge);
         if (step.distance)
             add_distance(json, *step.distance);
         if (step.reference_seconds)
@@ -141,9 +144,9 @@ std::string compare_report_json(const Comparison& comparison)
         add_distance(json, *comparison.vertex_distance);
     json["direction"] = name_of(comparison.direction);
     if (comparison.surface_distance)
-        add_surface_distance(json, "h", *comparison.surface_distance, comparison.mean_edge);
+        add_statistics(json, "h", *comparison.surface_distance, comparison.mean_edge);
     if (comparison.surface_distance_back)
-        add_surface_distance(json, "h_back", *comparison.surface_distance_back, comparison.mean_edge);
+        add_statistics(json, "h_back", *comparison.surface_distance_back, comparison.mean_edge);
     if (comparison.displacement)
         add_displacement(json, *comparison.displacement, comparison.mean_edge);
     json["remarks"] = comparison.remarks;

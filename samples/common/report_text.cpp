@@ -86,10 +86,14 @@ void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mes
         << counted(mesh.n_faces(), "face", "faces") << ", mean edge " << digits(run.mean_edge) << std::endl;
 }
 
-void print_step(std::ostream& out, const StepReport& report, int step, int steps)
+void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
 {
     out << "step " << step << " of " << steps << "  " << seconds(report.seconds) << "  largest mean curvature "
         << digits(report.max_mean_curvature_before) << " -> " << digits(report.max_mean_curvature_after);
+    if (report.gap) {
+        const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
+        out << "  gap mean " << digits(report.gap->mean / unit) << ", largest " << digits(report.gap->max / unit);
+    }
     if (report.distance) {
         const VertexDistance& distance = *report.distance;
         const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;

@@ -15,7 +15,8 @@ void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mes
 
 /// One line for a step.
 /// @param step its number, from 1, of `steps`.
-void print_step(std::ostream& out, const StepReport& report, int step, int steps);
+/// @param mean_edge of the input; gaps are printed in it.
+void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge);
 
 /// What the flow did: the cut, the time per phase, memory, remarks and where the result is.
 void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& report);

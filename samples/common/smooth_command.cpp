@@ -21,12 +21,13 @@ void add_parameters(CLI::App& app, FlowOptions& options)
     of_derivatives.push_back(add_choice<PRule>(app, "--p-rule", options.p_rule,
                                                {{"paper", PRule::Paper}, {"inverse-step", PRule::InverseStep}},
                                                "η in p*: 1 or 1/dt [paper]"));
-    of_derivatives.push_back(
-        add_choice<PEdge>(app, "--p-edge", options.p_edge,
-                          {{"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}},
-                          "edge in p*: the shortest, the 5th percentile or the mean [min]"));
+    of_derivatives.push_back(add_choice<PEdge>(
+        app, "--p-edge", options.p_edge,
+        {{"auto", PEdge::Automatic}, {"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}},
+        "edge in p*: the shortest, the 5th percentile, or the mean; auto: the shortest unless it is a "
+        "sliver's, then the percentile [auto; with --plain min]"));
     add_real(app, "--q", options.q, {0.0, std::numeric_limits<double>::max()},
-             "Ventcell parameter, for adapted-ventcell");
+             "Ventcell parameter, for adapted-ventcell and ventcell");
     app.callback([of_derivatives, &app, &options] {
         for (const CLI::Option* option : of_derivatives) {
             if (option->count() == 0)
@@ -70,6 +71,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice<Conditions>(app, "--conditions", options.conditions,
                            {{"adapted-robin", Conditions::AdaptedRobin},
                             {"adapted-ventcell", Conditions::AdaptedVentcell},
+                            {"robin", Conditions::Robin},
+                            {"ventcell", Conditions::Ventcell},
                             {"schwarz", Conditions::Schwarz}},
                            "what holds between sub-meshes [adapted-robin]");
     add_choice<Transmission>(app, "--transmission", options.transmission,
@@ -80,6 +83,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_flag_callback(
         "--no-correction", [&options] { options.correction = Correction::None; },
         "leave the vertices of the interface where the step puts them");
+    app.add_flag("--keep-gaps", options.keep_gaps,
+                 "write the sub-meshes as they are, each with its own copy of the interface; for robin and ventcell");
     add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
                       "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
     add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
@@ -107,7 +112,9 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
             "--conditions schwarz sweeps in the same order in every step; --sweep alternating contradicts "
             "it");
     if (command.options.conditions == Conditions::Schwarz && command.options.p)
-        throw OptionError("--p is for --conditions adapted-robin; schwarz has no Robin parameter");
+        throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
+    if (app.count("--transmission") > 0 && command.options.conditions != Conditions::AdaptedRobin)
+        throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
     if (app.count("--plain") > 0 && command.options.sweep != FlowOptions::plain().sweep)
         throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
     if (app.count("--plain") > 0 && command.options.transmission != FlowOptions::plain().transmission)

@@ -37,12 +37,12 @@ AdaptedRobin::AdaptedRobin(const SubMesh& sub_mesh)
 {
 }
 
-void AdaptedRobin::begin_step(const Points& positions, double time_step, double p)
+void AdaptedRobin::begin_step(const Points& positions, const Points& other_side, double time_step, double p)
 {
     dt_p_ = time_step * p;
     for (Index i = 0; i < sub_mesh_->interface.size(); ++i) {
         const auto own = own_conormal(*sub_mesh_, i, positions);
-        const auto other = complement_conormal(*sub_mesh_, i, positions);
+        const auto other = complement_conormal(*sub_mesh_, i, other_side);
         conormals_[at(i)] = own && other ? std::optional(Conormals{*own, *other}) : std::nullopt;
     }
 }

@@ -18,7 +18,7 @@ class AdaptedRobin final : public TransmissionCondition {
     explicit AdaptedRobin(const SubMesh& sub_mesh);
 
     [[nodiscard]] const IndexLists& columns() const override { return stencils_.columns; }
-    void begin_step(const Points& positions, double time_step, double p) override;
+    void begin_step(const Points& positions, const Points& other_side, double time_step, double p) override;
     void left_hand_side(Index i, const Points& positions, std::span<double> row) const override;
     [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points& other_side) const override;
 

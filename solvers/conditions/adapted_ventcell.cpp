@@ -19,9 +19,9 @@ class AdaptedVentcell final : public TransmissionCondition {
 
     [[nodiscard]] const IndexLists& columns() const override { return robin_.columns(); }
 
-    void begin_step(const Points& positions, double time_step, double p) override
+    void begin_step(const Points& positions, const Points& other_side, double time_step, double p) override
     {
-        robin_.begin_step(positions, time_step, p);
+        robin_.begin_step(positions, other_side, time_step, p);
         dt_q_ = time_step * q_;
     }
 
@@ -31,7 +31,7 @@ class AdaptedVentcell final : public TransmissionCondition {
         if (dt_q_ == 0.0)
             return;
         std::vector<double> tangential(row.size());
-        tangential_derivative_row(*sub_mesh_, robin_.stencils(), i, positions, tangential);
+        tangential_derivative_row(robin_.stencils(), i, tangential_weights(*sub_mesh_, i, positions), tangential);
         for (std::size_t k = 0; k < row.size(); ++k)
             row[k] += dt_q_ * tangential[k];
     }

@@ -15,7 +15,7 @@ class Dirichlet final : public TransmissionCondition {
     }
 
     [[nodiscard]] const IndexLists& columns() const override { return columns_; }
-    void begin_step(const Points&, double, double) override {}
+    void begin_step(const Points&, const Points&, double, double) override {}
     void left_hand_side(Index, const Points&, std::span<double> row) const override { row[0] = 1.0; }
 
     [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points&) const override

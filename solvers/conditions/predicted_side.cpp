@@ -45,11 +45,11 @@ class PredictedSide final : public TransmissionCondition {
 
     [[nodiscard]] const IndexLists& columns() const override { return columns_; }
 
-    void begin_step(const Points& positions, double time_step, double p) override
+    void begin_step(const Points& positions, const Points& other_side, double time_step, double p) override
     {
         time_step_ = time_step;
         star_.assemble(positions);
-        robin_.begin_step(positions, time_step, p);
+        robin_.begin_step(positions, other_side, time_step, p);
         for (Index i = 0; i < sub_mesh_->interface.size(); ++i)
             kinds_[at(i)] = choose_kind(i, positions);
     }

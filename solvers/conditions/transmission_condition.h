@@ -7,9 +7,10 @@
 
 namespace seamflow {
 
-/// The rows of a sub-mesh at those vertices of its Γ where it is the first to solve. They stand for the sub-meshes on
-/// the other side, of which no more is known than a guess: Vᵏ, or a prediction. Vertices are local, row i is that of
-/// the i-th vertex of Γ (see SubMeshInterface).
+/// The rows of a sub-mesh at those vertices of its Γ where it takes over nobody's result. They stand for the sub-meshes
+/// on the other side, of which no more is known than their latest state: Vᵏ, a prediction, or, where every sub-mesh has
+/// a copy of Γ of its own, that copy. Vertices are local, row i is that of the i-th vertex of Γ (see
+/// SubMeshInterface).
 class TransmissionCondition {
   public:
     virtual ~TransmissionCondition() = default;
@@ -19,16 +20,17 @@ class TransmissionCondition {
 
     /// Takes over the geometry of a new step; to be called before the other two.
     /// @param positions #local by 3, the halo included: Vᵏ.
+    /// @param other_side #local by 3: Vᵏ as the other side has it, on Γ and in the halo.
     /// @param time_step dt, in length².
     /// @param p Robin parameter, in 1/length.
-    virtual void begin_step(const Points& positions, double time_step, double p) = 0;
+    virtual void begin_step(const Points& positions, const Points& other_side, double time_step, double p) = 0;
 
     /// The left-hand side of row i.
     /// @param row receives one coefficient per entry of columns()[i].
     virtual void left_hand_side(Index i, const Points& positions, std::span<double> row) const = 0;
 
     /// The right-hand side of row i.
-    /// @param other_side #local by 3: Vᵏ at own vertices, and at those of the halo what is guessed of Vᵏ⁺¹.
+    /// @param other_side #local by 3: what is known of the other side's Vᵏ⁺¹, on Γ and in the halo.
     [[nodiscard]] virtual Point right_hand_side(Index i, const Points& positions, const Points& other_side) const = 0;
 };
 

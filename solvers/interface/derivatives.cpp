@@ -100,18 +100,31 @@ Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conor
     return (sum - conormal.alpha * tau) / conormal.norm;
 }
 
-void tangential_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
-                               const Points& positions, std::span<double> row)
+TangentialWeights tangential_weights(const SubMesh& sub_mesh, Index i, const Points& positions)
 {
     const auto& interface = sub_mesh.interface;
     const Point v = positions.row(interface.vertices[at(i)]);
     const double to_before = (v - positions.row(interface.before[at(i)])).norm();
     const double to_after = (v - positions.row(interface.after[at(i)])).norm();
     const double scale = 2.0 / (to_before + to_after);
+    return {scale / to_before, scale / to_after};
+}
+
+void tangential_derivative_row(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
+                               std::span<double> row)
+{
     std::fill(row.begin(), row.end(), 0.0);
-    row[at(stencils.before[at(i)])] -= scale / to_before;
-    row[at(stencils.after[at(i)])] -= scale / to_after;
-    row[at(stencils.centre[at(i)])] += scale / to_before + scale / to_after;
+    row[at(stencils.before[at(i)])] -= weights.before;
+    row[at(stencils.after[at(i)])] -= weights.after;
+    row[at(stencils.centre[at(i)])] += weights.before + weights.after;
+}
+
+Point tangential_derivative(const SubMesh& sub_mesh, Index i, const TangentialWeights& weights, const Points& positions)
+{
+    const auto& interface = sub_mesh.interface;
+    const Point v = positions.row(interface.vertices[at(i)]);
+    return weights.before * (v - positions.row(interface.before[at(i)])) +
+           weights.after * (v - positions.row(interface.after[at(i)]));
 }
 
 }  // namespace seamflow

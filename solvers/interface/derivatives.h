@@ -51,10 +51,23 @@ void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& st
 Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conormal& conormal,
                                    const Points& other_side);
 
-/// The row of ∂t at the i-th vertex of Γ (paper, eq. tangentialDerivative), in 1/length², lengths held: 2 / (l₁ + l₂) ·
-/// ((v - v_before) / l₁ + (v - v_after) / l₂).
+/// The weights of ∂t at a vertex v of Γ, in 1/length² (paper, eq. tangentialDerivative): ∂t = before (v - v_before) +
+/// after (v - v_after), with before = 2 / (l₁ + l₂) / l₁ and after = 2 / (l₁ + l₂) / l₂.
+struct TangentialWeights {
+    double before = 0.0;
+    double after = 0.0;
+};
+
+/// The weights at the i-th vertex of Γ, with l₁ and l₂ the lengths of its two edges along Γ.
+TangentialWeights tangential_weights(const SubMesh& sub_mesh, Index i, const Points& positions);
+
+/// The row of ∂t at the i-th vertex of Γ, weights held.
 /// @param row receives one coefficient per vertex of the stencil.
-void tangential_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
-                               const Points& positions, std::span<double> row);
+void tangential_derivative_row(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
+                               std::span<double> row);
+
+/// ∂t at the i-th vertex of Γ, applied to positions, weights held. In 1/length.
+Point tangential_derivative(const SubMesh& sub_mesh, Index i, const TangentialWeights& weights,
+                            const Points& positions);
 
 }  // namespace seamflow

@@ -54,17 +54,22 @@ EdgeLists list_edges(const SubMesh& sub_mesh, const Points& positions)
 double representative_edge(const EdgeLists& edges, PEdge which)
 {
     constexpr double percentile = 0.05;
+    constexpr double sliver = 0.1;
     std::vector<double> lengths;
     std::copy_if(edges.lengths.begin(), edges.lengths.end(), std::back_inserter(lengths),
                  [](double length) { return length > 0.0; });
     if (lengths.empty())
         return std::numeric_limits<double>::infinity();
     std::sort(lengths.begin(), lengths.end());
+    const double shortest = lengths.front();
+    const double short_one = lengths[static_cast<std::size_t>(percentile * static_cast<double>(lengths.size()))];
     switch (which) {
+    case PEdge::Automatic:
+        return shortest < sliver * short_one ? short_one : shortest;
     case PEdge::Minimum:
-        return lengths.front();
+        return shortest;
     case PEdge::Percentile:
-        return lengths[static_cast<std::size_t>(percentile * static_cast<double>(lengths.size()))];
+        return short_one;
     case PEdge::Mean:
         break;
     }

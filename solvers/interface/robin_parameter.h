@@ -7,6 +7,9 @@ namespace seamflow {
 
 /// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
 enum class PEdge {
+    /// Minimum where the shortest edge is in proportion, at least a tenth of Percentile; Percentile where it is that of
+    /// a sliver.
+    Automatic,
     /// The shortest, as in the paper. One sliver makes p* huge.
     Minimum,
     /// The edge that 5 % of all are shorter than.

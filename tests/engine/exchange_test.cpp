@@ -9,9 +9,12 @@
 #include "engine/sweep_order.h"
 #include "partition/cut/cut.h"
 #include "partition/decomposition/overlap.h"
+#include "partition/decomposition/unjoined.h"
 #include "samples/common/meshes.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
+#include "solvers/conditions/robin.h"
+#include "solvers/conditions/ventcell.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;
@@ -26,6 +29,7 @@ class Machines {
   public:
     Machines(const PolygonMesh& mesh, const FlowOptions& options)
         : options_(options)
+        , mesh_(mesh)
         , topology_(make_topology(mesh))
         , cut_(cut_into(mesh, topology_, options.subdomains))
         , decomposition_(decompose(mesh, topology_, cut_.labels, cut_.n_parts))
@@ -35,11 +39,11 @@ class Machines {
         if (options.conditions == Conditions::Schwarz)
             grow_sub_meshes(mesh, rank);
         else
-            plan_ = plan_sweep(decomposition_, rank);
+            plan_ = mutual() ? plan_mutual_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank);
         for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
             SubMeshState& state =
                 states_.emplace_back(sub_mesh, options.laplacian, condition_for(sub_mesh, options), mesh.vertices);
-            state.p = 0.7 / std::sqrt(options.time_step);
+            state.p = options.p ? *options.p : 0.7 / std::sqrt(options.time_step);
         }
     }
 
@@ -51,16 +55,31 @@ class Machines {
             states_[at(s)].solved.setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
-            assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step);
+            if (mutual())
+                assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan_, options_.time_step);
+            else
+                assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step);
         if (options_.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
         for (Index rank = 0; rank < n(); ++rank)
             for (Index s = 0; s < n(); ++s)
                 if (plan_.rank[at(s)] == rank)
-                    solve(states_, s, plan_.traces[at(s)]);
+                    mutual() ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan_)
+                             : solve(states_, s, plan_.traces[at(s)]);
         for (Index s = 0; s < n(); ++s)
-            options_.correction == Correction::None ? accept(states_, s)
-                                                    : accept_corrected(states_, s, decomposition_.halo[at(s)]);
+            options_.correction == Correction::None || mutual()
+                ? accept(states_, s)
+                : accept_corrected(states_, s, decomposition_.halo[at(s)]);
+    }
+
+    /// Checks that pieces that were kept apart have the same bits.
+    void check_pieces(const PolygonMesh& pieces) const
+    {
+        const Unjoined expected = take_apart(mesh_, decomposition_);
+        REQUIRE(pieces.face_vertices == expected.mesh.face_vertices);
+        for_each_own([&](Index s, Index v) {
+            CHECK(pieces.vertices.row(expected.vertex_of[at(s)][at(v)]) == states_[at(s)].position.row(v));
+        });
     }
 
     /// The positions, #V by 3, from all sub-meshes; every copy of a vertex must have the same bits.
@@ -82,10 +101,16 @@ class Machines {
             use_predictions(states_, s, plan_.predictions[at(s)]);
     }
 
+    [[nodiscard]] bool mutual() const { return is_classical(options_.conditions); }
+
     static std::unique_ptr<TransmissionCondition> condition_for(const SubMesh& sub_mesh, const FlowOptions& options)
     {
         if (options.conditions == Conditions::Schwarz)
             return make_dirichlet(sub_mesh);
+        if (options.conditions == Conditions::Robin)
+            return make_robin(sub_mesh);
+        if (options.conditions == Conditions::Ventcell)
+            return make_ventcell(sub_mesh, options.q.value());
         return make_predicted_side(sub_mesh, options.laplacian);
     }
 
@@ -127,6 +152,7 @@ class Machines {
     }
 
     FlowOptions options_;
+    PolygonMesh mesh_;
     Topology topology_;
     Cut cut_;
     Decomposition decomposition_;
@@ -183,5 +209,27 @@ TEST_CASE("the same holds for sub-meshes that overlap, corrected and not")
                 options.overlap = 2;
                 options.correction = correction;
                 compare_machines(mesh, options);
+            }
+}
+
+TEST_CASE("the same holds where every sub-mesh keeps a copy of the interface of its own")
+{
+    for (PolygonMesh mesh : meshes())
+        for (const Laplacian laplacian : test::all_laplacians)
+            for (const Conditions conditions : {Conditions::Robin, Conditions::Ventcell}) {
+                CAPTURE(name_of(laplacian));
+                FlowOptions options = options_for(laplacian);
+                options.conditions = conditions;
+                options.keep_gaps = true;
+                options.p = 0.7 / std::sqrt(options.time_step);
+                if (conditions == Conditions::Ventcell)
+                    options.q = 0.3;
+                Machines machines(mesh, options);
+                for (int step = 0; step < options.steps; ++step)
+                    machines.step();
+                const FlowReport report = mean_curvature_flow(mesh, options);
+                REQUIRE(report.pieces);
+                CHECK(report.steps.back().gap->max > 0.0);
+                machines.check_pieces(*report.pieces);
             }
 }

@@ -85,6 +85,12 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step 1 --conditions schwarz --overlap 0",
              "mesh.obj out.obj --time-step 1 --conditions schwarz --sweep alternating",
              "mesh.obj out.obj --time-step 1 --conditions schwarz --p 3",
+             "mesh.obj out.obj --time-step 1 --conditions ventcell",
+             "mesh.obj out.obj --time-step 1 --conditions robin --q 0.1",
+             "mesh.obj out.obj --time-step 1 --conditions robin --transmission predicted",
+             "mesh.obj out.obj --time-step 1 --keep-gaps",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --keep-gaps",
+             "mesh.obj out.obj --time-step 1e-9 --conditions robin --scheme explicit --keep-gaps",
              "mesh.obj out.obj --time-step 1 --scheme euler",
              "mesh.obj out.obj --time-step 1 --scheme explicit",
              "mesh.obj out.obj --time-step 1 --every-step step.obj",
@@ -302,6 +308,21 @@ TEST_CASE("the alternating Schwarz method and explicit Euler steps are options")
     CHECK(test::content_of(w.directory / "one.obj") != test::content_of(w.directory / "three.obj"));
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --scheme explicit") == 2);
     CHECK(w.said().find("must be at most") != std::string::npos);
+}
+
+TEST_CASE("the classical conditions report their gaps, and leave them on request")
+{
+    const Workshop w;
+    const std::string flow =
+        "--time-step 1e-3 --subdomains 4 --conditions ventcell --q 0.1 --steps 2 --report report.json";
+    REQUIRE(w.smooth("mesh.obj joined.obj " + flow) == 0);
+    CHECK(w.said().find("gap mean ") != std::string::npos);
+    CHECK(w.json("report.json")["steps"][1]["gap_max"] > w.json("report.json")["steps"][1]["gap_mean"]);
+    CHECK(w.json("report.json")["steps"][1]["gap_max_absolute"] > 0.0);
+    REQUIRE(w.smooth("mesh.obj apart.obj " + flow + " --keep-gaps --every-step step%d.obj") == 0);
+    CHECK(w.count_lines("apart.obj", "f ") == w.count_lines("joined.obj", "f "));
+    CHECK(w.count_lines("apart.obj", "v ") > w.count_lines("joined.obj", "v "));
+    CHECK(test::content_of(w.directory / "step2.obj") == test::content_of(w.directory / "apart.obj"));
 }
 
 TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")

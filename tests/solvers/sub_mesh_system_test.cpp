@@ -55,7 +55,7 @@ void check_interface_rows(const SubMesh& sub_mesh, const Points& positions, std:
                           const Points& given, const Points& solution)
 {
     AdaptedRobin condition(sub_mesh);
-    condition.begin_step(positions, time_step, p);
+    condition.begin_step(positions, positions, time_step, p);
     for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
         const Index v = sub_mesh.interface.vertices[at(i)];
         if (roles[at(i)] == InterfaceRole::Follows) {
@@ -102,7 +102,7 @@ TEST_CASE("the system of the only sub-mesh is backward Euler on the whole mesh")
             const Decomposition whole =
                 seamflow::decompose(m.mesh, m.topology, std::vector<Index>(at(m.mesh.n_faces()), 0), 1);
             SubMeshSystem system(whole.sub_meshes.front(), laplacian, make_adapted_robin(whole.sub_meshes.front()));
-            system.assemble(m.mesh.vertices, time_step, p, {});
+            system.assemble(m.mesh.vertices, m.mesh.vertices, time_step, p, {});
             system.factorise();
             Points solution = Points::Zero(m.mesh.n_vertices(), 3);
             system.solve(solution);
@@ -128,7 +128,7 @@ TEST_CASE("every row of a sub-mesh's system holds, and what is given comes out t
                 const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                 const Points given = nearby(positions, random);
                 const auto roles = random_roles(sub_mesh, random);
-                system.assemble(positions, time_step, p, roles);
+                system.assemble(positions, positions, time_step, p, roles);
                 system.factorise();
                 Points solution = given;
                 system.solve(solution);
@@ -150,7 +150,8 @@ TEST_CASE("the pattern covers every role, so that it does not depend on them")
     CHECK(n_entries > sub_mesh.n_vertices);
     const Points positions = localised(sub_mesh, cut.mesh.vertices);
     for (const InterfaceRole role : {InterfaceRole::Leads, InterfaceRole::Follows}) {
-        system.assemble(positions, time_step, p, std::vector<InterfaceRole>(sub_mesh.interface.vertices.size(), role));
+        system.assemble(positions, positions, time_step, p,
+                        std::vector<InterfaceRole>(sub_mesh.interface.vertices.size(), role));
         CHECK(system.n_entries() == n_entries);
         CHECK_NOTHROW(system.factorise());
     }
@@ -164,8 +165,8 @@ TEST_CASE("equations that are not finite are refused, and the system goes on wit
     SubMeshSystem system(whole.sub_meshes.front(), Laplacian::Fujiwara, make_adapted_robin(whole.sub_meshes.front()));
     Points positions = mesh.vertices;
     positions.row(16) = positions.row(17);
-    system.assemble(positions, time_step, p, {});
+    system.assemble(positions, positions, time_step, p, {});
     CHECK_THROWS_AS(system.factorise(), ComputationError);
-    system.assemble(mesh.vertices, time_step, p, {});
+    system.assemble(mesh.vertices, mesh.vertices, time_step, p, {});
     CHECK_NOTHROW(system.factorise());
 }

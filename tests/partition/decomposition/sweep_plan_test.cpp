@@ -104,3 +104,32 @@ TEST_CASE("traces bring each following vertex its position from the leader, and 
         }
     });
 }
+
+TEST_CASE("in a mutual sweep everyone leads, and every other copy of a vertex of the interface arrives once")
+{
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = test::decompose(cut);
+        const SweepPlan plan = plan_mutual_sweep(decomposition, color(decomposition.adjacency));
+        for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
+            const SubMesh& sub_mesh = decomposition.sub_meshes[s];
+            CHECK(std::all_of(plan.roles[s].begin(), plan.roles[s].end(),
+                              [](InterfaceRole role) { return role == InterfaceRole::Leads; }));
+            CHECK(plan.roles[s].size() == at(sub_mesh.interface.size()));
+            CHECK(plan.traces[s].empty());
+            std::vector<Index> arrived(at(sub_mesh.n_vertices), 0);
+            for (const Transfer& copies : plan.copies[s]) {
+                CHECK(copies.to == static_cast<Index>(s));
+                const SubMesh& sender = decomposition.sub_meshes[at(copies.from)];
+                for (std::size_t i = 0; i < copies.source.size(); ++i) {
+                    CHECK(sender.local_to_global[at(copies.source[i])] ==
+                          sub_mesh.local_to_global[at(copies.target[i])]);
+                    ++arrived[at(copies.target[i])];
+                }
+            }
+            for (Index i = 0; i < sub_mesh.interface.size(); ++i)
+                CHECK(arrived[at(sub_mesh.interface.vertices[at(i)])] ==
+                      static_cast<Index>(sub_mesh.interface.sharing[i].size()) - 1);
+        }
+    }
+}

@@ -26,7 +26,7 @@ TEST_CASE("the row is (I + dt p ∂n) and the right-hand side (I - dt p ∂n) of
         for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
             const Points positions = localised(sub_mesh, cut.mesh.vertices);
             AdaptedRobin condition(sub_mesh);
-            condition.begin_step(positions, 1.0, dt_p);
+            condition.begin_step(positions, positions, 1.0, dt_p);
             const DerivativeStencils& stencils = condition.stencils();
             for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
                 const auto own = own_conormal(sub_mesh, i, positions);
@@ -54,7 +54,7 @@ TEST_CASE("a flat mesh with a straight interface satisfies the condition as it i
     for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
         const Points positions = localised(sub_mesh, cut.mesh.vertices);
         AdaptedRobin condition(sub_mesh);
-        condition.begin_step(positions, 1.0, 0.7);
+        condition.begin_step(positions, positions, 1.0, 0.7);
         const DerivativeStencils& stencils = condition.stencils();
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             CHECK(condition.is_well_defined(i, positions));
@@ -78,7 +78,7 @@ TEST_CASE("p = 0 and a missing conormal on either side leave the vertex where it
     Points other_gone = flat;
     other_gone.bottomRows(sub_mesh.n_halo).col(0).setConstant(4.0);
     const auto check_stays = [&](const Points& positions, double dt_p) {
-        condition.begin_step(positions, 1.0, dt_p);
+        condition.begin_step(positions, positions, 1.0, dt_p);
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             std::vector<double> row(stencils.columns[i].size(), 99.0);
             const Point right = row_of(condition, i, positions, row);

@@ -78,7 +78,8 @@ TEST_CASE("the derivatives are those of the paper's authors")
             REQUIRE(conormal);
             normal_derivative_row(sub_mesh, stencils, i, *conormal, row);
             check_same(global_row(sub_mesh, columns, row), expected.normal_derivative);
-            tangential_derivative_row(sub_mesh, stencils, i, positions, row);
+            const TangentialWeights weights = tangential_weights(sub_mesh, i, positions);
+            tangential_derivative_row(stencils, i, weights, row);
             const Row tangential = global_row(sub_mesh, columns, row);
             for (const auto& [column, value] : expected.tangential_derivative)
                 CHECK(tangential.at(column) == doctest::Approx(value).epsilon(1e-10));

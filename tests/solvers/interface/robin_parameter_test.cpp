@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -86,4 +87,25 @@ TEST_CASE("edges without length do not count")
     CHECK(optimal_robin_parameter(sub_mesh, positions) == Approx(closed_formula(5.0, 1.0)));
     positions.setZero();
     CHECK(optimal_robin_parameter(sub_mesh, positions) == 0.0);
+}
+
+TEST_CASE("the automatic edge is the shortest one, unless that belongs to a sliver")
+{
+    const CutMesh cut = two_strips(20, 10, 8, 1.0, 1.0);
+    const Decomposition decomposition = test::decompose(cut);
+    const SubMesh& sub_mesh = decomposition.sub_meshes.front();
+    const auto parameters = [&](double shift) {
+        Points positions = localised(sub_mesh, cut.mesh.vertices);
+        const Index moved = sub_mesh.face_vertices[0][0];
+        const Index next = sub_mesh.face_vertices[0][1];
+        positions.row(moved) += shift * (positions.row(next) - positions.row(moved));
+        const auto with = [&](PEdge edge) { return optimal_robin_parameter(sub_mesh, positions, 1.0, edge); };
+        return std::array{with(PEdge::Automatic), with(PEdge::Minimum), with(PEdge::Percentile)};
+    };
+    const auto in_proportion = parameters(0.8);
+    CHECK(in_proportion[0] == in_proportion[1]);
+    CHECK(in_proportion[1] > 1.5 * in_proportion[2]);
+    const auto sliver = parameters(0.999);
+    CHECK(sliver[0] == sliver[2]);
+    CHECK(sliver[1] > 10.0 * sliver[2]);
 }

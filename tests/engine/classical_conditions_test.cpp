@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/cut_meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::flowed;
+
+namespace {
+
+FlowOptions options_for(Conditions conditions, Laplacian laplacian, Index subdomains)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.conditions = conditions;
+    if (conditions == Conditions::Ventcell)
+        options.q = 0.2;
+    options.time_step = 0.001;
+    options.steps = 3;
+    options.subdomains = subdomains;
+    return options;
+}
+
+bool same_bits(const Points& a, const Points& b)
+{
+    return a.rows() == b.rows() &&
+           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+constexpr std::array classical{Conditions::Robin, Conditions::Ventcell};
+
+}  // namespace
+
+TEST_CASE("with classical conditions a flat mesh stays flat")
+{
+    for (const Conditions conditions : classical)
+        for (const Index subdomains : {2, 5, 16}) {
+            CAPTURE(subdomains);
+            PolygonMesh mesh = make_quads(900);
+            mesh.vertices.col(2).setZero();
+            for (const Laplacian laplacian : test::all_laplacians) {
+                CAPTURE(name_of(laplacian));
+                const Points moved = flowed(mesh, options_for(conditions, laplacian, subdomains));
+                CHECK(moved.col(2).cwiseAbs().maxCoeff() == 0.0);
+            }
+        }
+}
+
+TEST_CASE("a flat grid cut along a straight line rests, and its copies of the line stay together")
+{
+    const test::CutMesh cut = test::cut_by_place("", test::quad_grid(10, 6),
+                                                 [](const Point& c) { return c.x() > 4.0 ? Index{1} : Index{0}; });
+    for (const Conditions conditions : classical)
+        for (const Laplacian laplacian : test::all_laplacians) {
+            CAPTURE(name_of(laplacian));
+            FlowOptions options = options_for(conditions, laplacian, 0);
+            options.labels = cut.labels;
+            options.time_step = 0.5;
+            PolygonMesh mesh = cut.mesh;
+            const FlowReport report = mean_curvature_flow(mesh, options);
+            CHECK(test::largest_difference(mesh.vertices, cut.mesh.vertices) < 1e-12);
+            CHECK(report.steps.back().gap->max < 1e-12);
+        }
+}
+
+TEST_CASE("classical conditions in one sub-mesh are the undecomposed flow to the bit, with no gap")
+{
+    const PolygonMesh mesh = make_mixed_polygons(900);
+    for (const Conditions conditions : classical)
+        for (const Laplacian laplacian : test::all_laplacians) {
+            FlowOptions undecomposed = options_for(Conditions::AdaptedRobin, laplacian, 1);
+            PolygonMesh moved = mesh;
+            FlowOptions options = options_for(conditions, laplacian, 1);
+            options.keep_gaps = true;
+            const FlowReport report = mean_curvature_flow(moved, options);
+            CHECK(same_bits(moved.vertices, flowed(mesh, undecomposed)));
+            CHECK(report.steps.back().gap->max == 0.0);
+            CHECK(same_bits(report.pieces->vertices, moved.vertices));
+            CHECK(report.pieces->face_vertices == mesh.face_vertices);
+        }
+}
+
+TEST_CASE("the result has the mean of the copies, and the gap is the largest distance of two of them")
+{
+    const PolygonMesh mesh = make_hexagons(900);
+    for (const Conditions conditions : classical)
+        for (const Index subdomains : {2, 9}) {
+            PolygonMesh moved = mesh;
+            FlowOptions options = options_for(conditions, Laplacian::Fujiwara, subdomains);
+            options.keep_gaps = true;
+            Points pieces_seen;
+            const FlowReport report = mean_curvature_flow(
+                moved, options, [&](const StepState& state) { pieces_seen = state.pieces->vertices; });
+            const PolygonMesh& pieces = *report.pieces;
+            CHECK(same_bits(pieces_seen, pieces.vertices));
+            REQUIRE(pieces.n_faces() == mesh.n_faces());
+            REQUIRE(pieces.n_vertices() > mesh.n_vertices());
+
+            std::vector<std::vector<Index>> copies(at(mesh.n_vertices()));
+            for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
+                auto& of_vertex = copies[at(mesh.face_vertices[c])];
+                if (std::find(of_vertex.begin(), of_vertex.end(), pieces.face_vertices[c]) == of_vertex.end())
+                    of_vertex.push_back(pieces.face_vertices[c]);
+            }
+            double largest = 0.0;
+            for (Index v = 0; v < mesh.n_vertices(); ++v) {
+                Point mean = Point::Zero();
+                for (const Index a : copies[at(v)]) {
+                    mean += pieces.vertices.row(a) / static_cast<double>(copies[at(v)].size());
+                    for (const Index b : copies[at(v)])
+                        largest = std::max(largest, (pieces.vertices.row(a) - pieces.vertices.row(b)).norm());
+                }
+                CHECK((mean - moved.vertices.row(v)).norm() < 1e-14);
+            }
+            CHECK(largest > 0.0);
+            CHECK(report.steps.back().gap->max == doctest::Approx(largest).epsilon(1e-12));
+            CHECK(report.steps.back().gap->mean <= report.steps.back().gap->max);
+        }
+}
+
+TEST_CASE("classical conditions give the same bits for every number of threads")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Conditions conditions : classical) {
+        FlowOptions options = options_for(conditions, Laplacian::PtackovaVelho, 24);
+        options.threads = 1;
+        const Points expected = flowed(mesh, options);
+        for (options.threads = 2; options.threads <= 5; ++options.threads) {
+            CAPTURE(options.threads);
+            CHECK(same_bits(flowed(mesh, options), expected));
+        }
+    }
+}
+
+TEST_CASE("classical conditions refuse what means nothing with them")
+{
+    PolygonMesh mesh = make_quads(100);
+    FlowOptions options = options_for(Conditions::Robin, Laplacian::Fujiwara, 2);
+    options.correction = Correction::Centroid;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = options_for(Conditions::Robin, Laplacian::Fujiwara, 2);
+    options.q = 0.1;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = options_for(Conditions::Ventcell, Laplacian::Fujiwara, 2);
+    options.q.reset();
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = options_for(Conditions::AdaptedRobin, Laplacian::Fujiwara, 2);
+    options.keep_gaps = true;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = options_for(Conditions::Robin, Laplacian::Fujiwara, 2);
+    options.keep_gaps = true;
+    options.scheme = Scheme::ExplicitEuler;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+}
