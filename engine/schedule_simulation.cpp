@@ -29,8 +29,9 @@ std::span<const TaskRecord> records_of(const Schedule& schedule, int step)
     if (step < 1 || at(step) > schedule.steps.size())
         throw OptionError("step " + std::to_string(step) + " is not in the schedule, which has " +
                           std::to_string(schedule.steps.size()) + " steps");
-    const auto found = std::ranges::equal_range(schedule.records, step, {}, &TaskRecord::step);
-    return {found.begin(), found.end()};
+    const auto first = std::ranges::lower_bound(schedule.records, step, {}, &TaskRecord::step);
+    const auto last = std::ranges::upper_bound(schedule.records, step, {}, &TaskRecord::step);
+    return {first, last};
 }
 
 StepGraph graph_of(const Schedule& schedule, int step)
