@@ -8,6 +8,7 @@
 #include <string>
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "engine/single_threaded_libraries.h"
 #include "engine/sweep_order.h"
@@ -15,8 +16,6 @@
 #include "partition/errors.h"
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/adapted_ventcell.h"
-#include "solvers/conditions/dirichlet.h"
-#include "solvers/conditions/predicted_side.h"
 #include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "solvers/interface/robin_parameter.h"
@@ -62,21 +61,26 @@ bool predicts(const FlowOptions& options)
            !options.p && options.p_rule == PRule::Paper && options.p_edge == PEdge::Automatic;
 }
 
-std::unique_ptr<TransmissionCondition> make_condition(const SubMesh& sub_mesh, const FlowOptions& options)
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const FlowOptions& options,
+                                              SolverWorkspace& workspace)
 {
+    const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
+        return make_system(sub_mesh, options.laplacian, std::move(condition), workspace);
+    };
     switch (options.conditions) {
     case Conditions::AdaptedRobin:
         break;
     case Conditions::AdaptedVentcell:
-        return make_adapted_ventcell(sub_mesh, options.q.value());
+        return with(make_adapted_ventcell(sub_mesh, options.q.value()));
     case Conditions::Robin:
-        return make_robin(sub_mesh);
+        return with(make_robin(sub_mesh));
     case Conditions::Ventcell:
-        return make_ventcell(sub_mesh, options.q.value());
+        return with(make_ventcell(sub_mesh, options.q.value()));
     case Conditions::Schwarz:
-        return make_dirichlet(sub_mesh);
+        return make_following_system(sub_mesh, options.laplacian, workspace);
     }
-    return predicts(options) ? make_predicted_side(sub_mesh, options.laplacian) : make_adapted_robin(sub_mesh);
+    return predicts(options) ? make_predicted_system(sub_mesh, options.laplacian, workspace)
+                             : with(make_adapted_robin(sub_mesh));
 }
 
 /// With a good prediction the other side answers to what Γ adds like a half plane: with the derivative 1/√dt, so that
@@ -132,7 +136,8 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
-    : decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
+    : workspaces_(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()))
+    , decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
     , positions_(mesh.vertices)
@@ -156,9 +161,8 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
     std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
     tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t s) {
         const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
-        on_behalf_of(sub_mesh, static_cast<Index>(s), [&] {
-            made[s].emplace(sub_mesh, options.laplacian, make_condition(sub_mesh, options), mesh.vertices);
-        });
+        on_behalf_of(sub_mesh, static_cast<Index>(s),
+                     [&] { made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspace()), mesh.vertices); });
         made[s]->p = robin_parameter(sub_mesh, made[s]->position, options);
     });
     states_.reserve(made.size());
@@ -169,8 +173,8 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
 template <class Body>
 TaskGraph::Node DecomposedFlow::add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority)
 {
-    const auto node =
-        graph_.add_task([this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s); }); }, priority);
+    const auto node = graph_.add_task(
+        [this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s, workspace()); }); }, priority);
     if (recorder_)
         recorder_->add_task(node, {phase, s, priority});
     return node;
@@ -182,14 +186,16 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
     const double time_step = options.time_step;
     const bool corrected = corrects(options);
     const bool mutual = is_classical(options.conditions);
-    const auto assemble_one = [this, &plan, time_step, mutual](Index s) {
-        mutual ? assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan, time_step)
-               : assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan.roles[at(s)], time_step);
+    const auto assemble_one = [this, &plan, time_step, mutual](Index s, SolverWorkspace& workspace) {
+        mutual
+            ? assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan, time_step, workspace)
+            : assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan.roles[at(s)], time_step, workspace);
     };
-    const auto solve_one = [this, &plan, mutual](Index s) {
-        mutual ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan) : solve(states_, s, plan.traces[at(s)]);
+    const auto solve_one = [this, &plan, mutual](Index s, SolverWorkspace& workspace) {
+        mutual ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan, workspace)
+               : solve(states_, s, plan.traces[at(s)], workspace);
     };
-    const auto accept_one = [this, corrected](Index s) {
+    const auto accept_one = [this, corrected](Index s, SolverWorkspace&) {
         corrected ? accept_corrected(states_, s, decomposition_.halo[at(s)]) : accept(states_, s);
     };
 
@@ -232,8 +238,10 @@ void DecomposedFlow::add_predictions(const SweepPlan& plan, const std::vector<Ta
 {
     const auto n = static_cast<Index>(states_.size());
     std::vector<TaskGraph::Node> predicted(at(n), -1);
-    const auto predict_one = [this](Index s) { predict(states_, s); };
-    const auto use_one = [this, &plan](Index s) { use_predictions(states_, s, plan.predictions[at(s)]); };
+    const auto predict_one = [this](Index s, SolverWorkspace& workspace) { predict(states_, s, workspace); };
+    const auto use_one = [this, &plan](Index s, SolverWorkspace&) {
+        use_predictions(states_, s, plan.predictions[at(s)]);
+    };
     for (Index s = 0; s < n; ++s) {
         if (plan.traces[at(s)].empty())
             continue;
@@ -263,6 +271,12 @@ void DecomposedFlow::step()
     join();
     if (recorder_)
         recorder_->end_step();
+}
+
+/// That of the calling thread.
+SolverWorkspace& DecomposedFlow::workspace()
+{
+    return workspaces_.at(static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
 }
 
 void DecomposedFlow::join()

@@ -61,8 +61,11 @@ class DecomposedFlow {
     void add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved);
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority);
+    SolverWorkspace& workspace();
     void join();
 
+    /// One per slot of the arena.
+    std::vector<SolverWorkspace> workspaces_;
     Decomposition decomposition_;
     std::vector<SubMeshState> states_;
     /// Forward, and backward where the sweep alternates.

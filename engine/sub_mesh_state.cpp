@@ -38,20 +38,19 @@ void receive_other_side(const std::vector<SubMeshState>& states, const std::vect
 }
 
 void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span<const InterfaceRole> roles,
-                        double time_step, Stopwatch& watch)
+                        double time_step, SolverWorkspace& workspace, Stopwatch& watch)
 {
-    state.system.assemble(state.position, other_side, time_step, state.p, roles);
+    state.system->assemble(state.position, other_side, time_step, state.p, roles, workspace);
     state.seconds.assemble += watch.lap();
-    state.system.factorise();
+    state.system->factorise(workspace);
     state.seconds.factorise += watch.lap();
 }
 
 }  // namespace
 
-SubMeshState::SubMeshState(const SubMesh& mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
-                           const Points& positions)
+SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> equations, const Points& positions)
     : sub_mesh(&mesh)
-    , system(mesh, laplacian, std::move(condition))
+    , system(std::move(equations))
     , position(mesh.n_vertices + mesh.n_halo, 3)
     , solved(mesh.n_vertices + mesh.n_halo, 3)
 {
@@ -61,31 +60,31 @@ SubMeshState::SubMeshState(const SubMesh& mesh, Laplacian laplacian, std::unique
 }
 
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            std::span<const InterfaceRole> roles, double time_step)
+                            std::span<const InterfaceRole> roles, double time_step, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
-    fill_and_factorise(state, state.position, roles, time_step, watch);
+    fill_and_factorise(state, state.position, roles, time_step, workspace, watch);
 }
 
 void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                                   const SweepPlan& plan, double time_step)
+                                   const SweepPlan& plan, double time_step, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
     receive_other_side(
         states, halo, plan.copies[at(s)], [](Index) { return &SubMeshState::position; }, state);
-    fill_and_factorise(state, state.other_side, plan.roles[at(s)], time_step, watch);
+    fill_and_factorise(state, state.other_side, plan.roles[at(s)], time_step, workspace, watch);
 }
 
-void predict(std::vector<SubMeshState>& states, Index s)
+void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
     state.predicted.resize(state.position.rows(), 3);
-    state.system.predict(state.position, state.predicted);
+    state.system->predict(state.position, state.predicted, workspace);
     state.seconds.solve += watch.lap();
 }
 
@@ -95,22 +94,23 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
     Stopwatch watch;
     state.other_side = state.position;
     receive(states, predictions, &SubMeshState::predicted, state.other_side);
-    state.system.use_other_side(state.position, state.other_side);
+    state.system->use_other_side(state.position, state.other_side);
     state.seconds.solve += watch.lap();
 }
 
-void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces)
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
     for (const Index v : state.sub_mesh->interface.vertices)
         state.solved.row(v) = state.position.row(v);
     receive(states, traces, &SubMeshState::solved, state.solved);
-    state.system.solve(state.solved);
+    state.system->solve(state.position, state.solved, workspace);
     state.seconds.solve += watch.lap();
 }
 
-void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan)
+void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
+                  SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
@@ -118,8 +118,8 @@ void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<
         return plan.rank[at(t)] < plan.rank[at(s)] ? &SubMeshState::solved : &SubMeshState::position;
     };
     receive_other_side(states, halo, plan.copies[at(s)], latest, state);
-    state.system.use_other_side(state.position, state.other_side);
-    state.system.solve(state.solved);
+    state.system->use_other_side(state.position, state.other_side);
+    state.system->solve(state.position, state.solved, workspace);
     state.seconds.solve += watch.lap();
 }
 

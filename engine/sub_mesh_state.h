@@ -21,11 +21,10 @@ struct SubMeshSeconds {
 /// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read
 /// the states of the senders that a Transfer names, and write to their own alone.
 struct SubMeshState {
-    SubMeshState(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
-                 const Points& positions);
+    SubMeshState(const SubMesh& sub_mesh, std::unique_ptr<SubMeshSystem> system, const Points& positions);
 
     const SubMesh* sub_mesh;
-    SubMeshSystem system;
+    std::unique_ptr<SubMeshSystem> system;
     /// Robin parameter, in 1/length.
     double p = 0.0;
     /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
@@ -42,24 +41,25 @@ struct SubMeshState {
 
 /// Fetches Vᵏ for the halo, fills the equations and factorises them.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            std::span<const InterfaceRole> roles, double time_step);
+                            std::span<const InterfaceRole> roles, double time_step, SolverWorkspace& workspace);
 
 /// The same in a mutual sweep: also fetches the copies that the others have of Γ.
 void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                                   const SweepPlan& plan, double time_step);
+                                   const SweepPlan& plan, double time_step, SolverWorkspace& workspace);
 
 /// Solves with Γ held at Vᵏ.
-void predict(std::vector<SubMeshState>& states, Index s);
+void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
 /// Fetches what the sub-meshes beyond Γ predict, where this one leads.
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions);
 
 /// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
-void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces);
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
 
 /// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of lower rank and
 /// Vᵏ from those of higher rank, and solves. Where there are several other copies of a vertex their mean counts.
-void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan);
+void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
+                  SolverWorkspace& workspace);
 
 /// Accepts Vᵏ⁺¹ as it was solved.
 void accept(std::vector<SubMeshState>& states, Index s);

@@ -3,14 +3,10 @@
 #include <memory>
 #include <span>
 
-#include <Eigen/Core>
-
+#include "solvers/columns.h"
 #include "solvers/sparse_pattern.h"
 
 namespace seamflow {
-
-/// Three right-hand sides or solutions, n by 3, one contiguous column per coordinate.
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor>;
 
 /// LU factorisation of sparse matrices of one pattern by UMFPACK: analysed once, factorised for each set of values, a
 /// factor used for any number of right-hand sides, three at a time. Different objects may be used by different threads

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solvers/conditions/adapted_robin.h"
+#include "solvers/conditions/remainder.h"
 #include "solvers/interface/star_laplacian.h"
 
 namespace seamflow {
@@ -19,13 +20,6 @@ enum class RowKind : std::uint8_t {
     Held,
     Robin,
 };
-
-/// What is left of a disturbance after one step at distance d from where it is 1.
-double remainder_at(double squared_distance, double time_step)
-{
-    const double cosh = 1.0 + 0.5 * squared_distance / time_step;
-    return 1.0 / (cosh + std::sqrt((cosh - 1.0) * (cosh + 1.0)));
-}
 
 class PredictedSide final : public TransmissionCondition {
   public:
@@ -132,7 +126,7 @@ class PredictedSide final : public TransmissionCondition {
 
     [[nodiscard]] double remainder(Index vertex, Index beyond, const Points& positions) const
     {
-        return remainder_at((positions.row(beyond) - positions.row(vertex)).squaredNorm(), time_step_);
+        return remainder_between(positions, vertex, beyond, time_step_);
     }
 
     /// ρ of a vertex beyond Γ in row i; 0 where the other side is held.

@@ -11,8 +11,6 @@
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/unjoined.h"
 #include "samples/common/meshes.h"
-#include "solvers/conditions/dirichlet.h"
-#include "solvers/conditions/predicted_side.h"
 #include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "tests/support/flows.h"
@@ -41,8 +39,7 @@ class Machines {
         else
             plan_ = mutual() ? plan_mutual_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank);
         for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
-            SubMeshState& state =
-                states_.emplace_back(sub_mesh, options.laplacian, condition_for(sub_mesh, options), mesh.vertices);
+            SubMeshState& state = states_.emplace_back(sub_mesh, system_for(sub_mesh, options), mesh.vertices);
             state.p = options.p ? *options.p : 0.7 / std::sqrt(options.time_step);
         }
     }
@@ -56,16 +53,18 @@ class Machines {
         }
         for (Index s = 0; s < n(); ++s)
             if (mutual())
-                assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan_, options_.time_step);
+                assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan_, options_.time_step,
+                                              workspace_);
             else
-                assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step);
+                assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step,
+                                       workspace_);
         if (options_.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
         for (Index rank = 0; rank < n(); ++rank)
             for (Index s = 0; s < n(); ++s)
                 if (plan_.rank[at(s)] == rank)
-                    mutual() ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan_)
-                             : solve(states_, s, plan_.traces[at(s)]);
+                    mutual() ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan_, workspace_)
+                             : solve(states_, s, plan_.traces[at(s)], workspace_);
         for (Index s = 0; s < n(); ++s)
             options_.correction == Correction::None || mutual()
                 ? accept(states_, s)
@@ -94,7 +93,7 @@ class Machines {
     void exchange_predictions()
     {
         for (Index s = 0; s < n(); ++s) {
-            predict(states_, s);
+            predict(states_, s, workspace_);
             states_[at(s)].predicted.bottomRows(decomposition_.sub_meshes[at(s)].n_halo).setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
@@ -103,15 +102,15 @@ class Machines {
 
     [[nodiscard]] bool mutual() const { return is_classical(options_.conditions); }
 
-    static std::unique_ptr<TransmissionCondition> condition_for(const SubMesh& sub_mesh, const FlowOptions& options)
+    std::unique_ptr<SubMeshSystem> system_for(const SubMesh& sub_mesh, const FlowOptions& options)
     {
         if (options.conditions == Conditions::Schwarz)
-            return make_dirichlet(sub_mesh);
+            return make_following_system(sub_mesh, options.laplacian, workspace_);
         if (options.conditions == Conditions::Robin)
-            return make_robin(sub_mesh);
+            return make_system(sub_mesh, options.laplacian, make_robin(sub_mesh), workspace_);
         if (options.conditions == Conditions::Ventcell)
-            return make_ventcell(sub_mesh, options.q.value());
-        return make_predicted_side(sub_mesh, options.laplacian);
+            return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh, options.q.value()), workspace_);
+        return make_predicted_system(sub_mesh, options.laplacian, workspace_);
     }
 
     [[nodiscard]] Index n() const { return cut_.n_parts; }
@@ -151,6 +150,7 @@ class Machines {
         plan_ = plan_overlapping_sweep(decomposition_, rank);
     }
 
+    SolverWorkspace workspace_;
     FlowOptions options_;
     PolygonMesh mesh_;
     Topology topology_;

@@ -6,7 +6,10 @@
 #include "partition/errors.h"
 #include "samples/common/meshes/random_numbers.h"
 #include "solvers/conditions/adapted_robin.h"
+#include "solvers/conditions/dirichlet.h"
+#include "solvers/conditions/predicted_side.h"
 #include "solvers/sub_mesh_system.h"
+#include "solvers/systems/general_system.h"
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
@@ -95,17 +98,19 @@ void check_other_rows(const SubMesh& sub_mesh, Laplacian laplacian, const Points
 
 TEST_CASE("the system of the only sub-mesh is backward Euler on the whole mesh")
 {
+    SolverWorkspace workspace;
     for (const NamedMesh& m : sound_meshes())
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(m.name);
             CAPTURE(name_of(laplacian));
             const Decomposition whole =
                 seamflow::decompose(m.mesh, m.topology, std::vector<Index>(at(m.mesh.n_faces()), 0), 1);
-            SubMeshSystem system(whole.sub_meshes.front(), laplacian, make_adapted_robin(whole.sub_meshes.front()));
-            system.assemble(m.mesh.vertices, m.mesh.vertices, time_step, p, {});
-            system.factorise();
+            const auto system = make_system(whole.sub_meshes.front(), laplacian,
+                                            make_adapted_robin(whole.sub_meshes.front()), workspace);
+            system->assemble(m.mesh.vertices, m.mesh.vertices, time_step, p, {}, workspace);
+            system->factorise(workspace);
             Points solution = Points::Zero(m.mesh.n_vertices(), 3);
-            system.solve(solution);
+            system->solve(m.mesh.vertices, solution, workspace);
             const Points expected = backward_euler_matrix(m, laplacian).partialPivLu().solve(m.mesh.vertices);
             CHECK(largest_difference(solution, expected) < 1e-9 * m.mesh.vertices.cwiseAbs().maxCoeff());
             for (Index v = 0; v < m.mesh.n_vertices(); ++v)
@@ -117,21 +122,22 @@ TEST_CASE("the system of the only sub-mesh is backward Euler on the whole mesh")
 TEST_CASE("every row of a sub-mesh's system holds, and what is given comes out to the bit, step after step")
 {
     RandomNumbers random(5);
+    SolverWorkspace workspace;
     for (const CutMesh& cut : cut_meshes()) {
         CAPTURE(cut.name);
         const Decomposition decomposition = test::decompose(cut);
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(name_of(laplacian));
             const SubMesh& sub_mesh = decomposition.sub_meshes[at(random.below(cut.n_parts))];
-            SubMeshSystem system(sub_mesh, laplacian, make_adapted_robin(sub_mesh));
+            const auto system = make_system(sub_mesh, laplacian, make_adapted_robin(sub_mesh), workspace);
             for (int step = 0; step < 2; ++step) {
                 const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                 const Points given = nearby(positions, random);
                 const auto roles = random_roles(sub_mesh, random);
-                system.assemble(positions, positions, time_step, p, roles);
-                system.factorise();
+                system->assemble(positions, positions, time_step, p, roles, workspace);
+                system->factorise(workspace);
                 Points solution = given;
-                system.solve(solution);
+                system->solve(positions, solution, workspace);
                 check_interface_rows(sub_mesh, positions, roles, given, solution);
                 check_other_rows(sub_mesh, laplacian, positions, solution);
                 CHECK(solution.bottomRows(sub_mesh.n_halo) == given.bottomRows(sub_mesh.n_halo));
@@ -140,33 +146,84 @@ TEST_CASE("every row of a sub-mesh's system holds, and what is given comes out t
     }
 }
 
-TEST_CASE("the pattern covers every role, so that it does not depend on them")
-{
-    const CutMesh& cut = cut_meshes().front();
-    const Decomposition decomposition = test::decompose(cut);
-    const SubMesh& sub_mesh = decomposition.sub_meshes.front();
-    SubMeshSystem system(sub_mesh, Laplacian::Fujiwara, make_adapted_robin(sub_mesh));
-    const Index n_entries = system.n_entries();
-    CHECK(n_entries > sub_mesh.n_vertices);
-    const Points positions = localised(sub_mesh, cut.mesh.vertices);
-    for (const InterfaceRole role : {InterfaceRole::Leads, InterfaceRole::Follows}) {
-        system.assemble(positions, positions, time_step, p,
-                        std::vector<InterfaceRole>(sub_mesh.interface.vertices.size(), role));
-        CHECK(system.n_entries() == n_entries);
-        CHECK_NOTHROW(system.factorise());
-    }
-}
-
 TEST_CASE("equations that are not finite are refused, and the system goes on with others")
 {
     const PolygonMesh mesh = cut_meshes().front().mesh;
     const Topology topology = make_topology(mesh);
     const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(at(mesh.n_faces()), 0), 1);
-    SubMeshSystem system(whole.sub_meshes.front(), Laplacian::Fujiwara, make_adapted_robin(whole.sub_meshes.front()));
+    SolverWorkspace workspace;
+    const auto system = make_system(whole.sub_meshes.front(), Laplacian::Fujiwara,
+                                    make_adapted_robin(whole.sub_meshes.front()), workspace);
     Points positions = mesh.vertices;
     positions.row(16) = positions.row(17);
-    system.assemble(positions, positions, time_step, p, {});
-    CHECK_THROWS_AS(system.factorise(), ComputationError);
-    system.assemble(mesh.vertices, mesh.vertices, time_step, p, {});
-    CHECK_NOTHROW(system.factorise());
+    system->assemble(positions, positions, time_step, p, {}, workspace);
+    CHECK_THROWS_AS(system->factorise(workspace), ComputationError);
+    system->assemble(mesh.vertices, mesh.vertices, time_step, p, {}, workspace);
+    CHECK_NOTHROW(system->factorise(workspace));
+}
+
+TEST_CASE("predicted by a symmetric system or by a general one, the result is the same")
+{
+    RandomNumbers random(7);
+    SolverWorkspace workspace;
+    std::vector<CutMesh> cuts = cut_meshes();
+    for (CutMesh& cut : cuts) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = test::decompose(cut);
+        for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky})
+            for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+                CAPTURE(name_of(laplacian));
+                const auto fast = make_predicted_system(sub_mesh, laplacian, workspace);
+                GeneralSystem general(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian));
+                for (int step = 0; step < 2; ++step) {
+                    const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
+                    const Points other_side = nearby(positions, random);
+                    const auto roles = random_roles(sub_mesh, random);
+                    const auto flow = [&](SubMeshSystem& system) {
+                        system.assemble(positions, positions, time_step, p, roles, workspace);
+                        system.factorise(workspace);
+                        Points prediction = positions;
+                        system.predict(positions, prediction, workspace);
+                        system.use_other_side(positions, other_side);
+                        Points solution = other_side;
+                        system.solve(positions, solution, workspace);
+                        return std::pair{prediction, solution};
+                    };
+                    const auto [prediction, solution] = flow(*fast);
+                    const auto [expected_prediction, expected_solution] = flow(general);
+                    const double size = positions.cwiseAbs().maxCoeff();
+                    CHECK(largest_difference(prediction, expected_prediction) < 1e-10 * size);
+                    CHECK(largest_difference(solution, expected_solution) < 1e-10 * size);
+                }
+            }
+    }
+}
+
+TEST_CASE("following everywhere, a symmetric system and a general one give the same")
+{
+    RandomNumbers random(8);
+    SolverWorkspace workspace;
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = test::decompose(cut);
+        for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky})
+            for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+                const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
+                const Points given = nearby(positions, random);
+                const std::vector<InterfaceRole> roles(at(sub_mesh.interface.size()), InterfaceRole::Follows);
+                const auto solved = [&](SubMeshSystem& system) {
+                    system.assemble(positions, positions, time_step, p, roles, workspace);
+                    system.factorise(workspace);
+                    Points solution = given;
+                    system.solve(positions, solution, workspace);
+                    return solution;
+                };
+                const auto following = make_following_system(sub_mesh, laplacian, workspace);
+                GeneralSystem general(sub_mesh, laplacian, make_dirichlet(sub_mesh));
+                const Points solution = solved(*following);
+                CHECK(largest_difference(solution, solved(general)) < 1e-10 * positions.cwiseAbs().maxCoeff());
+                for (const Index v : sub_mesh.interface.vertices)
+                    CHECK(solution.row(v) == given.row(v));
+            }
+    }
 }

@@ -1,10 +1,11 @@
-#include "solvers/sub_mesh_system.h"
+#include "solvers/systems/general_system.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "partition/errors.h"
+#include "solvers/systems/messages.h"
 
 namespace seamflow {
 
@@ -17,7 +18,7 @@ FaceView faces_of(const SubMesh& sub_mesh)
 
 }  // namespace
 
-SubMeshSystem::SubMeshSystem(const SubMesh& sub_mesh, Laplacian laplacian,
+GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
                              std::unique_ptr<TransmissionCondition> condition)
     : sub_mesh_(&sub_mesh)
     , condition_(std::move(condition))
@@ -53,7 +54,7 @@ SubMeshSystem::SubMeshSystem(const SubMesh& sub_mesh, Laplacian laplacian,
     solver_ = std::make_unique<UmfpackSolver>(*pattern_);
 }
 
-void SubMeshSystem::make_rows()
+void GeneralSystem::make_rows()
 {
     row_of_.assign(at(sub_mesh_->n_vertices), Row::Laplacian);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
@@ -63,8 +64,8 @@ void SubMeshSystem::make_rows()
         row_of_[at(v)] = Row::Interface;
 }
 
-void SubMeshSystem::assemble(const Points& positions, const Points& other_side, double time_step, double p,
-                             std::span<const InterfaceRole> roles)
+void GeneralSystem::assemble(const Points& positions, const Points& other_side, double time_step, double p,
+                             std::span<const InterfaceRole> roles, SolverWorkspace&)
 {
     roles_.assign(roles.begin(), roles.end());
     std::fill(values_.begin(), values_.end(), 0.0);
@@ -78,7 +79,7 @@ void SubMeshSystem::assemble(const Points& positions, const Points& other_side, 
     assemble_interface(positions, other_side);
 }
 
-void SubMeshSystem::assemble_interface(const Points& positions, const Points& other_side)
+void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i) {
@@ -95,17 +96,15 @@ void SubMeshSystem::assemble_interface(const Points& positions, const Points& ot
     }
 }
 
-void SubMeshSystem::factorise()
+void GeneralSystem::factorise(SolverWorkspace&)
 {
     const auto values = std::span<const double>(values_).first(values_.size() - 1);
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-        throw ComputationError("the equations are not finite, because the time step is too large for the mesh or the "
-                               "flow has taken a face's area or an "
-                               "edge's length: use a smaller time step or fewer steps");
+        throw ComputationError(equations_not_finite);
     solver_->factorise(values);
 }
 
-void SubMeshSystem::use_other_side(const Points& positions, const Points& other_side)
+void GeneralSystem::use_other_side(const Points& positions, const Points& other_side)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i)
@@ -113,19 +112,19 @@ void SubMeshSystem::use_other_side(const Points& positions, const Points& other_
             right_hand_side_.row(vertices[at(i)]) = condition_->right_hand_side(i, positions, other_side);
 }
 
-void SubMeshSystem::predict(const Points& positions, Points& prediction)
+void GeneralSystem::predict(const Points& positions, Points& prediction, SolverWorkspace&)
 {
     solve_with(positions, prediction);
 }
 
-void SubMeshSystem::solve(Points& solution)
+void GeneralSystem::solve(const Points&, Points& solution, SolverWorkspace&)
 {
     solve_with(solution, solution);
     solver_->free_factor();
 }
 
 /// @param given #local by 3: Vᵏ⁺¹, or what stands for it, where the sub-mesh follows; may be the solution itself.
-void SubMeshSystem::solve_with(const Points& given, Points& solution)
+void GeneralSystem::solve_with(const Points& given, Points& solution)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -133,7 +132,7 @@ void SubMeshSystem::solve_with(const Points& given, Points& solution)
             right_hand_side_.row(vertices[i]) = given.row(vertices[i]);
     solver_->solve(std::span<const double>(values_).first(values_.size() - 1), right_hand_side_, solution_);
     if (!solution_.allFinite())
-        throw ComputationError("the result is not finite: use a smaller time step");
+        throw ComputationError(result_not_finite);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
         solution.row(v) = row_of_[at(v)] == Row::Fixed ? right_hand_side_.row(v) : solution_.row(v);
     for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solvers/cholmod_workspace.h"
+#include "solvers/columns.h"
+#include "solvers/sparse_pattern.h"
+
+namespace seamflow {
+
+/// An order of elimination with little fill-in for symmetric matrices of this pattern (approximate minimum degree,
+/// postordered): entry i is the i-th unknown to be eliminated.
+/// @param upper the entries on and above the diagonal, the whole diagonal among them.
+/// @throws ComputationError if CHOLMOD fails (memory).
+std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspace& workspace);
+
+/// LDLᵀ factorisation of symmetric sparse matrices of one pattern by CHOLMOD, in the order in which the unknowns are:
+/// analysed once, factorised for each set of values, a factor used for any number of right-hand sides, three at a time.
+/// Small matrices are factorised row by row, large ones by dense blocks.
+class CholmodSolver {
+  public:
+    /// @param upper the entries on and above the diagonal, the whole diagonal among them; must outlive the solver.
+    /// @throws ComputationError if CHOLMOD fails (memory).
+    CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace);
+    ~CholmodSolver();
+    CholmodSolver(CholmodSolver&&) noexcept;
+    CholmodSolver& operator=(CholmodSolver&&) noexcept;
+
+    /// @param values one per entry of the pattern.
+    /// @returns whether the matrix is positive definite. If not, there is no factor.
+    /// @throws ComputationError if CHOLMOD fails (memory).
+    [[nodiscard]] bool factorise(std::span<const double> values, CholmodWorkspace& workspace);
+
+    /// Solves for three right-hand sides.
+    /// @pre there is a factor.
+    /// @returns n by 3, in the workspace: valid until that is used again.
+    /// @throws ComputationError if CHOLMOD fails.
+    [[nodiscard]] Eigen::Map<const Columns> solve(Columns& right_hand_side, CholmodWorkspace& workspace) const;
+
+    /// Gives the factor's memory back.
+    void free_factor(CholmodWorkspace& workspace);
+
+  private:
+    class Factor;
+    std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace seamflow

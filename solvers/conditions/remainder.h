@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cmath>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// What is left, after one backward Euler step of diffusion on a line, of a disturbance held at one point, at another
+/// one: e^-θ with cosh θ = 1 + d² / 2 dt, d their distance.
+/// @param time_step dt, in length².
+inline double remainder_between(const Points& positions, Index from, Index to, double time_step)
+{
+    const double squared_distance = (positions.row(to) - positions.row(from)).squaredNorm();
+    const double cosh = 1.0 + 0.5 * squared_distance / time_step;
+    return 1.0 / (cosh + std::sqrt((cosh - 1.0) * (cosh + 1.0)));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <compare>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "solvers/geometry.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// Two different vertices.
+struct VertexPair {
+    Index first = 0;
+    Index second = 0;
+    friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
+};
+
+/// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
+/// / val, Δ_A with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
+class SymmetricLaplacian {
+  public:
+    virtual ~SymmetricLaplacian() = default;
+
+    /// The entries of K off the diagonal in the order in which `assemble` meets them, each standing for two;
+    /// repetitions are welcome.
+    [[nodiscard]] virtual std::vector<VertexPair> pairs() const = 0;
+
+    /// values[slots[i]] += factor · (contribution to the i-th of `pairs`), diagonal[v] = factor · K_vv, mass[v] = M_v.
+    /// Right at those vertices all of whose faces are there.
+    /// @param positions at least #V by 3.
+    /// @param slots one place per pair. Pairs that are not wanted all point to one place that nobody reads.
+    /// @param diagonal, mass #V.
+    virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
+                          std::span<double> values, std::span<double> diagonal, std::span<double> mass) = 0;
+};
+
+/// Faces of a sub-mesh, and those beyond its Γ.
+struct FacesOnBothSides {
+    const IndexLists& own;
+    const IndexLists& beyond;
+    /// Of all vertices.
+    Index n_vertices;
+};
+
+/// Whether a Laplacian is M⁻¹ K.
+bool is_symmetric(Laplacian laplacian);
+
+/// @param laplacian one that is symmetric.
+/// @param faces their lists must outlive the result.
+std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces);
+
+/// See make_symmetric_laplacian.
+std::unique_ptr<SymmetricLaplacian> make_symmetric_fujiwara(const FacesOnBothSides& faces);
+std::unique_ptr<SymmetricLaplacian> make_symmetric_alexa_wardetzky(const FacesOnBothSides& faces);
+
+}  // namespace seamflow

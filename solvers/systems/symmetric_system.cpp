@@ -1,0 +1,294 @@
+#include "solvers/systems/symmetric_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "partition/errors.h"
+#include "solvers/conditions/remainder.h"
+#include "solvers/systems/messages.h"
+
+namespace seamflow {
+
+namespace {
+
+MatrixEntry upper_entry(Index a, Index b)
+{
+    return {std::max(a, b), std::min(a, b)};
+}
+
+/// The upper triangle of a symmetric matrix, its diagonal included.
+SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n)
+{
+    std::vector<MatrixEntry> entries;
+    entries.reserve(pairs.size() + at(n));
+    for (const auto [a, b] : pairs) {
+        const auto n_own = static_cast<Index>(unknown_of.size());
+        if (a < n_own && b < n_own && unknown_of[at(a)] >= 0 && unknown_of[at(b)] >= 0)
+            entries.push_back(upper_entry(unknown_of[at(a)], unknown_of[at(b)]));
+    }
+    for (Index u = 0; u < n; ++u)
+        entries.push_back({u, u});
+    return make_pattern(n, std::move(entries));
+}
+
+}  // namespace
+
+SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows,
+                                 SolverWorkspace& workspace)
+    : sub_mesh_(&sub_mesh)
+    , laplacian_(make_symmetric_laplacian(
+          laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces, sub_mesh.n_vertices + sub_mesh.n_halo}))
+{
+    number_unknowns(rows);
+    const std::vector<VertexPair> pairs = laplacian_->pairs();
+    list_entries(pairs, workspace);
+    place_pairs(pairs);
+    if (rows == SymmetricRows::Yielding)
+        list_interface();
+    mass_.resize(vertex_of_.size());
+    solver_ = std::make_unique<CholmodSolver>(upper_, workspace.cholmod);
+}
+
+/// In the order of the vertices.
+void SymmetricSystem::number_unknowns(SymmetricRows rows)
+{
+    unknown_of_.assign(at(sub_mesh_->n_vertices), 0);
+    for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
+        if (sub_mesh_->fixed[at(v)] != 0)
+            unknown_of_[at(v)] = -1;
+    if (rows == SymmetricRows::None)
+        for (const Index v : sub_mesh_->interface.vertices)
+            unknown_of_[at(v)] = -1;
+    for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
+        if (unknown_of_[at(v)] == 0) {
+            unknown_of_[at(v)] = static_cast<Index>(vertex_of_.size());
+            vertex_of_.push_back(v);
+        }
+}
+
+/// Renumbers the unknowns in the order of elimination.
+void SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace)
+{
+    const auto n = static_cast<Index>(vertex_of_.size());
+    const std::vector<Index> order = elimination_order(upper_pattern(pairs, unknown_of_, n), workspace.cholmod);
+    std::vector<Index> vertex_of(at(n));
+    std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return vertex_of_[at(u)]; });
+    vertex_of_ = std::move(vertex_of);
+    for (Index u = 0; u < n; ++u)
+        unknown_of_[at(vertex_of_[at(u)])] = u;
+    upper_ = upper_pattern(pairs, unknown_of_, n);
+    for (Index u = 0; u < n; ++u)
+        diagonal_slots_.push_back(upper_.slot({u, u}));
+}
+
+/// Sorts the pairs into entries of the matrix and couplings; those beyond Γ by the vertices of Γ.
+void SymmetricSystem::place_pairs(const std::vector<VertexPair>& pairs)
+{
+    constexpr Index unread = -1;
+    std::vector<std::size_t> at_fixed;
+    std::vector<std::pair<Index, std::size_t>> at_beyond;
+    slots_.assign(pairs.size(), unread);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto [a, b] = unknown_first(pairs[i]);
+        if (!is_unknown(a))
+            continue;
+        if (is_unknown(b))
+            slots_[i] = upper_.slot(upper_entry(unknown_of_[at(a)], unknown_of_[at(b)]));
+        else if (b < sub_mesh_->n_vertices)
+            at_fixed.push_back(i);
+        else
+            at_beyond.emplace_back(a, i);
+    }
+    Index slot = upper_.n_entries();
+    for (const std::size_t i : at_fixed) {
+        const auto [a, b] = unknown_first(pairs[i]);
+        slots_[i] = slot++;
+        fixed_.push_back({unknown_of_[at(a)], b, 0.0});
+    }
+    std::sort(at_beyond.begin(), at_beyond.end());
+    for (const auto& [a, i] : at_beyond) {
+        slots_[i] = slot++;
+        beyond_.push_back({unknown_of_[at(a)], unknown_first(pairs[i]).second, 0.0});
+    }
+    std::replace(slots_.begin(), slots_.end(), unread, slot);
+}
+
+VertexPair SymmetricSystem::unknown_first(VertexPair pair) const
+{
+    return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
+}
+
+/// What belongs to each vertex of Γ, whose roles change.
+void SymmetricSystem::list_interface()
+{
+    const auto& vertices = sub_mesh_->interface.vertices;
+    interface_rows_.resize(vertices.size());
+    std::vector<std::vector<InterfaceEntry>> entries(vertices.size());
+    std::vector<Index> interface_index(vertex_of_.size(), -1);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        interface_index[at(unknown_of_[at(vertices[i])])] = static_cast<Index>(i);
+    for (Index column = 0; column < upper_.n(); ++column)
+        for (Index slot = upper_.column_offsets[at(column)]; slot < upper_.column_offsets[at(column) + 1]; ++slot) {
+            const Index row = upper_.rows[at(slot)];
+            if (row == column)
+                continue;
+            if (interface_index[at(row)] >= 0)
+                entries[at(interface_index[at(row)])].push_back({slot, column});
+            if (interface_index[at(column)] >= 0)
+                entries[at(interface_index[at(column)])].push_back({slot, row});
+        }
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        interface_offsets_.push_back(static_cast<Index>(interface_entries_.size()));
+        interface_entries_.insert(interface_entries_.end(), entries[i].begin(), entries[i].end());
+        beyond_offsets_.push_back(static_cast<Index>(beyond));
+        while (beyond < beyond_.size() && beyond_[beyond].unknown == unknown_of_[at(vertices[i])])
+            ++beyond;
+    }
+    interface_offsets_.push_back(static_cast<Index>(interface_entries_.size()));
+    beyond_offsets_.push_back(static_cast<Index>(beyond));
+    held_.reserve(interface_entries_.size());
+}
+
+void SymmetricSystem::assemble(const Points& positions, const Points& other_side, double time_step, double,
+                               std::span<const InterfaceRole> roles, SolverWorkspace& workspace)
+{
+    const auto n_entries = at(upper_.n_entries());
+    auto& values = workspace.values;
+    values.assign(n_entries + fixed_.size() + beyond_.size() + 1, 0.0);
+    workspace.diagonal.resize(at(sub_mesh_->n_vertices + sub_mesh_->n_halo));
+    workspace.mass.resize(workspace.diagonal.size());
+    laplacian_->assemble(positions, time_step, slots_, values, workspace.diagonal, workspace.mass);
+
+    for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
+        mass_[u] = workspace.mass[at(vertex_of_[u])];
+        values[at(diagonal_slots_[u])] = mass_[u] + workspace.diagonal[at(vertex_of_[u])];
+    }
+    for (std::size_t c = 0; c < fixed_.size(); ++c)
+        fixed_[c].value = values[n_entries + c];
+    for (std::size_t c = 0; c < beyond_.size(); ++c)
+        beyond_[c].value = values[n_entries + fixed_.size() + c];
+
+    held_.clear();
+    for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
+        interface_rows_[i].role = roles[i];
+        if (roles[i] == InterfaceRole::Follows)
+            hold(i, values);
+        else
+            yield(i, positions, time_step, workspace.diagonal[at(sub_mesh_->interface.vertices[i])], values);
+    }
+    use_other_side(positions, other_side);
+}
+
+/// Moves the coefficients at a vertex of Γ that is known in this step out of the matrix. Of two such vertices the
+/// second finds nothing any more.
+void SymmetricSystem::hold(std::size_t i, std::span<double> values)
+{
+    for (Index e = interface_offsets_[i]; e < interface_offsets_[i + 1]; ++e) {
+        const InterfaceEntry& entry = interface_entries_[at(e)];
+        held_.push_back({entry.unknown, sub_mesh_->interface.vertices[i], values[at(entry.slot)]});
+        values[at(entry.slot)] = 0.0;
+    }
+    values[at(diagonal_slots_[at(unknown_of_[at(sub_mesh_->interface.vertices[i])])])] = 1.0;
+}
+
+/// Takes from the diagonal what the other side yields; nothing where too little would remain.
+/// @param diagonal dt K_vv.
+void SymmetricSystem::yield(std::size_t i, const Points& positions, double time_step, double diagonal,
+                            std::span<double> values)
+{
+    const Index v = sub_mesh_->interface.vertices[i];
+    double yield = 0.0;
+    for (Index c = beyond_offsets_[i]; c < beyond_offsets_[i + 1]; ++c)
+        yield += beyond_[at(c)].value * remainder_between(positions, v, beyond_[at(c)].vertex, time_step);
+    interface_rows_[i].yield = diagonal + yield >= 0.0 ? yield : 0.0;
+    values[at(diagonal_slots_[at(unknown_of_[at(v)])])] += interface_rows_[i].yield;
+}
+
+void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
+{
+    for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
+        InterfaceRow& row = interface_rows_[i];
+        row.beyond = Point::Zero();
+        if (row.role == InterfaceRole::Follows)
+            continue;
+        for (Index c = beyond_offsets_[i]; c < beyond_offsets_[i + 1]; ++c)
+            row.beyond -= beyond_[at(c)].value * other_side.row(beyond_[at(c)].vertex);
+    }
+}
+
+void SymmetricSystem::factorise(SolverWorkspace& workspace)
+{
+    const auto values = std::span<double>(workspace.values).first(at(upper_.n_entries()));
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+        throw ComputationError(equations_not_finite);
+    if (vertex_of_.empty() || solver_->factorise(values, workspace.cholmod))
+        return;
+    stop_yielding(values);
+    if (!solver_->factorise(values, workspace.cholmod))
+        throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
+}
+
+/// Without yielding, all rows are those of M + dt K, which is positive definite.
+void SymmetricSystem::stop_yielding(std::span<double> values)
+{
+    for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
+        if (interface_rows_[i].role == InterfaceRole::Follows)
+            continue;
+        values[at(diagonal_slots_[at(unknown_of_[at(sub_mesh_->interface.vertices[i])])])] -= interface_rows_[i].yield;
+        interface_rows_[i].yield = 0.0;
+    }
+}
+
+void SymmetricSystem::predict(const Points& positions, Points& prediction, SolverWorkspace& workspace)
+{
+    for (const Index v : sub_mesh_->interface.vertices)
+        prediction.row(v) = positions.row(v);
+    solve_with(positions, prediction, workspace);
+}
+
+void SymmetricSystem::solve(const Points& positions, Points& solution, SolverWorkspace& workspace)
+{
+    solve_with(positions, solution, workspace);
+    solver_->free_factor(workspace.cholmod);
+}
+
+/// @param solution in: what is known of Γ; out: everything.
+void SymmetricSystem::solve_with(const Points& positions, Points& solution, SolverWorkspace& workspace)
+{
+    for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
+        if (sub_mesh_->fixed[at(v)] != 0)
+            solution.row(v) = positions.row(v);
+    if (vertex_of_.empty())
+        return;
+    fill_right_hand_side(positions, solution, workspace.right_hand_side);
+    const auto result = solver_->solve(workspace.right_hand_side, workspace.cholmod);
+    if (!result.allFinite())
+        throw ComputationError(result_not_finite);
+    for (std::size_t u = 0; u < vertex_of_.size(); ++u)
+        solution.row(vertex_of_[u]) = result.row(static_cast<Eigen::Index>(u));
+    for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
+        const Index v = sub_mesh_->interface.vertices[i];
+        if (interface_rows_[i].role == InterfaceRole::Follows)
+            solution.row(v) = workspace.right_hand_side.row(unknown_of_[at(v)]);
+    }
+}
+
+void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points& known, Columns& right) const
+{
+    right.resize(static_cast<Eigen::Index>(vertex_of_.size()), 3);
+    for (std::size_t u = 0; u < vertex_of_.size(); ++u)
+        right.row(static_cast<Eigen::Index>(u)) = mass_[u] * positions.row(vertex_of_[u]);
+    for (const auto* couplings : {&fixed_, &held_})
+        for (const Coupling& coupling : *couplings)
+            right.row(coupling.unknown) -= coupling.value * known.row(coupling.vertex);
+    for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
+        const Index v = sub_mesh_->interface.vertices[i];
+        if (interface_rows_[i].role == InterfaceRole::Follows)
+            right.row(unknown_of_[at(v)]) = known.row(v);
+        else
+            right.row(unknown_of_[at(v)]) += interface_rows_[i].beyond + interface_rows_[i].yield * positions.row(v);
+    }
+}
+
+}  // namespace seamflow

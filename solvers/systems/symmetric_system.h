@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "solvers/cholmod_solver.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
+#include "solvers/sub_mesh_system.h"
+
+namespace seamflow {
+
+/// What stands on Γ where a sub-mesh leads.
+enum class SymmetricRows {
+    /// Nothing: it follows everywhere.
+    None,
+    /// The undecomposed step's row, the other side predicted and yielding (see predicted_side.h).
+    Yielding,
+};
+
+/// The equations of a sub-mesh where all of them, the rows on Γ included, are (M + dt K) V = M Vᵏ with the symmetric
+/// matrices of a SymmetricLaplacian over the faces on both sides of Γ, by a Cholesky factorisation. What is known goes
+/// to the right-hand side: fixed vertices, Γ where the sub-mesh follows, the other side as predicted.
+class SymmetricSystem final : public SubMeshSystem {
+  public:
+    /// @param sub_mesh must outlive the system.
+    /// @param laplacian one that is symmetric; with SymmetricRows::Yielding, Alexa-Wardetzky where all faces that touch
+    ///        Γ are triangles.
+    SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows, SolverWorkspace& workspace);
+
+    void assemble(const Points& positions, const Points& other_side, double time_step, double p,
+                  std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
+    void factorise(SolverWorkspace& workspace) override;
+    void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) override;
+    void use_other_side(const Points& positions, const Points& other_side) override;
+    void solve(const Points& positions, Points& solution, SolverWorkspace& workspace) override;
+
+  private:
+    /// A coefficient of an unknown's row at a vertex that is known.
+    struct Coupling {
+        Index unknown;
+        Index vertex;
+        double value;
+    };
+    /// One entry of the matrix off the diagonal, seen from a vertex of Γ.
+    struct InterfaceEntry {
+        Index slot;
+        /// The other unknown.
+        Index unknown;
+    };
+    /// The state of one vertex of Γ in a step.
+    struct InterfaceRow {
+        InterfaceRole role = InterfaceRole::Follows;
+        /// What the other side changes on the diagonal by yielding; 0 where it does not.
+        double yield = 0.0;
+        /// What the vertices beyond Γ add to the right-hand side.
+        Point beyond = Point::Zero();
+    };
+
+    void number_unknowns(SymmetricRows rows);
+    void list_entries(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace);
+    void place_pairs(const std::vector<VertexPair>& pairs);
+    void list_interface();
+    void hold(std::size_t i, std::span<double> values);
+    void yield(std::size_t i, const Points& positions, double time_step, double diagonal, std::span<double> values);
+    void stop_yielding(std::span<double> values);
+    void fill_right_hand_side(const Points& positions, const Points& known, Columns& right) const;
+    void solve_with(const Points& positions, Points& solution, SolverWorkspace& workspace);
+    [[nodiscard]] VertexPair unknown_first(VertexPair pair) const;
+    [[nodiscard]] bool is_unknown(Index v) const { return v < sub_mesh_->n_vertices && unknown_of_[at(v)] >= 0; }
+
+    const SubMesh* sub_mesh_;
+    std::unique_ptr<SymmetricLaplacian> laplacian_;
+    /// In the order of elimination; and per own vertex, or -1.
+    std::vector<Index> vertex_of_;
+    std::vector<Index> unknown_of_;
+    SparsePattern upper_;
+    std::unique_ptr<CholmodSolver> solver_;
+    /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then of `beyond_`, then one that nobody
+    /// reads.
+    std::vector<Index> slots_;
+    std::vector<Index> diagonal_slots_;
+    /// Coefficients at own vertices that are never unknown; and at vertices of the halo.
+    std::vector<Coupling> fixed_;
+    std::vector<Coupling> beyond_;
+    /// Per vertex of Γ: its entries of the matrix, and its part of `beyond_`, which has one more offset.
+    std::vector<InterfaceEntry> interface_entries_;
+    std::vector<Index> interface_offsets_;
+    std::vector<Index> beyond_offsets_;
+    std::vector<InterfaceRow> interface_rows_;
+    /// Coefficients at vertices of Γ where the sub-mesh follows in this step.
+    std::vector<Coupling> held_;
+    /// Per unknown.
+    std::vector<double> mass_;
+};
+
+}  // namespace seamflow
