@@ -28,7 +28,7 @@ SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vec
     }
     for (Index u = 0; u < n; ++u)
         entries.push_back({u, u});
-    return make_pattern(n, std::move(entries));
+    return make_pattern(n, entries);
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vec
 SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows,
                                  SolverWorkspace& workspace)
     : sub_mesh_(&sub_mesh)
-    , laplacian_(make_symmetric_laplacian(
-          laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces, sub_mesh.n_vertices + sub_mesh.n_halo}))
+    , laplacian_(make_symmetric_laplacian(laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces,
+                                                      sub_mesh.twin, sub_mesh.n_vertices + sub_mesh.n_halo}))
 {
     number_unknowns(rows);
     const std::vector<VertexPair> pairs = laplacian_->pairs();
