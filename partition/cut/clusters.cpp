@@ -60,7 +60,7 @@ class ClusterGrower {
         std::size_t next = faces().size();
         for (add(seed); left > 0 && next < faces().size(); ++next)
             for_each_free_neighbour(faces()[next], add);
-        // Notches filled and what would remain alone taken in, clusters have shorter boundaries, and there are fewer.
+        // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer.
         if (weight_ > 1)
             for (next = at(clusters_.faces.offsets.back()); next < faces().size(); ++next)
                 for_each_free_neighbour(faces()[next], [&](Index g) {
@@ -71,18 +71,22 @@ class ClusterGrower {
         clusters_.faces.close();
     }
 
-    /// Whether half of the edges of a free face or more lead to the cluster in the making, or none to a free face.
+    /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to a
+    /// free face.
     [[nodiscard]] bool belongs_to_last(Index f) const
     {
+        Index inner = 0;
         Index shared = 0;
         Index n_free = 0;
         for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
-            const Index twin = topology_.twin[at(h)];
-            const Index cluster = twin < 0 ? clusters_.size() : clusters_.cluster_of[at(topology_.face_of[at(twin)])];
+            if (topology_.twin[at(h)] < 0)
+                continue;
+            const Index cluster = clusters_.cluster_of[at(topology_.face_of[at(topology_.twin[at(h)])])];
+            ++inner;
             shared += cluster == clusters_.size() ? 1 : 0;
             n_free += cluster < 0 ? 1 : 0;
         }
-        return n_free == 0 || 2 * shared >= static_cast<Index>(mesh_.face(f).size());
+        return n_free == 0 || 2 * shared > inner;
     }
 
     const PolygonMesh& mesh_;

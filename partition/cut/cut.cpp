@@ -45,9 +45,12 @@ std::vector<Index> share_out(std::vector<double> due, Index k)
     return share;
 }
 
-/// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
-constexpr double clusters_per_part = 80;
-/// Larger clusters save no more time.
+/// How many clusters METIS gets for a part at least, about: enough to shape it well and to balance parts within a few
+/// percent.
+constexpr double min_clusters_per_part = 80;
+/// How many it gets in all at least: fewer save no time.
+constexpr double min_clusters = 20'000;
+/// Larger clusters save no time either, and leave more to straighten.
 constexpr double max_cluster_weight = 64;
 /// Where clusters would be smaller, METIS gets every face.
 constexpr double min_cluster_weight = 8;
@@ -57,7 +60,7 @@ constexpr int straightening_rounds = 6;
 Index cluster_weight(const PolygonMesh& mesh, Index k)
 {
     const double total = static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces();
-    const double weight = std::min(total / k / clusters_per_part, max_cluster_weight);
+    const double weight = std::min(total / std::max(min_clusters, k * min_clusters_per_part), max_cluster_weight);
     return weight < min_cluster_weight ? 1 : static_cast<Index>(weight);
 }
 

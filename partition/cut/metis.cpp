@@ -15,10 +15,9 @@ namespace seamflow {
 namespace {
 
 constexpr idx_t seed = 20230;
-/// With fewer nodes per part than this, recursive bisection takes a third of the time of k-way partitioning, cuts as
-/// little or, below 50, up to a third less. With more, k-way cuts up to a tenth less and takes less time, and unlike
-/// bisection it keeps parts connected.
-constexpr Index min_nodes_per_part_k_way = 100;
+/// With fewer nodes per part than this, recursive bisection takes a third of the time of k-way partitioning and cuts up
+/// to a third less. With more, k-way cuts up to a tenth less, and unlike bisection it keeps parts connected.
+constexpr Index min_nodes_per_part_k_way = 50;
 
 /// METIS draws from the C library's random numbers and installs signal handlers: one caller at a time.
 std::mutex& metis_mutex()

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -15,10 +14,8 @@ namespace {
 
 FaceGraph graph_of(const PolygonMesh& mesh)
 {
-    std::vector<Index> faces(static_cast<std::size_t>(mesh.n_faces()));
-    std::iota(faces.begin(), faces.end(), 0);
     const Topology topology = make_topology(mesh);
-    return FaceGraphMaker(mesh, topology).make(faces);
+    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, 1));
 }
 
 std::vector<Index> sizes(const std::vector<Index>& labels, Index k)
