@@ -28,7 +28,7 @@ class ClusterGrower {
                 grow_cluster(g);
                 return true;
             });
-        clusters_.component_offsets.push_back(clusters_.size());
+        ++clusters_.n_components;
     }
 
     [[nodiscard]] bool is_free(Index f) const { return clusters_.cluster_of[at(f)] < 0; }
@@ -69,6 +69,7 @@ class ClusterGrower {
                     return true;
                 });
         clusters_.faces.close();
+        clusters_.component_of.push_back(clusters_.n_components);
     }
 
     /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to a

@@ -14,12 +14,11 @@ struct FaceClusters {
     IndexLists faces;
     /// #F: the cluster of every face.
     std::vector<Index> cluster_of;
-    /// #components + 1: the clusters of connected component c of the mesh are those from component_offsets[c] to
-    /// component_offsets[c + 1] - 1. Components are in ascending order of their lowest faces.
-    std::vector<Index> component_offsets{0};
+    /// The connected component of the mesh that every cluster lies in. Components are numbered by their lowest faces.
+    std::vector<Index> component_of;
+    Index n_components = 0;
 
     [[nodiscard]] Index size() const { return faces.size(); }
-    [[nodiscard]] Index n_components() const { return static_cast<Index>(component_offsets.size()) - 1; }
 };
 
 /// How much a face counts when a mesh is divided: the number of triangles it could be split into, which is about its

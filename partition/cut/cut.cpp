@@ -1,12 +1,11 @@
 #include "partition/cut/cut.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "partition/cut/clusters.h"
 #include "partition/cut/compact.h"
+#include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
-#include "partition/cut/metis.h"
 #include "partition/cut/repair.h"
 #include "partition/cut/seams.h"
 #include "partition/errors.h"
@@ -19,30 +18,6 @@ namespace {
 std::string counted(Index n, const std::string& thing)
 {
     return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
-}
-
-/// Divides k among the components in proportion to their weights, by largest remainders. Components that would go empty
-/// get one part on top, so that the others are cut as finely as k asks however many small components there are.
-/// @param due the weight of every component.
-std::vector<Index> share_out(std::vector<double> due, Index k)
-{
-    const double total = std::accumulate(due.begin(), due.end(), 0.0);
-    std::vector<Index> share(due.size());
-    Index left = k;
-    for (std::size_t c = 0; c < due.size(); ++c) {
-        due[c] *= k / total;
-        share[c] = static_cast<Index>(due[c]);
-        left -= share[c];
-    }
-    std::vector<std::size_t> by_remainder(due.size());
-    std::iota(by_remainder.begin(), by_remainder.end(), std::size_t{0});
-    std::stable_sort(by_remainder.begin(), by_remainder.end(),
-                     [&](std::size_t a, std::size_t b) { return due[a] - share[a] > due[b] - share[b]; });
-    for (std::size_t i = 0; i < by_remainder.size() && left > 0; ++i, --left)
-        ++share[by_remainder[i]];
-    for (Index& parts : share)
-        parts = std::max(Index{1}, parts);
-    return share;
 }
 
 /// How many clusters METIS gets for a part at least, about: enough to shape it well and to balance parts within a few
@@ -62,31 +37,6 @@ Index cluster_weight(const PolygonMesh& mesh, Index k)
     const double total = static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces();
     const double weight = std::min(total / std::max(min_clusters, k * min_clusters_per_part), max_cluster_weight);
     return weight < min_cluster_weight ? 1 : static_cast<Index>(weight);
-}
-
-/// @returns the part of every cluster; no part in several components.
-std::vector<Index> divide(const FaceGraph& graph, std::span<const Index> component_offsets, Index k)
-{
-    const std::size_t n_components = component_offsets.size() - 1;
-    std::vector<double> weight(n_components);
-    for (std::size_t c = 0; c < n_components; ++c)
-        weight[c] = std::accumulate(graph.node_weights.begin() + component_offsets[c],
-                                    graph.node_weights.begin() + component_offsets[c + 1], 0.0);
-    const auto share = share_out(std::move(weight), k);
-    std::vector<Index> part;
-    part.reserve(at(graph.n_nodes()));
-    Index first_part = 0;
-    for (std::size_t c = 0; c < n_components; ++c) {
-        const auto n_nodes = at(component_offsets[c + 1] - component_offsets[c]);
-        std::vector<Index> labels(share[c] == 1 ? n_nodes : 0, 0);
-        if (share[c] > 1)
-            labels = n_components == 1 ? metis_k_way(graph, share[c])
-                                       : metis_k_way(part_of(graph, component_offsets[c], component_offsets[c + 1]), share[c]);
-        for (const Index label : labels)
-            part.push_back(first_part + label);
-        first_part += share[c];
-    }
-    return part;
 }
 
 /// The largest sensible number of parts of a mesh, k at most.
@@ -147,7 +97,8 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const Index n_parts = sensible(mesh, k);
     const Index weight = cluster_weight(mesh, n_parts);
     const FaceClusters clusters = grow_clusters(mesh, topology, weight);
-    const auto part = divide(make_face_graph(mesh, topology, clusters, loop), clusters.component_offsets, n_parts);
+    const auto part = divide(make_face_graph(mesh, topology, clusters, loop), clusters.component_of,
+                             clusters.n_components, n_parts);
 
     Cut cut = uncut(mesh);
     for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(clusters.cluster_of[at(f)])]; });
@@ -155,7 +106,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
         straighten_seams(mesh, topology, cut.labels, straightening_rounds, loop);
     cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
     cut.n_parts = count_parts(cut.labels);
-    remark_on_number(mesh, k, clusters.n_components(), cut);
+    remark_on_number(mesh, k, clusters.n_components, cut);
     return cut;
 }
 

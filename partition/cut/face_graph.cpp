@@ -121,21 +121,27 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     return graph;
 }
 
-FaceGraph part_of(const FaceGraph& graph, Index begin, Index end)
+std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts)
 {
-    FaceGraph part;
-    part.node_weights.assign(graph.node_weights.begin() + begin, graph.node_weights.begin() + end);
-    for (Index node = begin; node < end; ++node) {
-        for (Index arc = graph.offsets[at(node)]; arc < graph.offsets[at(node) + 1]; ++arc) {
-            const Index target = graph.targets[at(arc)];
-            if (target < begin || target >= end)
+    std::vector<FaceGraph> parts(at(n_parts));
+    std::vector<Index> node_in_part(part_of.size());
+    for (std::size_t node = 0; node < part_of.size(); ++node) {
+        auto& node_weights = parts[at(part_of[node])].node_weights;
+        node_in_part[node] = static_cast<Index>(node_weights.size());
+        node_weights.push_back(graph.node_weights[node]);
+    }
+    for (std::size_t node = 0; node < part_of.size(); ++node) {
+        FaceGraph& part = parts[at(part_of[node])];
+        for (Index arc = graph.offsets[node]; arc < graph.offsets[node + 1]; ++arc) {
+            const auto target = at(graph.targets[at(arc)]);
+            if (part_of[target] != part_of[node])
                 continue;
-            part.targets.push_back(target - begin);
+            part.targets.push_back(node_in_part[target]);
             part.arc_weights.push_back(graph.arc_weights[at(arc)]);
         }
         part.offsets.push_back(static_cast<Index>(part.targets.size()));
     }
-    return part;
+    return parts;
 }
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "partition/cut/clusters.h"
@@ -32,8 +33,8 @@ inline constexpr double max_weight_sum = 1e9;
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
                           const Loop& loop = run_serially);
 
-/// The graph of the nodes begin to end - 1 of another; arcs to other nodes are left out. Takes time in proportion to
-/// its own size.
-FaceGraph part_of(const FaceGraph& graph, Index begin, Index end);
+/// Takes a graph apart, arcs between parts left out. The nodes of each part keep their order.
+/// @param part_of #nodes, from 0 to n_parts - 1.
+std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts);
 
 }  // namespace seamflow

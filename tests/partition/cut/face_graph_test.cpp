@@ -102,13 +102,17 @@ TEST_CASE("lengths without a finite sum count as equal")
     }
 }
 
-TEST_CASE("a part of a graph keeps what lies within it")
+TEST_CASE("a graph taken apart keeps the arcs within its parts")
 {
-    const FaceGraph part = part_of(graph_of(quad_grid(4, 1)), 1, 3);
-    CHECK(part.offsets == std::vector<Index>{0, 1, 2});
-    CHECK(part.targets == std::vector<Index>{1, 0});
-    CHECK(part.arc_weights == std::vector<Index>{64, 64});
-    CHECK(part.node_weights == std::vector<Index>{2, 2});
+    const auto parts = take_apart(graph_of(quad_grid(4, 1)), std::vector<Index>{2, 0, 0, 2}, 3);
+    REQUIRE(parts.size() == 3);
+    CHECK(parts[0].offsets == std::vector<Index>{0, 1, 2});
+    CHECK(parts[0].targets == std::vector<Index>{1, 0});
+    CHECK(parts[0].arc_weights == std::vector<Index>{64, 64});
+    CHECK(parts[0].node_weights == std::vector<Index>{2, 2});
+    CHECK(parts[1].n_nodes() == 0);
+    CHECK(parts[2].n_nodes() == 2);
+    CHECK(parts[2].targets.empty());
 }
 
 TEST_CASE("node weights count the triangles of a face")
