@@ -1,5 +1,9 @@
 #include "partition/cut/clusters.h"
 
+#include <numeric>
+#include <utility>
+
+#include "partition/cut/components.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -61,13 +65,12 @@ class ClusterGrower {
         for (add(seed); left > 0 && next < faces().size(); ++next)
             for_each_free_neighbour(faces()[next], add);
         // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer.
-        if (weight_ > 1)
-            for (next = at(clusters_.faces.offsets.back()); next < faces().size(); ++next)
-                for_each_free_neighbour(faces()[next], [&](Index g) {
-                    if (belongs_to_last(g))
-                        add(g);
-                    return true;
-                });
+        for (next = at(clusters_.faces.offsets.back()); next < faces().size(); ++next)
+            for_each_free_neighbour(faces()[next], [&](Index g) {
+                if (belongs_to_last(g))
+                    add(g);
+                return true;
+            });
         clusters_.faces.close();
         clusters_.component_of.push_back(clusters_.n_components);
     }
@@ -96,10 +99,27 @@ class ClusterGrower {
     FaceClusters clusters_;
 };
 
+/// Face f is cluster f.
+FaceClusters one_face_each(const PolygonMesh& mesh, const Topology& topology)
+{
+    FaceClusters clusters;
+    clusters.cluster_of.resize(at(mesh.n_faces()));
+    std::iota(clusters.cluster_of.begin(), clusters.cluster_of.end(), 0);
+    clusters.faces.values = clusters.cluster_of;
+    clusters.faces.offsets = clusters.cluster_of;
+    clusters.faces.offsets.push_back(mesh.n_faces());
+    FaceComponents components = face_components(mesh, topology);
+    clusters.component_of = std::move(components.component);
+    clusters.n_components = components.count;
+    return clusters;
+}
+
 }  // namespace
 
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight)
 {
+    if (weight == 1)
+        return one_face_each(mesh, topology);
     ClusterGrower grower(mesh, topology, weight);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (grower.is_free(f))

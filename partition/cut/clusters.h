@@ -30,7 +30,7 @@ inline Index face_weight(const PolygonMesh& mesh, Index f)
 
 /// Grows clusters breadth first, one beside the other, each until its faces weigh `weight` or nothing is left around
 /// it. Linear in the size of the mesh.
-/// @param weight 1: every face is a cluster.
+/// @param weight at least 1, which makes every face f the cluster f.
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight);
 
 }  // namespace seamflow

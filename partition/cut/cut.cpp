@@ -25,11 +25,10 @@ std::string counted(Index n, const std::string& thing)
 constexpr double min_clusters_per_part = 80;
 /// How many it gets in all at least: fewer save no time.
 constexpr double min_clusters = 20'000;
-/// Larger clusters save no time either, and leave more to straighten.
+/// Larger clusters save no time either, and leave longer seams.
 constexpr double max_cluster_weight = 64;
 /// Where clusters would be smaller, METIS gets every face.
 constexpr double min_cluster_weight = 8;
-constexpr int straightening_rounds = 6;
 
 /// How much a cluster should weigh when a mesh is cut into k parts.
 Index cluster_weight(const PolygonMesh& mesh, Index k)
@@ -103,7 +102,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     Cut cut = uncut(mesh);
     for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(clusters.cluster_of[at(f)])]; });
     if (weight > 1)
-        straighten_seams(mesh, topology, cut.labels, straightening_rounds, loop);
+        shorten_seams(mesh, topology, count_parts(cut.labels), cut.labels, loop);
     cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
     cut.n_parts = count_parts(cut.labels);
     remark_on_number(mesh, k, clusters.n_components, cut);

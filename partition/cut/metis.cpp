@@ -28,8 +28,8 @@ std::mutex& metis_mutex()
     return mutex;
 }
 
-/// How much heavier than it should be, in thousandths, a part may become: little, as stages add up.
-constexpr idx_t tolerance = 20;
+/// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on top.
+constexpr idx_t tolerance_of_groups = 10;
 
 std::array<idx_t, METIS_NOPTIONS> options(bool connected_parts)
 {
@@ -85,8 +85,8 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
         const std::lock_guard lock(metis_mutex());
         const bool k_way = graph.n_nodes() / n_parts >= min_nodes_per_part_k_way;
         auto settings = options(k_way && is_connected(graph));
-        if (k_way)
-            settings[METIS_OPTION_UFACTOR] = tolerance;
+        if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
+            settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
         auto offsets = copy(graph.offsets);
         auto targets = copy(graph.targets);
         auto arc_weights = copy(graph.arc_weights);
