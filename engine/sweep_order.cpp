@@ -36,9 +36,8 @@ std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Coloring 
     const std::vector<Index> colors = color(decomposition.adjacency);
     std::vector<double> total(at(n_colors(colors)), 0.0);
     std::vector<double> of_sub_mesh(colors.size());
-    for_each(run_in_parallel, static_cast<Index>(colors.size()), [&](Index s) {
-        of_sub_mesh[at(s)] = total_curvature(decomposition.sub_meshes[at(s)], curvature);
-    });
+    for_each(run_in_parallel, static_cast<Index>(colors.size()),
+             [&](Index s) { of_sub_mesh[at(s)] = total_curvature(decomposition.sub_meshes[at(s)], curvature); });
     for (std::size_t s = 0; s < colors.size(); ++s)
         total[at(colors[s])] += of_sub_mesh[s];
     std::vector<Index> order(total.size());

@@ -57,8 +57,7 @@ bool is_valid_face(const PolygonMesh& mesh, Index f)
             throw InputError(face + " names vertex " + std::to_string(v) + ", but the mesh has " +
                              std::to_string(mesh.n_vertices()) + " vertices");
         if (!met.insert(v).second)
-            throw InputError(face + " names vertex " + std::to_string(v) +
-                             " twice: split the face there or remove it");
+            throw InputError(face + " names vertex " + std::to_string(v) + " twice: split the face there or remove it");
     }
     throw InputError(face + " is not valid");
 }

@@ -75,8 +75,8 @@ class ClusterGrower {
         clusters_.component_of.push_back(clusters_.n_components);
     }
 
-    /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to a
-    /// free face.
+    /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to
+    /// a free face.
     [[nodiscard]] bool belongs_to_last(Index f) const
     {
         Index inner = 0;

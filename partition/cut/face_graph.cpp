@@ -53,8 +53,8 @@ struct Arc {
 };
 
 /// Appends the arcs of a cluster, ascending, with the lengths of all edges shared with the same other cluster added up.
-void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters, Index cluster,
-                 std::vector<Arc>& arcs)
+void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters, ArcMeasure measure,
+                 Index cluster, std::vector<Arc>& arcs)
 {
     const auto begin = static_cast<std::ptrdiff_t>(arcs.size());
     for (const Index f : clusters.faces[cluster])
@@ -62,7 +62,7 @@ void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceCl
             const Index twin = topology.twin[at(h)];
             const Index target = twin < 0 ? cluster : clusters.cluster_of[at(topology.face_of[at(twin)])];
             if (target != cluster)
-                arcs.push_back({target, edge_length(mesh, topology, h)});
+                arcs.push_back({target, measure == ArcMeasure::Length ? edge_length(mesh, topology, h) : 1.0});
         }
     std::sort(arcs.begin() + begin, arcs.end());
     auto last = arcs.begin() + begin;
@@ -82,14 +82,14 @@ struct BlockOfArcs {
 };
 
 std::vector<BlockOfArcs> list_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
-                                   const Loop& loop)
+                                   ArcMeasure measure, const Loop& loop)
 {
     std::vector<BlockOfArcs> blocks(at(clusters.size() / block_size) + 1);
     for_each_block(loop, clusters.size(), [&](Index b, Index begin, Index end) {
         BlockOfArcs& block = blocks[at(b)];
         for (Index cluster = begin; cluster < end; ++cluster) {
             const std::size_t before = block.arcs.size();
-            append_arcs(mesh, topology, clusters, cluster, block.arcs);
+            append_arcs(mesh, topology, clusters, measure, cluster, block.arcs);
             block.counts.push_back(static_cast<Index>(block.arcs.size() - before));
         }
     });
@@ -99,11 +99,11 @@ std::vector<BlockOfArcs> list_arcs(const PolygonMesh& mesh, const Topology& topo
 }  // namespace
 
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
-                          const Loop& loop)
+                          ArcMeasure measure, const Loop& loop)
 {
     FaceGraph graph;
     std::vector<double> lengths;
-    for (const BlockOfArcs& block : list_arcs(mesh, topology, clusters, loop)) {
+    for (const BlockOfArcs& block : list_arcs(mesh, topology, clusters, measure, loop)) {
         for (const Index count : block.counts)
             graph.offsets.push_back(graph.offsets.back() + count);
         for (const Arc& arc : block.arcs) {
@@ -115,9 +115,8 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     const double total = mesh.n_corners();
     const auto unit = std::max(Index{1}, static_cast<Index>(std::ceil(2 * total / max_weight_sum)));
     graph.node_weights.resize(at(graph.n_nodes()));
-    for_each(loop, graph.n_nodes(), [&](Index node) {
-        graph.node_weights[at(node)] = node_weight(mesh, clusters.faces[node], unit);
-    });
+    for_each(loop, graph.n_nodes(),
+             [&](Index node) { graph.node_weights[at(node)] = node_weight(mesh, clusters.faces[node], unit); });
     return graph;
 }
 

@@ -18,7 +18,8 @@ struct FaceGraph {
     std::vector<Index> offsets{0};
     /// #arcs; the node an arc leads to.
     std::vector<Index> targets;
-    /// #arcs, at least 1: the length of all shared edges, in a unit in which the mean is about 64. Equal both ways.
+    /// #arcs, at least 1: the length or number of all shared edges, in a unit in which the mean is about 64. Equal both
+    /// ways.
     std::vector<Index> arc_weights;
     /// #nodes, at least 1: the weight of its faces (see face_weight), in larger units for the largest meshes.
     std::vector<Index> node_weights;
@@ -29,9 +30,17 @@ struct FaceGraph {
 /// Neither the arc weights nor the node weights of a graph add up to more than this.
 inline constexpr double max_weight_sum = 1e9;
 
+/// What makes it costly to cut an arc.
+enum class ArcMeasure {
+    /// The length of the shared edges.
+    Length,
+    /// Their number, which is about that of the vertices that will lie on the interface.
+    Count,
+};
+
 /// The graph of the clusters of a mesh.
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
-                          const Loop& loop = run_serially);
+                          ArcMeasure measure, const Loop& loop = run_serially);
 
 /// Takes a graph apart, arcs between parts left out. The nodes of each part keep their order.
 /// @param part_of #nodes, from 0 to n_parts - 1.

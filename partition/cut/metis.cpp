@@ -28,7 +28,8 @@ std::mutex& metis_mutex()
     return mutex;
 }
 
-/// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on top.
+/// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on
+/// top.
 constexpr idx_t tolerance_of_groups = 10;
 
 std::array<idx_t, METIS_NOPTIONS> options(bool connected_parts)

@@ -7,8 +7,8 @@
 
 namespace seamflow {
 
-/// Divides the nodes of a graph into parts with short boundaries (METIS). The same input gives the same parts each time.
-/// May be called from several threads, which then wait for each other.
+/// Divides the nodes of a graph into parts with short boundaries (METIS). The same input gives the same parts each
+/// time. May be called from several threads, which then wait for each other.
 /// @param shares one entry per part, at least 1: parts get about as much weight as is in proportion.
 /// @returns one label per node, from 0 to the number of parts - 1; on graphs of few nodes per part some labels may not
 /// occur, and a part need not be connected.

@@ -80,9 +80,8 @@ Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
     decomposition.adjacency.resize(at(n));
     decomposition.halo.resize(at(n));
     for_each(loop, n, [&](Index s) { list_sharing(topology, labels, s, decomposition); });
-    for_each(loop, n, [&](Index s) {
-        decomposition.halo[at(s)] = list_halo_transfers(topology, labels, s, decomposition);
-    });
+    for_each(loop, n,
+             [&](Index s) { decomposition.halo[at(s)] = list_halo_transfers(topology, labels, s, decomposition); });
     for (const SubMesh& sub_mesh : decomposition.sub_meshes)
         for (const Index i : sub_mesh.interface.vertices)
             decomposition.n_interface_vertices += sub_mesh.owned[at(i)];

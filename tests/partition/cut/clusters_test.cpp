@@ -48,7 +48,8 @@ TEST_CASE("every face lies in one cluster, every cluster in one component")
 
 TEST_CASE("clusters are connected and about as heavy as asked")
 {
-    for (const PolygonMesh& mesh : {make_quads(2000), make_triangles(2000), make_hexagons(2000), make_mixed_polygons(2000)})
+    for (const PolygonMesh& mesh :
+         {make_quads(2000), make_triangles(2000), make_hexagons(2000), make_mixed_polygons(2000)})
         for (const Index weight : {8, 40}) {
             const Topology topology = make_topology(mesh);
             const FaceClusters clusters = grow_clusters(mesh, topology, weight);

@@ -22,7 +22,7 @@ Divided divided(const PolygonMesh& mesh, Index cluster_weight, Index k)
 {
     const Topology topology = make_topology(mesh);
     Divided result{grow_clusters(mesh, topology, cluster_weight), {}, {}};
-    result.graph = make_face_graph(mesh, topology, result.clusters);
+    result.graph = make_face_graph(mesh, topology, result.clusters, ArcMeasure::Count);
     result.labels = divide(result.graph, result.clusters.component_of, result.clusters.n_components, k);
     return result;
 }

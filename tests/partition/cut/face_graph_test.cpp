@@ -13,10 +13,10 @@ using namespace seamflow::test;
 
 namespace {
 
-FaceGraph graph_of(const PolygonMesh& mesh, Index cluster_weight = 1)
+FaceGraph graph_of(const PolygonMesh& mesh, Index cluster_weight = 1, ArcMeasure measure = ArcMeasure::Length)
 {
     const Topology topology = make_topology(mesh);
-    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, cluster_weight));
+    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, cluster_weight), measure);
 }
 
 /// The weight of the arc from one node to another, 0 if there is none.
@@ -134,4 +134,12 @@ TEST_CASE("the graph of clusters weighs as much as that of the faces, and has fe
             for (Index arc = coarse.offsets[at(i)]; arc < coarse.offsets[at(i) + 1]; ++arc)
                 CHECK(weight(coarse, coarse.targets[at(arc)], i) == coarse.arc_weights[at(arc)]);
     }
+}
+
+TEST_CASE("edges may count alike, however long")
+{
+    PolygonMesh mesh = quad_grid(2, 2);
+    mesh.vertices.col(0) *= 3;
+    const FaceGraph graph = graph_of(mesh, 1, ArcMeasure::Count);
+    CHECK(graph.arc_weights == std::vector<Index>(8, 64));
 }

@@ -14,7 +14,7 @@ namespace {
 FaceGraph graph_of(const PolygonMesh& mesh)
 {
     const Topology topology = make_topology(mesh);
-    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, 1));
+    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, 1), ArcMeasure::Length);
 }
 
 std::vector<Index> equal(Index k)
