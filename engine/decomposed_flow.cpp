@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "engine/parallel_loop.h"
 #include "engine/single_threaded_libraries.h"
 #include "engine/sweep_order.h"
 #include "partition/decomposition/overlap.h"
@@ -42,16 +43,6 @@ void on_behalf_of(const SubMesh& sub_mesh, Index s, Body&& body)
     } catch (const std::bad_alloc&) {
         throw ComputationError(name() + "out of memory: use more sub-meshes");
     }
-}
-
-std::vector<SubMesh> cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
-{
-    auto faces = faces_by_label(cut.labels, cut.n_parts);
-    std::vector<SubMesh> sub_meshes(faces.size());
-    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
-        sub_meshes[s] = make_sub_mesh(mesh, topology, cut.labels, std::move(faces[s]));
-    });
-    return sub_meshes;
 }
 
 /// Whether sub-meshes tell each other what they would do.
@@ -137,7 +128,7 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
     : workspaces_(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()))
-    , decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
+    , decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
     , positions_(mesh.vertices)
