@@ -222,10 +222,10 @@ void SymmetricSystem::factorise(SolverWorkspace& workspace)
     const auto values = std::span<double>(workspace.values).first(at(upper_.n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (vertex_of_.empty() || solver_->factorise(values, workspace.cholmod))
+    if (vertex_of_.empty() || solver_->factorise(values, *workspace.factors, workspace.cholmod))
         return;
     stop_yielding(values);
-    if (!solver_->factorise(values, workspace.cholmod))
+    if (!solver_->factorise(values, *workspace.factors, workspace.cholmod))
         throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
 }
 
@@ -250,7 +250,7 @@ void SymmetricSystem::predict(const Points& positions, Points& prediction, Solve
 void SymmetricSystem::solve(const Points& positions, Points& solution, SolverWorkspace& workspace)
 {
     solve_with(positions, solution, workspace);
-    solver_->free_factor(workspace.cholmod);
+    solver_->free_factor(*workspace.factors);
 }
 
 /// @param solution in: what is known of Γ; out: everything.
