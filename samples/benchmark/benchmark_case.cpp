@@ -1,7 +1,7 @@
 #include "samples/benchmark/benchmark_case.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -19,14 +19,11 @@ constexpr double reference_tolerance = 1e-12;
 constexpr double tight_tolerance = 1e-8;
 constexpr double loose_tolerance = 1e-4;
 
+/// @param tolerance a power of ten, as everywhere but at equal accuracy.
 std::string with_tolerance(std::string_view title, double tolerance)
 {
-    char text[16];
-    std::snprintf(text, sizeof text, "-%.0e", tolerance);
-    std::string name(text);
-    if (name.ends_with("e-08") || name[name.size() - 2] == '0')
-        name.erase(name.size() - 2, 1);
-    return std::string(title) + name;
+    const int exponent = static_cast<int>(std::lround(std::log10(tolerance)));
+    return std::string(title) + "-1e" + std::to_string(exponent);
 }
 
 std::string name_of(const MethodTask& task)

@@ -32,7 +32,7 @@ std::vector<std::string> environment_for(int threads)
 {
     const std::string number = std::to_string(threads);
     std::vector<std::string> variables{"OMP_NUM_THREADS=" + number, "OMP_THREAD_LIMIT=" + number,
-                                       "OPENBLAS_NUM_THREADS=" + number};
+                                       "OPENBLAS_NUM_THREADS=" + number, "OMP_WAIT_POLICY=passive"};
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string text = *variable;
         if (!text.starts_with("OMP_") && !text.starts_with("OPENBLAS_NUM_THREADS="))

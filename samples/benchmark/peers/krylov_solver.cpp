@@ -65,6 +65,7 @@ class Krylov final : public PeerSolver {
 };
 
 using Jacobi = Eigen::DiagonalPreconditioner<double>;
+// AMD instead of the natural order was no faster on 100,000 vertices.
 using IncompleteCholesky = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 using IncompleteLu = Eigen::IncompleteLUT<double, int>;
 

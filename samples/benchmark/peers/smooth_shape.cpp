@@ -37,8 +37,8 @@ SurfaceMesh to_surface_mesh(const PolygonMesh& mesh)
     return surface;
 }
 
-/// smooth_shape gives each vertex half of its area, and each edge the mean of its cotangents: with half of dt that is
-/// the equation of Alexa-Wardetzky, with both sides multiplied by half of the area.
+/// smooth_shape gives each vertex half of its area, and each edge the sum of its cotangents: with a quarter of dt that
+/// is the equation of Alexa-Wardetzky, both sides multiplied by half of the area.
 constexpr double time_of_time_step = 0.25;
 
 /// With fewer, smooth_shape scales the mesh.
