@@ -80,23 +80,27 @@ class Case {
             throw ComputationError(row.name + ": " + row.result.error);
     }
 
-    [[nodiscard]] Reference chosen_reference() const
+    [[nodiscard]] bool is_small_enough_to_factorise() const
     {
-        if (options_.reference != Reference::Automatic)
-            return options_.reference;
         const bool two_rings = options_.flow.laplacian == Laplacian::PtackovaVelho;
-        return mesh_.n_vertices() <= (two_rings ? 300'000 : 2'000'000) ? Reference::Direct : Reference::Iterative;
+        return mesh_.n_vertices() <= (two_rings ? 300'000 : 2'000'000);
+    }
+
+    [[nodiscard]] Row run_direct_reference() const
+    {
+        const bool symmetric = options_.flow.laplacian != Laplacian::PtackovaVelho;
+        return run(task_of(symmetric ? Method::Cholmod : Method::Umfpack, 0.0));
     }
 
     void find_reference()
     {
-        const Reference chosen = chosen_reference();
-        if (chosen == Reference::None)
+        const Reference wanted = options_.reference;
+        if (wanted == Reference::None)
             return;
-        const bool symmetric = options_.flow.laplacian != Laplacian::PtackovaVelho;
-        const Method direct = symmetric ? Method::Cholmod : Method::Umfpack;
-        reference_row_ =
-            run(chosen == Reference::Direct ? task_of(direct, 0.0) : task_of(Method::Krylov, reference_tolerance));
+        if (wanted == Reference::Direct || (wanted == Reference::Automatic && is_small_enough_to_factorise()))
+            reference_row_ = run_direct_reference();
+        if (!reference_row_ || (wanted == Reference::Automatic && !reference_row_->succeeded()))
+            reference_row_ = run(task_of(Method::Krylov, reference_tolerance));
         require_success(*reference_row_);
         reference_ = std::exchange(reference_row_->result.positions, Points(0, 3));
         result_.reference = reference_row_->name;

@@ -12,7 +12,8 @@ namespace seamflow {
 
 /// Whose positions stand for the undecomposed flow.
 enum class Reference {
-    /// Direct up to two million vertices (300,000 for Ptáčková-Velho, whose factors are larger), else Iterative.
+    /// Direct up to two million vertices (300,000 for Ptáčková-Velho, whose factors are larger); beyond, and where that
+    /// fails, Iterative.
     Automatic,
     /// One factorisation of the whole mesh: CHOLMOD, for Ptáčková-Velho UMFPACK.
     Direct,

@@ -15,7 +15,7 @@ std::string seconds(double value)
 void print_cells(std::ostream& out, const std::string& name, std::initializer_list<std::string> cells)
 {
     char text[128];
-    std::snprintf(text, sizeof text, "%-26s", name.c_str());
+    std::snprintf(text, sizeof text, "%-34s", name.c_str());
     out << text;
     for (const std::string& cell : cells) {
         std::snprintf(text, sizeof text, " %9s", cell.c_str());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <ostream>
-#include <thread>
 
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
@@ -84,13 +83,12 @@ Json run_scaling(const BenchmarkCommand& command, std::ostream& out)
 {
     Json list = Json::array();
     std::vector<CaseResult> results;
-    for (Index vertices = 10'000;; vertices *= 10) {
-        vertices = std::min(vertices, command.vertices);
+    for (Index vertices = 10'000;; vertices = std::min(10 * vertices, command.vertices)) {
         const PolygonMesh mesh = load(command, vertices);
         const CaseOptions options = options_for(command, mesh);
         results.push_back(run_table(command, mesh, options, out));
         list.push_back(case_json(name_of_mesh(command), command.time_step_edges, options, results.back()));
-        if (vertices > command.vertices / 10 && vertices == command.vertices)
+        if (vertices == command.vertices)
             break;
     }
     out << "  vertices  sub-meshes   step us/vertex  setup us/vertex     bytes/vertex\n";
