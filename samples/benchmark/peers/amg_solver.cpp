@@ -156,10 +156,10 @@ class AmgSolver final : public PeerSolver {
         HYPRE_ParCSRPCGSetPrecond(cg_, HYPRE_BoomerAMGSolve, HYPRE_BoomerAMGSetup, amg_);
     }
 
-    /// HMIS, extended+i interpolation, one aggressive level, symmetric Gauss-Seidel. Compared on 200,000 vertices, one step
-    /// to 1e-4 and 1e-8: without the aggressive level (Δ_F and Δ_A, dt/h² 5 and 50) 3 to 6 percent faster to 1e-8 on Δ_A
-    /// at 50, else 10 to 76 percent slower. PMIS and Falgout coarsening, 6 elements a row, thresholds 0.1 and 0.5, l1
-    /// symmetric and forward-backward Gauss-Seidel, l1 Jacobi, C-F order: each slower to 1e-4.
+    /// HMIS, extended+i interpolation, one aggressive level, symmetric Gauss-Seidel. Compared on 200,000 vertices, one
+    /// step to 1e-4 and 1e-8: without the aggressive level (Δ_F and Δ_A, dt/h² 5 and 50) 3 to 6 percent faster to 1e-8
+    /// on Δ_A at 50, else 10 to 76 percent slower. PMIS and Falgout coarsening, 6 elements a row, thresholds 0.1 and
+    /// 0.5, l1 symmetric and forward-backward Gauss-Seidel, l1 Jacobi, C-F order: each slower to 1e-4.
     void configure()
     {
         constexpr HYPRE_Int hmis = 10;
