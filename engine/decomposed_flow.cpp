@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
+#include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
-#include "engine/single_threaded_libraries.h"
 #include "engine/sub_mesh_options.h"
 #include "engine/sweep_order.h"
 #include "partition/decomposition/narrow_order.h"
@@ -22,24 +20,6 @@ namespace seamflow {
 namespace {
 
 namespace tbb = oneapi::tbb;
-
-/// Runs `body` for a sub-mesh, in one thread; failures come out with its name.
-template <class Body>
-void on_behalf_of(const SubMesh& sub_mesh, Index s, Body&& body)
-{
-    const auto name = [&] {
-        return "sub-mesh " + std::to_string(s) + " (" + std::to_string(sub_mesh.n_vertices) +
-               " vertices, among its faces number " + std::to_string(sub_mesh.faces.front()) + "): ";
-    };
-    const SingleThreadedOpenMp single_threaded;
-    try {
-        body();
-    } catch (const ComputationError& error) {
-        throw ComputationError(name() + error.what());
-    } catch (const std::bad_alloc&) {
-        throw ComputationError(name() + "out of memory: use more sub-meshes");
-    }
-}
 
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
@@ -58,8 +38,7 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
-    : workspaces_(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()))
-    , decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
     , positions_(mesh.vertices)
@@ -86,15 +65,14 @@ void DecomposedFlow::limit_factors(const FlowOptions& options)
     for (const SubMeshState& state : states_)
         largest = std::max(largest, state.system->factor_bytes());
     factors_.use_blocks_of(largest);
-    for (SolverWorkspace& workspace : workspaces_)
-        workspace.factors = &factors_;
+    workspaces_.use(factors_);
 
     window_.order = narrow_order(decomposition_.adjacency);
     Index least = 0;
     for (const SweepPlan& plan : plans_)
         least = std::max(least, least_window(plan, window_.order));
     const auto n = static_cast<Index>(states_.size());
-    window_.size = std::min(n, least + places_per_thread * static_cast<Index>(workspaces_.size()));
+    window_.size = std::min(n, least + places_per_thread * workspaces_.size());
     if (!options.memory_limit)
         return;
     const std::size_t places = *options.memory_limit / largest;
@@ -110,8 +88,9 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
     std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
     tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t s) {
         const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
-        on_behalf_of(sub_mesh, static_cast<Index>(s),
-                     [&] { made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspace()), mesh.vertices); });
+        on_behalf_of(sub_mesh, static_cast<Index>(s), [&] {
+            made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
+        });
         made[s]->p = robin_parameter(sub_mesh, made[s]->position, options);
     });
     states_.reserve(made.size());
@@ -123,7 +102,8 @@ template <class Body>
 TaskGraph::Node DecomposedFlow::add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority)
 {
     const auto node = graph_.add_task(
-        [this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s, workspace()); }); }, priority);
+        [this, s, body] { on_behalf_of(*states_[at(s)].sub_mesh, s, [&] { body(s, workspaces_.local()); }); },
+        priority);
     if (recorder_)
         recorder_->add_task(node, {phase, s, priority});
     return node;
@@ -229,12 +209,6 @@ void DecomposedFlow::step()
     join();
     if (recorder_)
         recorder_->end_step();
-}
-
-/// That of the calling thread.
-SolverWorkspace& DecomposedFlow::workspace()
-{
-    return workspaces_.at(static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
 }
 
 void DecomposedFlow::join()

@@ -12,6 +12,7 @@
 #include "engine/schedule_recorder.h"
 #include "engine/sub_mesh_state.h"
 #include "engine/task_graph.h"
+#include "engine/workspaces.h"
 #include "partition/cut/cut.h"
 #include "partition/decomposition/sweep_plan.h"
 #include "partition/topology.h"
@@ -66,12 +67,10 @@ class DecomposedFlow {
     void add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved);
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority);
-    SolverWorkspace& workspace();
     void join();
 
     FactorPool factors_;
-    /// One per slot of the arena.
-    std::vector<SolverWorkspace> workspaces_;
+    Workspaces workspaces_;
     Decomposition decomposition_;
     std::vector<SubMeshState> states_;
     /// Forward, and backward where the sweep alternates.

@@ -51,6 +51,19 @@ void require_valid_copies(const FlowOptions& options)
         throw OptionError("keep_gaps is for backward Euler steps; explicit ones are taken undecomposed, without gaps");
 }
 
+void require_valid_tolerance(const FlowOptions& options)
+{
+    require(options.converge_iterations >= 0, "converge_iterations", options.converge_iterations, "at least 0");
+    if (!options.tolerance)
+        return;
+    require(positive_and_finite(*options.tolerance) && *options.tolerance < 1.0, "tolerance", *options.tolerance,
+            "positive and below 1 (residual against that at the beginning of a step)");
+    if (options.laplacian == Laplacian::PtackovaVelho)
+        throw OptionError("tolerance is given, but only the Laplacians fujiwara and alexa-wardetzky can be converged");
+    if (options.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("tolerance is given, which leaves no room for other conditions or an explicit scheme");
+}
+
 bool has_tangential_derivative(Conditions conditions)
 {
     return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
@@ -91,6 +104,7 @@ void require_valid(const FlowOptions& options)
     if (options.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);
     require_valid_copies(options);
+    require_valid_tolerance(options);
     const auto negative =
         std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });
     if (negative != options.labels.end())

@@ -133,6 +133,11 @@ struct FlowOptions {
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
+    /// The undecomposed step itself, to this residual on Γ relative to that at the beginning of the step: for Δ_F and
+    /// Δ_A, in place of what `conditions` says.
+    std::optional<double> tolerance;
+    /// Most iterations of a step for that.
+    int converge_iterations = 1000;
     /// Most bytes that the factorisations of sub-meshes may take at once; empty: as few as keep all threads busy. What
     /// UMFPACK makes counts by its own estimate. Does not change the result.
     std::optional<std::size_t> memory_limit;

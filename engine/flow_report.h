@@ -22,6 +22,8 @@ struct PhaseSeconds {
     double factorise = 0.0;
     double solve = 0.0;
     double correct = 0.0;
+    /// The equation on Γ, with FlowOptions::tolerance: wall-clock time.
+    double interface = 0.0;
     /// All steps.
     double step = 0.0;
     /// The whole call, without the undecomposed flow that FlowOptions::reference asks for.
@@ -51,6 +53,9 @@ struct StepReport {
     /// With the classical conditions, how far the copies of Γ are apart after this step: over the vertices of Γ, the
     /// largest distance between two copies, in units of length.
     std::optional<LengthStatistics> gap;
+    /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
+    std::optional<int> iterations;
+    std::optional<double> residual;
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.

@@ -9,6 +9,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "engine/choose_subdomains.h"
+#include "engine/converged_flow.h"
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
 #include "engine/explicit_flow.h"
@@ -142,6 +143,8 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
     };
     if (options.scheme == Scheme::ExplicitEuler)
         run(ExplicitFlow(mesh, topology, options));
+    else if (options.tolerance)
+        run(ConvergedFlow(mesh, topology, cut, options));
     else
         run(DecomposedFlow(mesh, topology, cut, options, curvature));
 }

@@ -15,6 +15,12 @@ std::string_view name_of(Phase phase)
         return "solve";
     case Phase::Accept:
         return "accept";
+    case Phase::Eliminate:
+        return "eliminate";
+    case Phase::SolveInterface:
+        return "solve on the interface";
+    case Phase::FillIn:
+        return "fill in";
     }
     return "";
 }

@@ -8,21 +8,25 @@
 
 namespace seamflow {
 
-/// What a task does for its sub-mesh (see sub_mesh_state.h).
+/// What a task does for its sub-mesh (see sub_mesh_state.h; the last three: converged_flow.h).
 enum class Phase {
     AssembleAndFactorise,
     Predict,
     UsePredictions,
     Solve,
     Accept,
+    Eliminate,
+    SolveInterface,
+    FillIn,
 };
 
-/// "assemble and factorise", "predict", "use predictions", "solve" or "accept".
+/// In words: "assemble and factorise", "solve" and so on.
 std::string_view name_of(Phase phase);
 
 /// A task of the graph. It runs at most once in a step.
 struct ScheduledTask {
     Phase phase = Phase::Solve;
+    /// -1: of no one.
     Index sub_mesh = 0;
     TaskGraph::Priority priority = TaskGraph::Priority::Normal;
 };

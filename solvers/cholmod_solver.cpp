@@ -173,9 +173,23 @@ std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspac
     return needs_long(upper) ? order_by<LongInterface>(upper, workspace) : order_by<IntInterface>(upper, workspace);
 }
 
+std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last,
+                                     CholmodWorkspace& workspace)
+{
+    cholmod_common& common = workspace.state().common;
+    MatrixView<int> matrix(upper);
+    std::vector<int> groups(is_last.begin(), is_last.end());
+    std::vector<Index> order(is_last.size());
+    if (!order.empty())
+        cholmod_camd(matrix.pattern(), nullptr, 0, groups.data(), order.data(), &common);
+    require_ok(common, "analysis");
+    return order;
+}
+
 class CholmodSolver::Factor {
   public:
     virtual ~Factor() = default;
+    [[nodiscard]] virtual TriangularFactor view() const = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;
     virtual bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) = 0;
     virtual void solve(cholmod_dense& right_hand_side, CholmodWorkspace& workspace) = 0;
@@ -214,6 +228,12 @@ class RowFactor final : public CholmodSolver::Factor {
             offsets_.push_back(offsets_.back() + count);
         link_columns();
         describe(at(upper.n()));
+    }
+
+    [[nodiscard]] TriangularFactor view() const override
+    {
+        return {std::span(offsets_).first(counts_.size()), n_entries_, static_cast<const int*>(factor_.i),
+                static_cast<const double*>(factor_.x)};
     }
 
     [[nodiscard]] std::size_t bytes() const override { return at(offsets_.back()) * (sizeof(double) + sizeof(int)); }
@@ -327,6 +347,7 @@ class BlockFactor final : public CholmodSolver::Factor {
         Interface::free_factor(&factor_, &Interface::common(workspace));
     }
 
+    [[nodiscard]] TriangularFactor view() const override { return {}; }
     [[nodiscard]] std::size_t bytes() const override { return factor_->xsize * sizeof(double); }
 
     bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) override
@@ -359,9 +380,9 @@ class BlockFactor final : public CholmodSolver::Factor {
 
 }  // namespace
 
-CholmodSolver::CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace)
+CholmodSolver::CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace, FactorKind kind)
 {
-    if (upper.n() <= most_unknowns_for_rows)
+    if (kind == FactorKind::Rows || upper.n() <= most_unknowns_for_rows)
         factor_ = std::make_unique<RowFactor>(upper, workspace);
     else if (needs_long(upper))
         factor_ = std::make_unique<BlockFactor<LongInterface>>(upper, workspace);
@@ -395,6 +416,11 @@ Eigen::Map<const Columns> CholmodSolver::solve(Columns& right_hand_side, Cholmod
     dense.dtype = CHOLMOD_DOUBLE;
     factor_->solve(dense, workspace);
     return {static_cast<const double*>(workspace.state().solution->x), right_hand_side.rows(), 3};
+}
+
+TriangularFactor CholmodSolver::factor() const
+{
+    return factor_->view();
 }
 
 void CholmodSolver::free_factor(FactorMemory& memory)

@@ -18,6 +18,28 @@ namespace seamflow {
 /// @throws ComputationError if CHOLMOD fails (memory).
 std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspace& workspace);
 
+/// The same with some unknowns last.
+/// @param is_last one per unknown.
+std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last,
+                                     CholmodWorkspace& workspace);
+
+/// How a CholmodSolver factorises.
+enum class FactorKind {
+    /// Row by row or by dense blocks, whichever is faster for the size.
+    Fastest,
+    /// Row by row, so that the factor can be looked at.
+    Rows,
+};
+
+/// L and D of a factorisation LDLᵀ by columns, in the solver's memory.
+struct TriangularFactor {
+    /// n: where each column begins, and its number of entries: D, then those of L below the diagonal, rows ascending.
+    std::span<const int> offsets;
+    std::span<const int> counts;
+    const int* rows = nullptr;
+    const double* values = nullptr;
+};
+
 /// LDLᵀ factorisation of symmetric sparse matrices of one pattern by CHOLMOD, in the order in which the unknowns are:
 /// analysed once, factorised for each set of values, a factor used for any number of right-hand sides, three at a time.
 /// Small matrices are factorised row by row, large ones by dense blocks.
@@ -25,7 +47,7 @@ class CholmodSolver {
   public:
     /// @param upper the entries on and above the diagonal, the whole diagonal among them; must outlive the solver.
     /// @throws ComputationError if CHOLMOD fails (memory).
-    CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace);
+    CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace, FactorKind kind = FactorKind::Fastest);
     ~CholmodSolver();
     CholmodSolver(CholmodSolver&&) noexcept;
     CholmodSolver& operator=(CholmodSolver&&) noexcept;
@@ -44,6 +66,9 @@ class CholmodSolver {
     /// @returns n by 3, in the workspace: valid until that is used again.
     /// @throws ComputationError if CHOLMOD fails.
     [[nodiscard]] Eigen::Map<const Columns> solve(Columns& right_hand_side, CholmodWorkspace& workspace) const;
+
+    /// @pre there is a factor, and the solver is one of FactorKind::Rows.
+    [[nodiscard]] TriangularFactor factor() const;
 
     /// Gives the factor's memory back to where it was taken from.
     void free_factor(FactorMemory& memory);

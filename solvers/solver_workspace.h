@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "partition/polygon_mesh.h"
 #include "solvers/cholmod_workspace.h"
 #include "solvers/columns.h"
 #include "solvers/factor_memory.h"
@@ -19,6 +20,8 @@ struct SolverWorkspace {
     std::vector<double> diagonal;
     std::vector<double> mass;
     Columns right_hand_side;
+    /// #own by 3.
+    Points positions;
 };
 
 }  // namespace seamflow

@@ -72,8 +72,9 @@ Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
     return {{"read", number(run.read_seconds)},       {"cut", number(seconds.cut)},
             {"analyse", number(seconds.analyse)},     {"assemble", number(seconds.assemble)},
             {"factorise", number(seconds.factorise)}, {"solve", number(seconds.solve)},
-            {"correct", number(seconds.correct)},     {"step", number(seconds.step)},
-            {"total", number(seconds.total)},         {"write", number(run.write_seconds)}};
+            {"correct", number(seconds.correct)},     {"interface", number(seconds.interface)},
+            {"step", number(seconds.step)},           {"total", number(seconds.total)},
+            {"write", number(run.write_seconds)}};
 }
 
 Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
@@ -84,6 +85,10 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
                   {"max_mean_curvature_before", number(step.max_mean_curvature_before)},
                   {"max_mean_curvature_after", number(step.max_mean_curvature_after)}};
         add_displacement(json, step.displacement, mean_edge);
+        if (step.iterations)
+            json["iterations"] = *step.iterations;
+        if (step.residual)
+            json["residual"] = number(*step.residual);
         if (step.gap)
             add_statistics(json, "gap", *step.gap, mean_edge);
         if (step.distance)

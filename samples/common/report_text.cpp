@@ -90,6 +90,8 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 {
     out << "step " << step << " of " << steps << "  " << seconds(report.seconds) << "  largest mean curvature "
         << digits(report.max_mean_curvature_before) << " -> " << digits(report.max_mean_curvature_after);
+    if (report.iterations)
+        out << "  iterations " << *report.iterations << ", residual " << digits(report.residual.value_or(0.0), 2);
     if (report.gap) {
         const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
         out << "  gap mean " << digits(report.gap->mean / unit) << ", largest " << digits(report.gap->max / unit);

@@ -163,8 +163,10 @@ void write_tasks(TraceFile& file, const Schedule& schedule, const std::vector<In
         const ScheduledTask& task = schedule.tasks[at(record.task)];
         file.begin_slice(row_of(record), record.start, record.end, "task", name_of(task.phase), task.sub_mesh);
         file.argument("step", record.step, true);
-        file.argument("sub-mesh", task.sub_mesh);
-        file.argument("vertices", vertices[at(task.sub_mesh)]);
+        if (task.sub_mesh >= 0) {
+            file.argument("sub-mesh", task.sub_mesh);
+            file.argument("vertices", vertices[at(task.sub_mesh)]);
+        }
         file.end_slice();
     }
 }

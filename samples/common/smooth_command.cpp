@@ -87,6 +87,9 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                  "write the sub-meshes as they are, each with its own copy of the interface; for robin and ventcell");
     add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
                       "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
+    add_real(app, "--converge", options.tolerance, positive(),
+             "the undecomposed step itself, to this relative residual on the interface");
+    add_integer(app, "--converge-iterations", options.converge_iterations, 0, "most iterations for that [1000]");
     add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
 }

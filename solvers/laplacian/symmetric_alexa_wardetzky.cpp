@@ -12,15 +12,16 @@ namespace {
 class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
   public:
     explicit SymmetricAlexaWardetzky(const FacesOnBothSides& faces)
-        : faces_(faces)
+        : lists_{&faces.own}
     {
+        if (faces.contributions == Contributions::BothSides)
+            lists_.push_back(&faces.beyond);
     }
 
     [[nodiscard]] std::vector<VertexPair> pairs() const override
     {
         std::vector<VertexPair> pairs;
-        pairs.reserve(faces_.own.values.size() + faces_.beyond.values.size());
-        for (const IndexLists* faces : {&faces_.own, &faces_.beyond})
+        for (const IndexLists* faces : lists_)
             for (Index f = 0; f < faces->size(); ++f)
                 append_pairs((*faces)[f], pairs);
         return pairs;
@@ -32,7 +33,7 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
         const Index* slot = slots.data();
-        for (const IndexLists* faces : {&faces_.own, &faces_.beyond})
+        for (const IndexLists* faces : lists_)
             for (Index f = 0; f < faces->size(); ++f) {
                 const auto corners = (*faces)[f];
                 slot = corners.size() == 3 ? add_triangle(corners, positions, factor, slot, values, diagonal, mass)
@@ -91,7 +92,7 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
         return slot;
     }
 
-    FacesOnBothSides faces_;
+    std::vector<const IndexLists*> lists_;
     std::vector<Point> bisectors_;
 };
 

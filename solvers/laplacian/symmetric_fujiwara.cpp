@@ -18,43 +18,50 @@ void for_each_halfedge(const IndexLists& faces, Action&& action)
     }
 }
 
-/// Every edge once. Those along Γ belong to faces on both sides.
-std::vector<VertexPair> list_edges(const FacesOnBothSides& faces)
+/// The edges of own faces on the rim of the sub-mesh, and all edges of the faces beyond, each once.
+std::vector<VertexPair> list_outer_edges(const FacesOnBothSides& faces)
 {
     std::vector<VertexPair> edges;
-    edges.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
-    std::vector<VertexPair> on_rim;
-    const auto add_to_rim = [&](Index start, Index end) {
-        on_rim.push_back({std::min(start, end), std::max(start, end)});
-    };
+    const auto add = [&](Index start, Index end) { edges.push_back({std::min(start, end), std::max(start, end)}); };
+    for_each_halfedge(faces.own, [&](std::size_t h, Index start, Index end) {
+        if (faces.twin[h] < 0)
+            add(start, end);
+    });
+    for_each_halfedge(faces.beyond, [&](std::size_t, Index start, Index end) { add(start, end); });
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+/// The edges between two own faces, or those on the rim, each once.
+void append_own_edges(const FacesOnBothSides& faces, bool on_rim, std::vector<VertexPair>& edges)
+{
     for_each_halfedge(faces.own, [&](std::size_t h, Index start, Index end) {
         const Index twin = faces.twin[h];
-        if (twin < 0)
-            add_to_rim(start, end);
-        else if (h < at(twin))
+        if ((twin < 0) == on_rim && (twin < 0 || h < at(twin)))
             edges.push_back({start, end});
     });
-    for_each_halfedge(faces.beyond, [&](std::size_t, Index start, Index end) { add_to_rim(start, end); });
-    std::sort(on_rim.begin(), on_rim.end());
-    on_rim.erase(std::unique(on_rim.begin(), on_rim.end()), on_rim.end());
-    edges.insert(edges.end(), on_rim.begin(), on_rim.end());
-    edges.shrink_to_fit();
-    return edges;
 }
 
 /// K has -1/‖e‖ for each edge, M_v the mean length of the edges at v.
 class SymmetricFujiwara final : public SymmetricLaplacian {
   public:
     explicit SymmetricFujiwara(const FacesOnBothSides& faces)
-        : edges_(list_edges(faces))
-        , inverse_degree_(at(faces.n_vertices), 0.0)
+        : inverse_degree_(at(faces.n_vertices), 0.0)
     {
-        for (const VertexPair& e : edges_) {
-            inverse_degree_[at(e.first)] += 1.0;
-            inverse_degree_[at(e.second)] += 1.0;
-        }
+        edges_.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
+        append_own_edges(faces, false, edges_);
+        const std::vector<VertexPair> outer = list_outer_edges(faces);
+        count_edges(edges_);
+        count_edges(outer);
         for (double& degree : inverse_degree_)
             degree = degree > 0.0 ? 1.0 / degree : 0.0;
+        if (faces.contributions == Contributions::BothSides)
+            edges_.insert(edges_.end(), outer.begin(), outer.end());
+        n_whole_ = edges_.size();
+        if (faces.contributions == Contributions::OwnFaces)
+            append_own_edges(faces, true, edges_);
+        edges_.shrink_to_fit();
     }
 
     [[nodiscard]] std::vector<VertexPair> pairs() const override { return edges_; }
@@ -64,22 +71,36 @@ class SymmetricFujiwara final : public SymmetricLaplacian {
     {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
-            const auto [start, end] = edges_[i];
-            const double length = (positions.row(end) - positions.row(start)).norm();
-            const double weight = factor / length;
-            values[at(slots[i])] -= weight;
-            diagonal[at(start)] += weight;
-            diagonal[at(end)] += weight;
-            mass[at(start)] += length;
-            mass[at(end)] += length;
-        }
+        const auto add = [&](std::size_t begin, std::size_t end, double share) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const VertexPair& e = edges_[i];
+                const double length = (positions.row(e.second) - positions.row(e.first)).norm();
+                const double weight = share * factor / length;
+                values[at(slots[i])] -= weight;
+                diagonal[at(e.first)] += weight;
+                diagonal[at(e.second)] += weight;
+                mass[at(e.first)] += share * length;
+                mass[at(e.second)] += share * length;
+            }
+        };
+        add(0, n_whole_, 1.0);
+        add(n_whole_, edges_.size(), 0.5);
         for (std::size_t v = 0; v < inverse_degree_.size(); ++v)
             mass[v] *= inverse_degree_[v];
     }
 
   private:
+    void count_edges(const std::vector<VertexPair>& edges)
+    {
+        for (const VertexPair& e : edges) {
+            inverse_degree_[at(e.first)] += 1.0;
+            inverse_degree_[at(e.second)] += 1.0;
+        }
+    }
+
+    /// First those that count whole, then those of which half counts.
     std::vector<VertexPair> edges_;
+    std::size_t n_whole_ = 0;
     /// Per vertex: 1 / number of edges.
     std::vector<double> inverse_degree_;
 };

@@ -29,12 +29,19 @@ class SymmetricLaplacian {
     [[nodiscard]] virtual std::vector<VertexPair> pairs() const = 0;
 
     /// values[slots[i]] += factor · (contribution to the i-th of `pairs`), diagonal[v] = factor · K_vv, mass[v] = M_v.
-    /// Right at those vertices all of whose faces are there.
     /// @param positions at least #V by 3.
     /// @param slots one place per pair. Pairs that are not wanted all point to one place that nobody reads.
     /// @param diagonal, mass #V.
     virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
                           std::span<double> values, std::span<double> diagonal, std::span<double> mass) = 0;
+};
+
+/// Whose contributions a SymmetricLaplacian adds up.
+enum class Contributions {
+    /// Those of the faces on both sides of Γ: right at all vertices of the sub-mesh.
+    BothSides,
+    /// Those of the own faces, half of an edge on Γ being either side's: over all sub-meshes they add up to the whole.
+    OwnFaces,
 };
 
 /// Faces of a sub-mesh, and those beyond its Γ.
@@ -45,6 +52,7 @@ struct FacesOnBothSides {
     std::span<const Index> twin;
     /// Of all vertices.
     Index n_vertices;
+    Contributions contributions = Contributions::BothSides;
 };
 
 /// Whether a Laplacian is M⁻¹ K.

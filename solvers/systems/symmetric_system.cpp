@@ -6,32 +6,9 @@
 #include "partition/errors.h"
 #include "solvers/conditions/remainder.h"
 #include "solvers/systems/messages.h"
+#include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
-
-namespace {
-
-MatrixEntry upper_entry(Index a, Index b)
-{
-    return {std::max(a, b), std::min(a, b)};
-}
-
-/// The upper triangle of a symmetric matrix, its diagonal included.
-SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n)
-{
-    std::vector<MatrixEntry> entries;
-    entries.reserve(pairs.size() + at(n));
-    for (const auto [a, b] : pairs) {
-        const auto n_own = static_cast<Index>(unknown_of.size());
-        if (a < n_own && b < n_own && unknown_of[at(a)] >= 0 && unknown_of[at(b)] >= 0)
-            entries.push_back(upper_entry(unknown_of[at(a)], unknown_of[at(b)]));
-    }
-    for (Index u = 0; u < n; ++u)
-        entries.push_back({u, u});
-    return make_pattern(n, entries);
-}
-
-}  // namespace
 
 SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows,
                                  SolverWorkspace& workspace)
@@ -226,7 +203,7 @@ void SymmetricSystem::factorise(SolverWorkspace& workspace)
         return;
     stop_yielding(values);
     if (!solver_->factorise(values, *workspace.factors, workspace.cholmod))
-        throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
+        throw ComputationError(system_singular);
 }
 
 /// Without yielding, all rows are those of M + dt K, which is positive definite.

@@ -1,0 +1,168 @@
+#include "engine/converged_flow.h"
+
+#include <algorithm>
+#include <string>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "engine/on_behalf_of.h"
+#include "engine/parallel_loop.h"
+#include "engine/stopwatch.h"
+
+namespace seamflow {
+
+ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                             const FlowOptions& options)
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
+    , systems_(decomposition_.sub_meshes.size())
+    , equation_(decomposition_)
+    , stop_{options.tolerance.value(), options.converge_iterations}
+    , time_step_(options.time_step)
+    , positions_(mesh.vertices)
+    , next_(mesh.vertices)
+    , interface_(equation_.size(), 3)
+    , condensed_(equation_.n_copies(), 3)
+    , eliminated_(decomposition_.sub_meshes.size())
+    , seconds_(decomposition_.sub_meshes.size())
+    , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
+    , graph_(recorder_.get())
+{
+    make_systems(options.laplacian);
+    make_graph();
+}
+
+void ConvergedFlow::make_systems(Laplacian laplacian)
+{
+    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(systems_.size()), [&](Index s) {
+        const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+        on_behalf_of(sub_mesh, s, [&] {
+            systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, laplacian, workspaces_.local());
+        });
+    });
+    std::size_t largest = 1;
+    for (const auto& system : systems_) {
+        system_views_.push_back(system.get());
+        largest = std::max(largest, system->factor_bytes());
+    }
+    factors_.use_blocks_of(largest);
+    workspaces_.use(factors_);
+}
+
+template <class Body>
+TaskGraph::Node ConvergedFlow::add_task(Phase phase, Index s, Body body)
+{
+    const auto node = graph_.add_task(body, TaskGraph::Priority::Normal);
+    if (recorder_)
+        recorder_->add_task(node, {phase, s, TaskGraph::Priority::Normal});
+    return node;
+}
+
+void ConvergedFlow::make_graph()
+{
+    root_ = graph_.add_root();
+    const auto solved = add_task(Phase::SolveInterface, -1, [this] { solve_interface(); });
+    graph_.add_dependency(root_, solved);
+    for (Index s = 0; s < static_cast<Index>(systems_.size()); ++s) {
+        const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+        const auto eliminated =
+            add_task(Phase::Eliminate, s, [this, s, &sub_mesh] { on_behalf_of(sub_mesh, s, [&] { eliminate(s); }); });
+        const auto filled =
+            add_task(Phase::FillIn, s, [this, s, &sub_mesh] { on_behalf_of(sub_mesh, s, [&] { fill_in(s); }); });
+        graph_.add_dependency(root_, eliminated);
+        graph_.add_dependency(eliminated, solved);
+        graph_.add_dependency(solved, filled);
+    }
+}
+
+void ConvergedFlow::step()
+{
+    if (recorder_)
+        recorder_->begin_step();
+    graph_.run(root_);
+    positions_.swap(next_);
+    if (recorder_)
+        recorder_->end_step();
+}
+
+void ConvergedFlow::eliminate(Index s)
+{
+    Stopwatch watch;
+    SolverWorkspace& workspace = workspaces_.local();
+    NeumannSystem& system = *systems_[at(s)];
+    const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+    workspace.positions.resize(sub_mesh.n_vertices, 3);
+    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+        workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
+    system.assemble(workspace.positions, time_step_, workspace);
+    seconds_[at(s)].assemble += watch.lap();
+    system.factorise(workspace);
+    seconds_[at(s)].factorise += watch.lap();
+    const Index first = equation_.first_copy(s);
+    system.condense(workspace.positions, eliminated_[at(s)], condensed_.middleRows(first, system.n_interface()));
+    const auto& interface = sub_mesh.interface;
+    for (Index i = 0; i < interface.size(); ++i)
+        if (interface.sharing[i].front() == s)
+            interface_.row(equation_.vertex_of_copy(first + i)) = workspace.positions.row(interface.vertices[at(i)]);
+    seconds_[at(s)].solve += watch.lap();
+}
+
+void ConvergedFlow::solve_interface()
+{
+    const Stopwatch watch;
+    result_ = equation_.solve(system_views_, condensed_, stop_, interface_, run_in_parallel);
+    if (!(result_.residual <= stop_.tolerance))
+        ++steps_short_of_tolerance_;
+    interface_seconds_ += watch.seconds();
+}
+
+void ConvergedFlow::fill_in(Index s)
+{
+    Stopwatch watch;
+    NeumannSystem& system = *systems_[at(s)];
+    Points& solution = eliminated_[at(s)];
+    for (Index i = 0; i < system.n_interface(); ++i)
+        solution.row(solution.rows() - system.n_interface() + i) =
+            interface_.row(equation_.vertex_of_copy(equation_.first_copy(s) + i));
+    system.fill_in(solution, workspaces_.local());
+    const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+    const std::vector<Index>& vertices = system.unknowns();
+    for (std::size_t u = 0; u < vertices.size(); ++u)
+        if (sub_mesh.owned[at(vertices[u])] != 0)
+            next_.row(sub_mesh.local_to_global[at(vertices[u])]) = solution.row(static_cast<Eigen::Index>(u));
+    seconds_[at(s)].solve += watch.lap();
+}
+
+void ConvergedFlow::describe(StepReport& report) const
+{
+    report.iterations = result_.iterations;
+    report.residual = result_.residual;
+}
+
+void ConvergedFlow::describe(FlowReport& report) const
+{
+    report.subdomains = static_cast<Index>(systems_.size());
+    report.colors = systems_.empty() ? 0 : 1;
+    report.interface_vertices = decomposition_.n_interface_vertices;
+    report.subdomain_colors.assign(systems_.size(), 0);
+    report.p.assign(systems_.size(), 0.0);
+    report.live_factors = report.subdomains;
+    report.factor_memory_bytes = factors_.bytes();
+    for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
+        report.subdomain_faces.push_back(static_cast<Index>(sub_mesh.faces.size()));
+        report.subdomain_vertices.push_back(sub_mesh.n_vertices);
+    }
+    for (const PhaseSeconds& seconds : seconds_) {
+        report.seconds.assemble += seconds.assemble;
+        report.seconds.factorise += seconds.factorise;
+        report.seconds.solve += seconds.solve;
+    }
+    report.seconds.interface = interface_seconds_;
+    if (steps_short_of_tolerance_ > 0)
+        report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
+                                 (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +
+                                 std::to_string(stop_.iterations) + " iterations at most.");
+    if (recorder_)
+        report.schedule = recorder_->schedule();
+}
+
+}  // namespace seamflow

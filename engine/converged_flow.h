@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/factor_pool.h"
+#include "engine/flow_options.h"
+#include "engine/flow_report.h"
+#include "engine/schedule_recorder.h"
+#include "engine/task_graph.h"
+#include "engine/workspaces.h"
+#include "partition/cut/cut.h"
+#include "partition/topology.h"
+#include "solvers/interface/interface_equation.h"
+
+namespace seamflow {
+
+/// A mesh flowing by the undecomposed backward Euler steps themselves, taken in pieces, for Δ_F and Δ_A: every sub-mesh
+/// eliminates its interior, what remains is an equation on Γ, and then the interiors are filled in. One task graph, run
+/// once per step:
+///
+///     eliminate (each sub-mesh) ──► solve on Γ (see InterfaceEquation) ──► fill in (each sub-mesh)
+///
+/// Belongs to the arena in which it is constructed.
+class ConvergedFlow {
+  public:
+    /// @param mesh, topology must outlive the flow.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails.
+    ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options);
+
+    /// One step. After an exception the positions are those before the step, and the flow is at its end.
+    /// @throws ComputationError naming the sub-mesh.
+    void step();
+
+    /// #V by 3, after the last complete step.
+    [[nodiscard]] const Points& positions() const { return positions_; }
+
+    /// There are no gaps to keep.
+    [[nodiscard]] static const PolygonMesh* pieces() { return nullptr; }
+
+    /// Fills in what the flow knows of its last step.
+    void describe(StepReport& report) const;
+
+    /// Fills in what the flow knows of itself.
+    void describe(FlowReport& report) const;
+
+  private:
+    void make_systems(Laplacian laplacian);
+    void make_graph();
+    template <class Body>
+    TaskGraph::Node add_task(Phase phase, Index s, Body body);
+    void eliminate(Index s);
+    void solve_interface();
+    void fill_in(Index s);
+
+    Decomposition decomposition_;
+    FactorPool factors_;
+    Workspaces workspaces_;
+    std::vector<std::unique_ptr<NeumannSystem>> systems_;
+    std::vector<const NeumannSystem*> system_views_;
+    InterfaceEquation equation_;
+    InterfaceStop stop_;
+    InterfaceResult result_;
+    double time_step_;
+    Points positions_;
+    /// Vᵏ⁺¹, #V by 3: complete at the end of a step.
+    Points next_;
+    /// On Γ: Vᵏ, then Vᵏ⁺¹.
+    Points interface_;
+    /// What each sub-mesh has of the right-hand side on Γ.
+    Points condensed_;
+    /// Per sub-mesh, what its elimination leaves of the interior.
+    std::vector<Points> eliminated_;
+    /// Per sub-mesh.
+    std::vector<PhaseSeconds> seconds_;
+    double interface_seconds_ = 0.0;
+    /// Where the tolerance was missed.
+    int steps_short_of_tolerance_ = 0;
+    /// nullptr: the schedule is not recorded.
+    std::unique_ptr<ScheduleRecorder> recorder_;
+    TaskGraph graph_;
+    TaskGraph::Node root_ = -1;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solvers/cholmod_solver.h"
+
+namespace seamflow {
+
+/// Three columns of single-precision numbers, one after the other.
+struct FloatColumns {
+    float* x;
+    float* y;
+    float* z;
+};
+
+/// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹.
+class DenseFactor {
+  public:
+    /// Takes the last n columns of a factorisation, which must be the last block of a larger one.
+    void take_last(const TriangularFactor& factor, Index n);
+
+    [[nodiscard]] Index n() const { return n_; }
+
+    /// v becomes S v; n numbers per column.
+    void multiply(FloatColumns v) const;
+
+    /// v becomes S⁻¹ v.
+    void solve(FloatColumns v) const;
+
+    [[nodiscard]] std::size_t bytes() const { return (values_.capacity() + diagonal_.capacity()) * sizeof(float); }
+
+  private:
+    Index n_ = 0;
+    /// n by n by columns: below the diagonal L, above it Lᵀ, so that a column of either is contiguous.
+    std::vector<float> values_;
+    /// D, and its inverses.
+    std::vector<float> diagonal_;
+    std::vector<float> inverse_;
+};
+
+}  // namespace seamflow

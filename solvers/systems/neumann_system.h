@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "partition/decomposition/sub_mesh.h"
+#include "solvers/cholmod_solver.h"
+#include "solvers/interface/dense_factor.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
+#include "solvers/solver_workspace.h"
+
+namespace seamflow {
+
+/// A sub-mesh's share A = M + dt K of the whole backward Euler system, assembled from its own faces alone: summed over
+/// the sub-meshes, the shares are the whole. Factorised once with Γ last, A = L D Lᵀ solves the interior with Γ given,
+/// and its last block is the sub-mesh's Schur complement on Γ, S = L_Γ D_Γ L_Γᵀ.
+/// For Δ_F and Δ_A.
+class NeumannSystem {
+  public:
+    /// @param sub_mesh must outlive the system; without overlap.
+    /// @throws ComputationError if the analysis fails.
+    NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian, SolverWorkspace& workspace);
+
+    /// Number of vertices on Γ.
+    [[nodiscard]] Index n_interface() const { return sub_mesh_->interface.size(); }
+
+    /// Fills in A.
+    /// @param positions at least #own by 3: Vᵏ.
+    /// @param time_step dt, in length².
+    void assemble(const Points& positions, double time_step, SolverWorkspace& workspace);
+
+    /// To be called after `assemble`, with the same workspace.
+    /// @throws ComputationError if the equations are singular or not finite.
+    void factorise(SolverWorkspace& workspace);
+
+    /// Eliminates the interior.
+    /// @param eliminated #unknowns by 3: receives what fill_in needs of it.
+    /// @param condensed n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
+    void condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed) const;
+
+    /// The Schur complement on Γ.
+    [[nodiscard]] const DenseFactor& schur() const { return schur_; }
+
+    /// result -= S x in double precision, straight from the factor.
+    /// @param x, result n_interface() by 3.
+    void subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const;
+
+    /// Solves for the interior with Γ given, and gives the factor's memory back.
+    /// @param solution #unknowns by 3. In: what condense left, and Vᵏ⁺¹ on Γ, whose rows are the last. Out: Vᵏ⁺¹.
+    /// @throws ComputationError if the result is not finite.
+    void fill_in(Points& solution, SolverWorkspace& workspace);
+
+    /// The own vertices that may move, in the order of the solution's rows.
+    [[nodiscard]] const std::vector<Index>& unknowns() const { return vertex_of_; }
+
+    /// What the factor takes, in bytes, its copy on Γ aside.
+    [[nodiscard]] std::size_t factor_bytes() const { return solver_->factor_bytes(); }
+
+  private:
+    /// A coefficient of an unknown's row at a vertex that is fixed.
+    struct Coupling {
+        Index unknown;
+        Index vertex;
+        double value;
+    };
+
+    void number_unknowns(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace);
+    void place_pairs(const std::vector<VertexPair>& pairs);
+    [[nodiscard]] Index n_interior() const { return static_cast<Index>(vertex_of_.size()) - n_interface(); }
+
+    const SubMesh* sub_mesh_;
+    std::unique_ptr<SymmetricLaplacian> laplacian_;
+    /// In the order of elimination, Γ last and in its own order; and per own vertex, or -1.
+    std::vector<Index> vertex_of_;
+    std::vector<Index> unknown_of_;
+    SparsePattern upper_;
+    std::unique_ptr<CholmodSolver> solver_;
+    /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then one that nobody reads.
+    std::vector<Index> slots_;
+    std::vector<Index> diagonal_slots_;
+    std::vector<Coupling> fixed_;
+    /// Per unknown.
+    std::vector<double> mass_;
+    DenseFactor schur_;
+};
+
+}  // namespace seamflow

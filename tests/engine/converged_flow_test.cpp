@@ -1,0 +1,121 @@
+#include <array>
+#include <cstring>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::flowed;
+
+namespace {
+
+constexpr std::array symmetric{Laplacian::Fujiwara, Laplacian::AlexaWardetzky};
+
+FlowOptions converged(Laplacian laplacian, Index subdomains, double tolerance = 1e-11)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = 0.002;
+    options.steps = 3;
+    options.subdomains = subdomains;
+    options.tolerance = tolerance;
+    return options;
+}
+
+std::vector<PolygonMesh> meshes()
+{
+    return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900), make_noisy_sphere(900)};
+}
+
+}  // namespace
+
+TEST_CASE("converged, the flow in many sub-meshes is the undecomposed flow")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const Laplacian laplacian : symmetric) {
+            CAPTURE(name_of(laplacian));
+            FlowOptions undecomposed = converged(laplacian, 1);
+            undecomposed.tolerance.reset();
+            const Points expected = flowed(mesh, undecomposed);
+            for (const Index subdomains : {1, 2, 7, 30}) {
+                CAPTURE(subdomains);
+                PolygonMesh moved = mesh;
+                const FlowReport report = mean_curvature_flow(moved, converged(laplacian, subdomains));
+                CHECK(test::largest_difference(moved.vertices, expected) < 1e-9);
+                for (const StepReport& step : report.steps) {
+                    CHECK(step.residual.value() <= 1e-11);
+                    CHECK(step.iterations.value() < 60);
+                }
+            }
+        }
+}
+
+TEST_CASE("the tighter the tolerance the nearer, and iterations that run out are said")
+{
+    const PolygonMesh mesh = make_triangles(2000);
+    FlowOptions undecomposed = converged(Laplacian::Fujiwara, 1);
+    undecomposed.tolerance.reset();
+    const Points expected = flowed(mesh, undecomposed);
+    double before = 1.0;
+    for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9}) {
+        const double distance =
+            test::largest_difference(flowed(mesh, converged(Laplacian::Fujiwara, 12, tolerance)), expected);
+        CHECK(distance < 0.2 * before);
+        before = distance;
+    }
+    PolygonMesh moved = mesh;
+    FlowOptions few = converged(Laplacian::Fujiwara, 12, 1e-9);
+    few.converge_iterations = 2;
+    const FlowReport report = mean_curvature_flow(moved, few);
+    CHECK(report.steps.back().iterations == 2);
+    CHECK(report.steps.back().residual > 1e-9);
+    REQUIRE_FALSE(report.remarks.empty());
+    CHECK(report.remarks.back().find("not reached in 3 steps") != std::string::npos);
+}
+
+TEST_CASE("converged steps give the same bits for every number of threads")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Laplacian laplacian : symmetric) {
+        FlowOptions options = converged(laplacian, 24, 1e-8);
+        options.threads = 1;
+        const Points expected = flowed(mesh, options);
+        for (options.threads = 2; options.threads <= 5; ++options.threads) {
+            CAPTURE(options.threads);
+            const Points found = flowed(mesh, options);
+            CHECK(std::memcmp(found.data(), expected.data(), static_cast<std::size_t>(found.size()) * sizeof(double)) ==
+                  0);
+        }
+    }
+}
+
+TEST_CASE("the boundary keeps its bits, a flat mesh stays flat, and one with nothing to move as it is")
+{
+    PolygonMesh mesh = make_quads(900);
+    mesh.vertices.col(2).setZero();
+    CHECK(flowed(mesh, converged(Laplacian::Fujiwara, 6)).col(2).cwiseAbs().maxCoeff() == 0.0);
+    PolygonMesh triangle;
+    triangle.vertices.resize(3, 3);
+    triangle.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+    triangle.add_face(std::array<Index, 3>{0, 1, 2});
+    CHECK(flowed(triangle, converged(Laplacian::AlexaWardetzky, 1)) == triangle.vertices);
+}
+
+TEST_CASE("what cannot be converged is refused")
+{
+    PolygonMesh mesh = make_quads(100);
+    for (const double tolerance : {0.0, -1.0, 1.0, std::numeric_limits<double>::quiet_NaN()})
+        CHECK_THROWS_AS(mean_curvature_flow(mesh, converged(Laplacian::Fujiwara, 2, tolerance)), OptionError);
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, converged(Laplacian::PtackovaVelho, 2)), OptionError);
+    FlowOptions options = converged(Laplacian::Fujiwara, 2);
+    options.conditions = Conditions::Schwarz;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = converged(Laplacian::Fujiwara, 2);
+    options.converge_iterations = -1;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+}

@@ -1,0 +1,75 @@
+#include <map>
+
+#include <Eigen/LU>
+#include <doctest/doctest.h>
+
+#include "solvers/systems/neumann_system.h"
+#include "tests/support/cut_meshes.h"
+#include "tests/support/flows.h"
+#include "tests/support/matrices.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+constexpr double time_step = 0.02;
+constexpr std::array symmetric{Laplacian::Fujiwara, Laplacian::AlexaWardetzky};
+
+/// The whole step, dense.
+Points undecomposed_step(const CutMesh& cut, Laplacian laplacian)
+{
+    const Topology topology = make_topology(cut.mesh);
+    Eigen::MatrixXd A = time_step * dense_laplacian(laplacian, cut.mesh, topology);
+    for (Index v = 0; v < cut.mesh.n_vertices(); ++v)
+        if (topology.kind[at(v)] != VertexKind::Interior)
+            A.row(v).setZero();
+    A += Eigen::MatrixXd::Identity(A.rows(), A.cols());
+    return A.partialPivLu().solve(cut.mesh.vertices);
+}
+
+}  // namespace
+
+TEST_CASE("the whole step satisfies the sum of the sub-meshes' equations on Γ, and fills their interiors")
+{
+    SolverWorkspace workspace;
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = test::decompose(cut);
+        for (const Laplacian laplacian : symmetric) {
+            CAPTURE(name_of(laplacian));
+            const Points expected = undecomposed_step(cut, laplacian);
+            const double size = cut.mesh.vertices.cwiseAbs().maxCoeff();
+            std::map<Index, Point> residuals;
+            double largest = 0.0;
+            for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+                NeumannSystem system(sub_mesh, laplacian, workspace);
+                const Points positions = localised(sub_mesh, cut.mesh.vertices);
+                const Points solved = localised(sub_mesh, expected);
+                system.assemble(positions, time_step, workspace);
+                system.factorise(workspace);
+                Points eliminated;
+                Points share(system.n_interface(), 3);
+                system.condense(positions, eliminated, share);
+                Points on_interface(system.n_interface(), 3);
+                for (Index i = 0; i < system.n_interface(); ++i)
+                    on_interface.row(i) = solved.row(sub_mesh.interface.vertices[at(i)]);
+                largest = std::max(largest, share.size() > 0 ? share.cwiseAbs().maxCoeff() : 0.0);
+                system.subtract_schur(on_interface, share);
+                for (Index i = 0; i < system.n_interface(); ++i) {
+                    const Index v = sub_mesh.local_to_global[at(sub_mesh.interface.vertices[at(i)])];
+                    residuals.try_emplace(v, Point::Zero()).first->second += share.row(i);
+                }
+                eliminated.bottomRows(system.n_interface()) = on_interface;
+                system.fill_in(eliminated, workspace);
+                REQUIRE(eliminated.rows() == static_cast<Eigen::Index>(system.unknowns().size()));
+                for (std::size_t u = 0; u < system.unknowns().size(); ++u)
+                    CHECK((eliminated.row(static_cast<Eigen::Index>(u)) - solved.row(system.unknowns()[u])).norm() <
+                          1e-9 * size);
+            }
+            CHECK(static_cast<Index>(residuals.size()) == decomposition.n_interface_vertices);
+            for (const auto& [v, residual] : residuals)
+                CHECK(residual.norm() < 1e-9 * largest);
+        }
+    }
+}
