@@ -11,10 +11,6 @@ namespace seamflow {
 
 namespace {
 
-/// Factorising and solving costs least per vertex in blocks of this size or less; smaller ones have more interface for
-/// no gain.
-constexpr double vertices_per_sub_mesh = 2'500.0;
-
 double total_area(const PolygonMesh& mesh)
 {
     return sum(run_in_parallel, mesh.n_faces(), [&](Index f) { return area(mesh.face(f), mesh.vertices); });
@@ -22,19 +18,20 @@ double total_area(const PolygonMesh& mesh)
 
 }  // namespace
 
-SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step)
+SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step, const SubdomainNeeds& needs)
 {
-    const double width = good_width_in_diffusion_lengths * std::sqrt(time_step);
+    const double width = needs.width * std::sqrt(time_step);
     const double most_by_width = std::floor(total_area(mesh) / (width * width));
-    const double most_by_cost = std::floor(mesh.n_vertices() / vertices_per_sub_mesh);
+    const double most_by_cost = std::floor(mesh.n_vertices() / static_cast<double>(needs.vertices));
     SubdomainChoice choice;
     choice.count = static_cast<Index>(std::max(1.0, std::min(most_by_width, most_by_cost)));
-    const std::string number = std::to_string(choice.count) + (choice.count == 1 ? " sub-mesh" : " sub-meshes");
+    choice.reason = std::to_string(choice.count) + (choice.count == 1 ? " sub-mesh" : " sub-meshes") + " chosen: ";
+    const std::string least_width = std::to_string(static_cast<int>(needs.width)) + " √dt";
     if (most_by_width < most_by_cost)
-        choice.reason =
-            number + " chosen: more would be narrower than 10 √dt, where the result drifts from the undecomposed flow";
+        choice.reason += "more would be narrower than " + least_width;
     else
-        choice.reason = number + " chosen: blocks of about 2,500 vertices are cheap, and wide enough against √dt";
+        choice.reason +=
+            "blocks of about " + std::to_string(needs.vertices) + " vertices are cheap, and wide enough against √dt";
     return choice;
 }
 

@@ -6,8 +6,17 @@
 
 namespace seamflow {
 
-/// Sub-meshes narrower than this many √dt let the decomposed flow drift away from the undecomposed one.
-inline constexpr double good_width_in_diffusion_lengths = 10.0;
+/// What sub-meshes have to be like for a kind of step.
+struct SubdomainNeeds {
+    /// Factorising and solving costs least per vertex in sub-meshes of about this size.
+    Index vertices;
+    /// In √dt: below that the flow drifts away from the undecomposed one, or converged steps take more and more
+    /// iterations.
+    double width;
+};
+
+inline constexpr SubdomainNeeds needs_of_sweeps{2'500, 10.0};
+inline constexpr SubdomainNeeds needs_of_converged_steps{400, 2.0};
 
 /// A number of sub-meshes and the reason for it.
 struct SubdomainChoice {
@@ -15,9 +24,8 @@ struct SubdomainChoice {
     std::string reason;
 };
 
-/// Sub-meshes of a few thousand vertices, which cost least per vertex, but on average no narrower than
-/// good_width_in_diffusion_lengths · √dt.
-SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step);
+/// Sub-meshes of the size that costs least, but on average no narrower than they need to be.
+SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step, const SubdomainNeeds& needs);
 
 /// Average width of k sub-meshes, the square root of their average area, in √dt.
 double width_in_diffusion_lengths(const PolygonMesh& mesh, Index k, double time_step);

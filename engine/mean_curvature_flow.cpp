@@ -42,7 +42,8 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
         return cut_by_labels(mesh, topology, options.labels, run_in_parallel);
     if (options.subdomains > 0)
         return cut_into(mesh, topology, options.subdomains, run_in_parallel);
-    const SubdomainChoice choice = choose_subdomains(mesh, options.time_step);
+    const SubdomainChoice choice =
+        choose_subdomains(mesh, options.time_step, options.tolerance ? needs_of_converged_steps : needs_of_sweeps);
     Cut cut = cut_into(mesh, topology, choice.count, run_in_parallel);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
@@ -61,9 +62,9 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
     if (report.non_manifold_vertices > 0)
         report.remarks.push_back(std::to_string(report.non_manifold_vertices) +
                                  " vertices are held fixed because the mesh is not manifold there.");
-    if (cut.n_parts > 1 && options.steps > 0) {
+    if (cut.n_parts > 1 && options.steps > 0 && !options.tolerance) {
         const double width = width_in_diffusion_lengths(mesh, cut.n_parts, options.time_step);
-        if (width < good_width_in_diffusion_lengths)
+        if (width < needs_of_sweeps.width)
             report.remarks.push_back("The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
                                      " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
                                      "use fewer sub-meshes.");

@@ -10,22 +10,31 @@ using namespace seamflow;
 
 TEST_CASE("small meshes and large time steps are not cut")
 {
-    CHECK(choose_subdomains(make_quads(1000), 1e-8).count == 1);
-    CHECK(choose_subdomains(make_quads(20000), 1.0).count == 1);
-    CHECK(choose_subdomains(PolygonMesh{}, 1.0).count == 1);
+    CHECK(choose_subdomains(make_quads(1000), 1e-8, needs_of_sweeps).count == 1);
+    CHECK(choose_subdomains(make_quads(20000), 1.0, needs_of_sweeps).count == 1);
+    CHECK(choose_subdomains(PolygonMesh{}, 1.0, needs_of_sweeps).count == 1);
 }
 
 TEST_CASE("sub-meshes get a few thousand vertices each, but are no narrower than 10 √dt")
 {
     const PolygonMesh mesh = make_quads(50000);
-    const SubdomainChoice by_cost = choose_subdomains(mesh, 1e-8);
+    const SubdomainChoice by_cost = choose_subdomains(mesh, 1e-8, needs_of_sweeps);
     CHECK(by_cost.count == mesh.n_vertices() / 2500);
-    const SubdomainChoice by_width = choose_subdomains(mesh, 1e-3);
+    const SubdomainChoice by_width = choose_subdomains(mesh, 1e-3, needs_of_sweeps);
     CHECK(by_width.count > 1);
     CHECK(by_width.count < by_cost.count);
-    CHECK(width_in_diffusion_lengths(mesh, by_width.count, 1e-3) >= good_width_in_diffusion_lengths);
-    CHECK(width_in_diffusion_lengths(mesh, by_width.count + 1, 1e-3) < good_width_in_diffusion_lengths);
+    CHECK(width_in_diffusion_lengths(mesh, by_width.count, 1e-3) >= needs_of_sweeps.width);
+    CHECK(width_in_diffusion_lengths(mesh, by_width.count + 1, 1e-3) < needs_of_sweeps.width);
     CHECK(by_width.reason != by_cost.reason);
+}
+
+TEST_CASE("converged steps like smaller sub-meshes, which may be narrower")
+{
+    const PolygonMesh mesh = make_quads(50000);
+    CHECK(choose_subdomains(mesh, 1e-8, needs_of_converged_steps).count == mesh.n_vertices() / 400);
+    const Index count = choose_subdomains(mesh, 5e-3, needs_of_converged_steps).count;
+    CHECK(width_in_diffusion_lengths(mesh, count, 5e-3) >= needs_of_converged_steps.width);
+    CHECK(width_in_diffusion_lengths(mesh, count + 1, 5e-3) < needs_of_converged_steps.width);
 }
 
 TEST_CASE("the choice and its reason are in the report, and so is a warning of narrow sub-meshes")
