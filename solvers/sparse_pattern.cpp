@@ -3,11 +3,35 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
+
+namespace {
+
+/// The rows of the entries in each column, in no order and with their repetitions.
+IndexLists by_columns(Index n, const std::vector<MatrixEntry>& entries)
+{
+    if (entries.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+        throw ComputationError("a system of " + std::to_string(n) +
+                               " unknowns has too many entries: cut the mesh into more sub-meshes");
+    IndexLists columns;
+    columns.offsets.assign(at(n) + 1, 0);
+    for (const MatrixEntry& entry : entries)
+        ++columns.offsets[at(entry.column) + 1];
+    std::partial_sum(columns.offsets.begin(), columns.offsets.end(), columns.offsets.begin());
+    columns.values.resize(entries.size());
+    std::vector<Index> next = columns.offsets;
+    for (const MatrixEntry& entry : entries)
+        columns.values[at(next[at(entry.column)]++)] = entry.row;
+    return columns;
+}
+
+}  // namespace
 
 Index SparsePattern::slot(MatrixEntry entry) const
 {
@@ -18,22 +42,23 @@ Index SparsePattern::slot(MatrixEntry entry) const
     return static_cast<Index>(found - rows.begin());
 }
 
-SparsePattern make_pattern(Index n, std::vector<MatrixEntry> entries)
+SparsePattern make_pattern(Index n, const std::vector<MatrixEntry>& entries)
 {
-    std::sort(entries.begin(), entries.end());
-    entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-    if (entries.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-        throw ComputationError("a system of " + std::to_string(n) +
-                               " unknowns has too many entries: cut the mesh into more sub-meshes");
+    IndexLists columns = by_columns(n, entries);
     SparsePattern pattern;
-    pattern.column_offsets.assign(at(n) + 1, 0);
-    pattern.rows.reserve(entries.size());
-    for (const MatrixEntry& entry : entries) {
-        ++pattern.column_offsets[at(entry.column) + 1];
-        pattern.rows.push_back(entry.row);
+    for (Index column = 0; column < n; ++column) {
+        const auto first = columns.values.begin() + columns.offsets[at(column)];
+        const auto last = columns.values.begin() + columns.offsets[at(column) + 1];
+        std::sort(first, last);
+        pattern.column_offsets.push_back(pattern.column_offsets.back() +
+                                         static_cast<Index>(std::unique(first, last) - first));
     }
-    for (std::size_t column = 0; column < at(n); ++column)
-        pattern.column_offsets[column + 1] += pattern.column_offsets[column];
+    pattern.rows.reserve(at(pattern.column_offsets.back()));
+    for (Index column = 0; column < n; ++column) {
+        const auto rows = columns[column];
+        const Index n_rows = pattern.column_offsets[at(column) + 1] - pattern.column_offsets[at(column)];
+        pattern.rows.insert(pattern.rows.end(), rows.begin(), rows.begin() + n_rows);
+    }
     return pattern;
 }
 

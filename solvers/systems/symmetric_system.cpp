@@ -28,7 +28,7 @@ SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vec
     }
     for (Index u = 0; u < n; ++u)
         entries.push_back({u, u});
-    return make_pattern(n, std::move(entries));
+    return make_pattern(n, entries);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ SparsePattern random_pattern(Index n, RandomNumbers& random)
         for (int i = 0; i < 4; ++i)
             entries.push_back({random.below(n), row});
     }
-    return make_pattern(n, std::move(entries));
+    return make_pattern(n, entries);
 }
 
 /// Random values, the diagonal large enough for a well-conditioned matrix.
@@ -53,7 +53,7 @@ SparsePattern repeated(const SparsePattern& block, Index copies)
         for (Index column = 0; column < block.n(); ++column)
             for (Index i = block.column_offsets[at(column)]; i < block.column_offsets[at(column) + 1]; ++i)
                 entries.push_back({k * block.n() + column, k * block.n() + block.rows[at(i)]});
-    return make_pattern(copies * block.n(), std::move(entries));
+    return make_pattern(copies * block.n(), entries);
 }
 
 }  // namespace
