@@ -4,10 +4,11 @@
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
 #include "solvers/cholmod_solver.h"
+#include "tests/support/random_matrices.h"
 
 using namespace seamflow;
+using namespace seamflow::test;
 
 namespace {
 
@@ -45,14 +46,6 @@ SymmetricMatrix grid_matrix(Index side, double shift, RandomNumbers& random)
         for (Index k = matrix.upper.column_offsets[at(column)]; k < matrix.upper.column_offsets[at(column) + 1]; ++k)
             matrix.values.push_back(matrix.dense(matrix.upper.rows[at(k)], column));
     return matrix;
-}
-
-Columns random_columns(Index n, RandomNumbers& random)
-{
-    Columns columns(n, 3);
-    for (double& value : columns.reshaped())
-        value = random.symmetric();
-    return columns;
 }
 
 }  // namespace
