@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/parallel_loop.h"
+#include "partition/loop.h"
 #include "solvers/geometry.h"
 
 namespace seamflow {
@@ -15,10 +17,7 @@ constexpr double vertices_per_sub_mesh = 2'500.0;
 
 double total_area(const PolygonMesh& mesh)
 {
-    double sum = 0.0;
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        sum += area(mesh.face(f), mesh.vertices);
-    return sum;
+    return sum(run_in_parallel, mesh.n_faces(), [&](Index f) { return area(mesh.face(f), mesh.vertices); });
 }
 
 }  // namespace

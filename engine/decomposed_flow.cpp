@@ -1,7 +1,6 @@
 #include "engine/decomposed_flow.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
@@ -10,15 +9,13 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "engine/parallel_loop.h"
 #include "engine/single_threaded_libraries.h"
+#include "engine/sub_mesh_options.h"
 #include "engine/sweep_order.h"
+#include "partition/decomposition/narrow_order.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
-#include "solvers/conditions/adapted_robin.h"
-#include "solvers/conditions/adapted_ventcell.h"
-#include "solvers/conditions/robin.h"
-#include "solvers/conditions/ventcell.h"
-#include "solvers/interface/robin_parameter.h"
 
 namespace seamflow {
 
@@ -44,81 +41,6 @@ void on_behalf_of(const SubMesh& sub_mesh, Index s, Body&& body)
     }
 }
 
-std::vector<SubMesh> cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
-{
-    auto faces = faces_by_label(cut.labels, cut.n_parts);
-    std::vector<SubMesh> sub_meshes(faces.size());
-    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
-        sub_meshes[s] = make_sub_mesh(mesh, topology, cut.labels, std::move(faces[s]));
-    });
-    return sub_meshes;
-}
-
-/// Whether sub-meshes tell each other what they would do.
-bool predicts(const FlowOptions& options)
-{
-    return options.conditions == Conditions::AdaptedRobin && options.transmission == Transmission::Predicted &&
-           !options.p && options.p_rule == PRule::Paper && options.p_edge == PEdge::Automatic;
-}
-
-std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const FlowOptions& options,
-                                              SolverWorkspace& workspace)
-{
-    const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
-        return make_system(sub_mesh, options.laplacian, std::move(condition), workspace);
-    };
-    switch (options.conditions) {
-    case Conditions::AdaptedRobin:
-        break;
-    case Conditions::AdaptedVentcell:
-        return with(make_adapted_ventcell(sub_mesh, options.q.value()));
-    case Conditions::Robin:
-        return with(make_robin(sub_mesh));
-    case Conditions::Ventcell:
-        return with(make_ventcell(sub_mesh, options.q.value()));
-    case Conditions::Schwarz:
-        return make_following_system(sub_mesh, options.laplacian, workspace);
-    }
-    return predicts(options) ? make_predicted_system(sub_mesh, options.laplacian, workspace)
-                             : with(make_adapted_robin(sub_mesh));
-}
-
-/// With a good prediction the other side answers to what Γ adds like a half plane: with the derivative 1/√dt, so that
-/// dt p = √dt would be right for smooth surfaces. Measured on twelve meshes, Δ_A and Δ_P, a little less is better.
-constexpr double predicted_p_in_diffusion_lengths = 0.7;
-
-/// In 1/length.
-double robin_parameter(const SubMesh& sub_mesh, const Points& positions, const FlowOptions& options)
-{
-    if (sub_mesh.interface.vertices.empty() || options.conditions == Conditions::Schwarz)
-        return 0.0;
-    if (options.p)
-        return *options.p;
-    if (predicts(options))
-        return predicted_p_in_diffusion_lengths / std::sqrt(options.time_step);
-    const double eta = options.p_rule == PRule::InverseStep ? 1.0 / options.time_step : 1.0;
-    return optimal_robin_parameter(sub_mesh, positions, eta, options.p_edge);
-}
-
-bool alternates(const FlowOptions& options, std::size_t n_sub_meshes)
-{
-    return options.sweep == Sweep::Alternating || (options.sweep == Sweep::Automatic && n_sub_meshes > 2);
-}
-
-bool corrects(const FlowOptions& options)
-{
-    return options.correction == Correction::Centroid ||
-           (options.correction == Correction::Automatic &&
-            (options.conditions == Conditions::AdaptedRobin || options.conditions == Conditions::AdaptedVentcell));
-}
-
-SweepPlan make_plan(const Decomposition& decomposition, Conditions conditions, const std::vector<Index>& rank)
-{
-    if (conditions == Conditions::Schwarz)
-        return plan_overlapping_sweep(decomposition, rank);
-    return is_classical(conditions) ? plan_mutual_sweep(decomposition, rank) : plan_sweep(decomposition, rank);
-}
-
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> rank, int layers)
@@ -137,23 +59,50 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
     : workspaces_(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()))
-    , decomposition_(connect(cut_out(mesh, topology, cut), topology, cut.labels))
+    , decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
     , positions_(mesh.vertices)
 {
     const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
-    const bool overlaps = options.conditions == Conditions::Schwarz;
-    if (overlaps)
+    if (options.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.overlap);
     make_states(mesh, options);
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
-    plans_.push_back(make_plan(decomposition_, options.conditions, rank));
-    if (!overlaps && alternates(options, states_.size()))
-        plans_.push_back(make_plan(decomposition_, options.conditions, reversed(rank)));
+    plans_.push_back(make_plan(decomposition_, options, rank));
+    if (alternates(options, states_.size()))
+        plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
+    limit_factors(options);
     for (const SweepPlan& plan : plans_)
         roots_.push_back(add_sweep(plan, options));
+}
+
+/// Without a limit, each thread has work enough within the window.
+void DecomposedFlow::limit_factors(const FlowOptions& options)
+{
+    constexpr Index places_per_thread = 4;
+    std::size_t largest = 1;
+    for (const SubMeshState& state : states_)
+        largest = std::max(largest, state.system->factor_bytes());
+    factors_.use_blocks_of(largest);
+    for (SolverWorkspace& workspace : workspaces_)
+        workspace.factors = &factors_;
+
+    window_.order = narrow_order(decomposition_.adjacency);
+    Index least = 0;
+    for (const SweepPlan& plan : plans_)
+        least = std::max(least, least_window(plan, window_.order));
+    const auto n = static_cast<Index>(states_.size());
+    window_.size = std::min(n, least + places_per_thread * static_cast<Index>(workspaces_.size()));
+    if (!options.memory_limit)
+        return;
+    const std::size_t places = *options.memory_limit / largest;
+    if (places < at(least))
+        throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) + " bytes, but the " +
+                          std::to_string(least) + " factorisations that a step needs at once take " +
+                          std::to_string(at(least) * largest) + ": raise it, or use more sub-meshes");
+    window_.size = static_cast<Index>(std::min(at(n), places));
 }
 
 void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& options)
@@ -208,6 +157,7 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
         graph_.add_dependency(root, factorised.back());
         graph_.add_dependency(factorised.back(), solved.back());
     }
+    add_window(factorised, solved);
     add_traces(plan, solved);
     if (predicts(options))
         add_predictions(plan, factorised, solved);
@@ -218,6 +168,14 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
             graph_.add_dependency(solved[at(neighbour)], accepted);
     }
     return root;
+}
+
+/// A factor waits for room.
+void DecomposedFlow::add_window(const std::vector<TaskGraph::Node>& factorised,
+                                const std::vector<TaskGraph::Node>& solved)
+{
+    for (std::size_t i = 0; i + at(window_.size) < window_.order.size(); ++i)
+        graph_.add_dependency(solved[at(window_.order[i])], factorised[at(window_.order[i + at(window_.size)])]);
 }
 
 /// A solve waits for those whose Vᵏ⁺¹ it takes.
@@ -302,6 +260,8 @@ void DecomposedFlow::describe(FlowReport& report) const
     report.subdomains = static_cast<Index>(states_.size());
     report.interface_vertices = decomposition_.n_interface_vertices;
     report.subdomain_colors = plans_.front().rank;
+    report.live_factors = window_.size;
+    report.factor_memory_bytes = factors_.bytes();
     report.colors = states_.empty() ? 0 : *std::max_element(plans_.front().rank.begin(), plans_.front().rank.end()) + 1;
     for (const SubMeshState& state : states_) {
         report.subdomain_faces.push_back(static_cast<Index>(state.sub_mesh->faces.size()));

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "engine/copies_of_interface.h"
+#include "engine/factor_pool.h"
+#include "engine/factor_window.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "engine/schedule_recorder.h"
@@ -26,14 +28,15 @@ namespace seamflow {
 ///
 /// With Transmission::Predicted a fourth, predict, stands between the first two of each sub-mesh, and solve also waits
 /// for the predictions of the sub-meshes that it leads. With the classical conditions nobody leads, and solve waits for
-/// those of lower colour. No barrier stands between colours. Belongs to the arena in
+/// those of lower colour. So that few factors live at once, assemble and factorise also waits for a solve some places
+/// before in a fixed order (see FactorWindow). No barrier stands between colours. Belongs to the arena in
 /// which it is constructed.
 class DecomposedFlow {
   public:
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
     /// @param mesh, topology must outlive the flow.
     /// @param curvature #V: ‖ΔV⁰‖.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low.
     DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                    const std::vector<double>& curvature);
 
@@ -58,18 +61,22 @@ class DecomposedFlow {
     TaskGraph::Node add_sweep(const SweepPlan& plan, const FlowOptions& options);
     void add_predictions(const SweepPlan& plan, const std::vector<TaskGraph::Node>& factorised,
                          const std::vector<TaskGraph::Node>& solved);
+    void limit_factors(const FlowOptions& options);
+    void add_window(const std::vector<TaskGraph::Node>& factorised, const std::vector<TaskGraph::Node>& solved);
     void add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved);
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority);
     SolverWorkspace& workspace();
     void join();
 
+    FactorPool factors_;
     /// One per slot of the arena.
     std::vector<SolverWorkspace> workspaces_;
     Decomposition decomposition_;
     std::vector<SubMeshState> states_;
     /// Forward, and backward where the sweep alternates.
     std::vector<SweepPlan> plans_;
+    FactorWindow window_;
     std::vector<TaskGraph::Node> roots_;
     /// With the classical conditions.
     std::optional<CopiesOfInterface> copies_;

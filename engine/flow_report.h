@@ -81,6 +81,10 @@ struct FlowReport {
     /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface, and with conditions that have
     /// none).
     std::vector<double> p;
+    /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for those made by
+    /// Cholesky's method.
+    Index live_factors = 0;
+    std::size_t factor_memory_bytes = 0;
     /// dt, in length².
     double time_step = 0.0;
     /// Threads used.

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
+
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "engine/choose_subdomains.h"
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
 #include "engine/explicit_flow.h"
+#include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
@@ -34,11 +38,11 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
     if (options.scheme == Scheme::ExplicitEuler)
         return uncut(mesh);
     if (!options.labels.empty())
-        return cut_by_labels(mesh, topology, options.labels);
+        return cut_by_labels(mesh, topology, options.labels, run_in_parallel);
     if (options.subdomains > 0)
-        return cut_into(mesh, topology, options.subdomains);
+        return cut_into(mesh, topology, options.subdomains, run_in_parallel);
     const SubdomainChoice choice = choose_subdomains(mesh, options.time_step);
-    Cut cut = cut_into(mesh, topology, choice.count);
+    Cut cut = cut_into(mesh, topology, choice.count, run_in_parallel);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
 }
@@ -49,7 +53,6 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
     report.vertices = mesh.n_vertices();
     report.faces = mesh.n_faces();
     report.time_step = options.time_step;
-    report.labels = cut.labels;
     report.repaired_faces = cut.repaired_faces;
     report.remarks = cut.remarks;
     report.non_manifold_vertices =
@@ -114,28 +117,33 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
                FlowReport& report)
 {
     Stopwatch watch;
-    const PolygonMesh input = mesh;
-    const Topology topology = make_topology(input);
-    require_sound_geometry(input, topology, options.laplacian);
-    const Cut cut = make_cut(input, topology, options);
-    describe_input(input, topology, cut, options, report);
+    require_valid(mesh, run_in_parallel);
+    const Topology topology = make_topology(mesh, run_in_parallel);
+    require_sound_geometry(mesh, topology, options.laplacian, run_in_parallel);
+    Cut cut;
+    std::vector<double> curvature;
+    // METIS has one thread: the others measure in the meantime.
+    oneapi::tbb::parallel_invoke(
+        [&] { cut = make_cut(mesh, topology, options); },
+        [&] { curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian); });
+    describe_input(mesh, topology, cut, options, report);
     report.threads = workers.threads();
     report.seconds.cut = watch.lap();
 
-    const auto curvature = measure_curvature(input, topology, input.vertices, options.laplacian);
     const auto run = [&](auto&& flow) {
+        report.labels = std::move(cut.labels);
         report.seconds.analyse = watch.lap();
         report.seconds.total = report.seconds.cut + report.seconds.analyse;
         std::optional<DecomposedFlow> reference;
         if (options.reference)
-            reference.emplace(input, topology, cut_into(input, topology, 1), options, curvature);
+            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), options, curvature);
         run_steps(mesh, topology, options, on_step, curvature, flow, reference ? &*reference : nullptr, report);
         flow.describe(report);
     };
     if (options.scheme == Scheme::ExplicitEuler)
-        run(ExplicitFlow(input, topology, options));
+        run(ExplicitFlow(mesh, topology, options));
     else
-        run(DecomposedFlow(input, topology, cut, options, curvature));
+        run(DecomposedFlow(mesh, topology, cut, options, curvature));
 }
 
 }  // namespace
@@ -143,7 +151,6 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
 FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step)
 {
     require_valid(options);
-    require_valid(mesh);
     FlowReport report;
     Workers workers(options.threads);
     workers.execute([&] { flow_with(workers, mesh, options, on_step, report); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/parallel_loop.h"
 #include "partition/cut/coloring.h"
 
 namespace seamflow {
@@ -34,8 +35,11 @@ std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Coloring 
 
     const std::vector<Index> colors = color(decomposition.adjacency);
     std::vector<double> total(at(n_colors(colors)), 0.0);
+    std::vector<double> of_sub_mesh(colors.size());
+    for_each(run_in_parallel, static_cast<Index>(colors.size()),
+             [&](Index s) { of_sub_mesh[at(s)] = total_curvature(decomposition.sub_meshes[at(s)], curvature); });
     for (std::size_t s = 0; s < colors.size(); ++s)
-        total[at(colors[s])] += total_curvature(decomposition.sub_meshes[s], curvature);
+        total[at(colors[s])] += of_sub_mesh[s];
     std::vector<Index> order(total.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return total[at(a)] > total[at(b)]; });

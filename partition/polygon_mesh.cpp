@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "partition/errors.h"
@@ -19,36 +20,61 @@ void require_valid_offsets(const PolygonMesh& mesh)
                          std::to_string(mesh.n_corners()) + ")");
 }
 
-void require_valid_face(const PolygonMesh& mesh, Index f, std::vector<Index>& last_face_of)
+/// Whether a face names no vertex twice.
+bool are_different(std::span<const Index> corners)
+{
+    constexpr std::size_t many = 16;
+    if (corners.size() > many) {
+        std::vector<Index> sorted(corners.begin(), corners.end());
+        std::sort(sorted.begin(), sorted.end());
+        return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+    }
+    for (std::size_t k = 1; k < corners.size(); ++k)
+        if (std::find(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(k), corners[k]) !=
+            corners.begin() + static_cast<std::ptrdiff_t>(k))
+            return false;
+    return true;
+}
+
+bool is_valid_face(const PolygonMesh& mesh, Index f)
 {
     const auto corners = mesh.face(f);
-    const auto face = [f] { return "face " + std::to_string(f) + " (numbered from 0)"; };
+    return corners.size() >= 3 &&
+           std::all_of(corners.begin(), corners.end(), [&](Index v) { return v >= 0 && v < mesh.n_vertices(); }) &&
+           are_different(corners);
+}
+
+[[noreturn]] void refuse_face(const PolygonMesh& mesh, Index f)
+{
+    const auto corners = mesh.face(f);
+    const std::string face = "face " + std::to_string(f) + " (numbered from 0)";
     if (corners.size() < 3)
-        throw InputError(face() + " has " + std::to_string(corners.size()) +
+        throw InputError(face + " has " + std::to_string(corners.size()) +
                          " corners: a face needs at least 3; remove the face");
+    std::set<Index> met;
     for (const Index v : corners) {
         if (v < 0 || v >= mesh.n_vertices())
-            throw InputError(face() + " names vertex " + std::to_string(v) + ", but the mesh has " +
+            throw InputError(face + " names vertex " + std::to_string(v) + ", but the mesh has " +
                              std::to_string(mesh.n_vertices()) + " vertices");
-        if (last_face_of[at(v)] == f)
-            throw InputError(face() + " names vertex " + std::to_string(v) +
-                             " twice: split the face there or remove it");
-        last_face_of[at(v)] = f;
+        if (!met.insert(v).second)
+            throw InputError(face + " names vertex " + std::to_string(v) + " twice: split the face there or remove it");
     }
+    throw InputError(face + " is not valid");
 }
 
 }  // namespace
 
-void require_valid(const PolygonMesh& mesh)
+void require_valid(const PolygonMesh& mesh, const Loop& loop)
 {
     require_valid_offsets(mesh);
-    std::vector<Index> last_face_of(at(mesh.n_vertices()), -1);
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        require_valid_face(mesh, f, last_face_of);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (!mesh.vertices.row(v).allFinite())
-            throw InputError("vertex " + std::to_string(v) +
-                             " (numbered from 0) has a coordinate that is not a finite number: mend or remove it");
+    const auto bad_faces = select(loop, mesh.n_faces(), [&](Index f) { return !is_valid_face(mesh, f); });
+    if (!bad_faces.empty())
+        refuse_face(mesh, bad_faces.front());
+    const auto bad_vertices =
+        select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
+    if (!bad_vertices.empty())
+        throw InputError("vertex " + std::to_string(bad_vertices.front()) +
+                         " (numbered from 0) has a coordinate that is not a finite number: mend or remove it");
 }
 
 }  // namespace seamflow

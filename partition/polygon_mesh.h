@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "partition/index.h"
+#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -44,6 +45,6 @@ struct PolygonMesh {
 /// Checks that the arrays fit together, that every face has at least three corners, all different and in range, and
 /// that all coordinates are finite.
 /// @throws InputError naming the first offending face or vertex (numbered from 0).
-void require_valid(const PolygonMesh& mesh);
+void require_valid(const PolygonMesh& mesh, const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -8,17 +8,23 @@ namespace seamflow {
 
 namespace {
 
+/// Stands in `twin` for "an edge of three or more faces" until the vertices are classified.
+constexpr Index non_manifold_edge = -2;
+
 void list_corners(const PolygonMesh& mesh, Topology& topology)
 {
-    topology.vertex_offsets.assign(at(mesh.n_vertices()) + 1, 0);
+    auto& offsets = topology.vertex_offsets;
+    offsets.assign(at(mesh.n_vertices()) + 1, 0);
     for (const Index v : mesh.face_vertices)
-        ++topology.vertex_offsets[at(v) + 1];
+        ++offsets[at(v) + 1];
     for (std::size_t v = 0; v < at(mesh.n_vertices()); ++v)
-        topology.vertex_offsets[v + 1] += topology.vertex_offsets[v];
+        offsets[v + 1] += offsets[v];
     topology.vertex_corners.resize(mesh.face_vertices.size());
-    std::vector<Index> end(topology.vertex_offsets.begin(), topology.vertex_offsets.end() - 1);
     for (Index h = 0; h < mesh.n_corners(); ++h)
-        topology.vertex_corners[at(end[at(mesh.face_vertices[at(h)])]++)] = h;
+        topology.vertex_corners[at(offsets[at(mesh.face_vertices[at(h)])]++)] = h;
+    // Every offset has moved on to the next vertex's.
+    std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
+    offsets.front() = 0;
 }
 
 /// One half-edge at a vertex, by the vertex at its other end.
@@ -29,8 +35,7 @@ struct Spoke {
 };
 
 /// Pairs the half-edges between v and vertices of higher index.
-void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology,
-                       std::vector<bool>& non_manifold)
+void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology)
 {
     spokes.clear();
     for (const Index h : topology.corners_at(v))
@@ -46,24 +51,11 @@ void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spo
             topology.twin[at(first[0].halfedge)] = first[1].halfedge;
             topology.twin[at(first[1].halfedge)] = first[0].halfedge;
         } else if (last - first > 2) {
-            non_manifold[at(v)] = true;
-            non_manifold[at(first->neighbour)] = true;
+            for (auto spoke = first; spoke != last; ++spoke)
+                topology.twin[at(spoke->halfedge)] = non_manifold_edge;
         }
         first = last;
     }
-}
-
-VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v, bool on_non_manifold_edge)
-{
-    const auto corners = topology.corners_at(v);
-    if (corners.empty())
-        return VertexKind::Isolated;
-    if (on_non_manifold_edge)
-        return VertexKind::NonManifold;
-    for (const Index h : corners)
-        if (topology.twin[at(h)] < 0 || topology.twin[at(topology.previous(mesh, h))] < 0)
-            return VertexKind::Boundary;
-    return fans_at(mesh, topology, v, {}, 0).size() == 1 ? VertexKind::Interior : VertexKind::NonManifold;
 }
 
 /// The two half-edges at the vertex of a corner, in its face.
@@ -104,26 +96,52 @@ Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index sta
     }
 }
 
+/// Whether a walk around an inner vertex comes by all of its faces.
+bool is_one_fan(const PolygonMesh& mesh, const Topology& topology, Index v)
+{
+    const auto corners = topology.corners_at(v);
+    std::size_t met = 1;
+    walk(
+        mesh, topology, v, corners.front(), corners.front(), [](Index) { return true; }, [&](Index) { ++met; });
+    return met == corners.size();
+}
+
+VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
+{
+    const auto corners = topology.corners_at(v);
+    if (corners.empty())
+        return VertexKind::Isolated;
+    Index lowest = 0;
+    for (const Index corner : corners)
+        for (const Index spoke : spokes_of(mesh, topology, corner))
+            lowest = std::min(lowest, topology.twin[at(spoke)]);
+    if (lowest == non_manifold_edge)
+        return VertexKind::NonManifold;
+    if (lowest < 0)
+        return VertexKind::Boundary;
+    return is_one_fan(mesh, topology, v) ? VertexKind::Interior : VertexKind::NonManifold;
+}
+
 }  // namespace
 
-Topology make_topology(const PolygonMesh& mesh)
+Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
 {
     Topology topology;
     topology.twin.assign(mesh.face_vertices.size(), -1);
     topology.face_of.resize(mesh.face_vertices.size());
-    for (Index f = 0; f < mesh.n_faces(); ++f)
+    for_each(loop, mesh.n_faces(), [&](Index f) {
         std::fill(topology.face_of.begin() + mesh.face_offsets[at(f)],
                   topology.face_of.begin() + mesh.face_offsets[at(f) + 1], f);
+    });
     list_corners(mesh, topology);
-
-    std::vector<bool> on_non_manifold_edge(at(mesh.n_vertices()), false);
-    std::vector<Spoke> spokes;
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        pair_halfedges_at(mesh, v, spokes, topology, on_non_manifold_edge);
-
+    loop(mesh.n_vertices(), [&](Index begin, Index end) {
+        std::vector<Spoke> spokes;
+        for (Index v = begin; v < end; ++v)
+            pair_halfedges_at(mesh, v, spokes, topology);
+    });
     topology.kind.resize(at(mesh.n_vertices()));
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        topology.kind[at(v)] = classify(mesh, topology, v, on_non_manifold_edge[at(v)]);
+    for_each(loop, mesh.n_vertices(), [&](Index v) { topology.kind[at(v)] = classify(mesh, topology, v); });
+    for_each(loop, mesh.n_corners(), [&](Index h) { topology.twin[at(h)] = std::max(topology.twin[at(h)], -1); });
     return topology;
 }
 

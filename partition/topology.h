@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -59,7 +60,7 @@ struct Topology {
 
 /// Pairs the half-edges of a valid mesh (see require_valid) and classifies its vertices. Linear in the size of the
 /// mesh.
-Topology make_topology(const PolygonMesh& mesh);
+Topology make_topology(const PolygonMesh& mesh, const Loop& loop = run_serially);
 
 /// A run of faces around a vertex, each sharing an edge at the vertex with the next.
 struct Fan {

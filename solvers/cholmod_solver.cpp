@@ -1,7 +1,7 @@
 #include "solvers/cholmod_solver.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -27,7 +27,8 @@ struct CholmodWorkspace::State {
         for (cholmod_common* of : {&common, &long_common}) {
             of->nmethods = 1;
             of->print = 0;
-            // LDLᵀ row by row; dense blocks are always LLᵀ.
+            // LDLᵀ row by row, where it is put; dense blocks are always LLᵀ.
+            of->final_asis = 1;
             of->final_ll = 0;
             of->quick_return_if_not_posdef = 1;
         }
@@ -175,68 +176,184 @@ std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspac
 class CholmodSolver::Factor {
   public:
     virtual ~Factor() = default;
-    virtual bool factorise(std::span<const double> values, CholmodWorkspace& workspace) = 0;
+    [[nodiscard]] virtual std::size_t bytes() const = 0;
+    virtual bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) = 0;
     virtual void solve(cholmod_dense& right_hand_side, CholmodWorkspace& workspace) = 0;
-    virtual void free(CholmodWorkspace& workspace) = 0;
+    virtual void free(FactorMemory& memory) = 0;
 };
 
 namespace {
 
-template <class Interface, class Base>
-class FactorFor final : public Base {
+template <class Interface>
+void solve_by(cholmod_factor* factor, cholmod_dense& right_hand_side, CholmodWorkspace& workspace)
+{
+    CholmodWorkspace::State& kept = workspace.state();
+    cholmod_common& common = Interface::common(workspace);
+    Interface::solve(CHOLMOD_A, factor, &right_hand_side, nullptr, &kept.solution, nullptr, &kept.first, &kept.second,
+                     &common);
+    require_ok(common, "solution");
+}
+
+/// LDLᵀ row by row. CHOLMOD's numeric factor is made here, of arrays that stay and of two that the factor's memory is
+/// for: how many entries each column has is known beforehand.
+class RowFactor final : public CholmodSolver::Factor {
   public:
-    using Integer = typename Interface::Integer;
-
-    FactorFor(const SparsePattern& upper, CholmodWorkspace& workspace)
+    RowFactor(const SparsePattern& upper, CholmodWorkspace& workspace)
         : matrix_(upper)
-        , factor_(analyse<Interface>(matrix_.pattern(), CHOLMOD_NATURAL, Interface::common(workspace)))
+        , n_entries_(at(upper.n()))
+        , next_(at(upper.n()) + 2)
+        , previous_(at(upper.n()) + 2)
     {
-    }
-    ~FactorFor() override
-    {
-        CholmodWorkspace workspace;
-        Interface::free_factor(&factor_, &Interface::common(workspace));
+        cholmod_common& common = workspace.state().common;
+        cholmod_factor* analysed = analyse<IntInterface>(matrix_.pattern(), CHOLMOD_NATURAL, common);
+        const auto* counts = static_cast<const int*>(analysed->ColCount);
+        counts_.assign(counts, counts + upper.n());
+        cholmod_free_factor(&analysed, &common);
+        offsets_.push_back(0);
+        for (const int count : counts_)
+            offsets_.push_back(offsets_.back() + count);
+        link_columns();
+        describe(at(upper.n()));
     }
 
-    bool factorise(std::span<const double> values, CholmodWorkspace& workspace) override
+    [[nodiscard]] std::size_t bytes() const override { return at(offsets_.back()) * (sizeof(double) + sizeof(int)); }
+
+    bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) override
     {
-        cholmod_common& common = Interface::common(workspace);
+        if (memory_.empty())
+            memory_ = memory.take(bytes());
+        begin_columns();
+        cholmod_common& common = workspace.state().common;
         cholmod_sparse matrix = matrix_.with(values);
-        Interface::factorize(&matrix, factor_, &common);
+        cholmod_factorize(&matrix, &factor_, &common);
         require_ok(common, "factorisation");
-        if (common.status == CHOLMOD_OK && is_positive())
+        const auto* entries = static_cast<const double*>(factor_.x);
+        if (common.status == CHOLMOD_OK &&
+            std::all_of(offsets_.begin(), offsets_.end() - 1, [&](int first) { return entries[first] > 0.0; }))
             return true;
-        free(workspace);
+        free(memory);
         return false;
     }
 
     void solve(cholmod_dense& right_hand_side, CholmodWorkspace& workspace) override
     {
-        cholmod_common& common = Interface::common(workspace);
-        CholmodWorkspace::State& kept = workspace.state();
-        Interface::solve(CHOLMOD_A, factor_, &right_hand_side, nullptr, &kept.solution, nullptr, &kept.first,
-                         &kept.second, &common);
-        require_ok(common, "solution");
+        solve_by<IntInterface>(&factor_, right_hand_side, workspace);
     }
 
-    void free(CholmodWorkspace& workspace) override
+    void free(FactorMemory& memory) override
     {
-        Interface::change_factor(CHOLMOD_PATTERN, factor_->is_ll, factor_->is_super, 1, 1, factor_,
-                                 &Interface::common(workspace));
+        if (!memory_.empty())
+            memory.give_back(std::exchange(memory_, {}));
     }
 
   private:
-    /// Whether D of LDLᵀ is positive; LLᵀ fails otherwise.
-    [[nodiscard]] bool is_positive() const
+    /// The columns' places in memory, in their order, as a list with head n + 1 and tail n.
+    void link_columns()
     {
-        if (factor_->is_super != 0 || factor_->is_ll != 0)
-            return true;
-        const auto* column = static_cast<const Integer*>(factor_->p);
-        const auto* entries = static_cast<const double*>(factor_->x);
-        return std::all_of(column, column + factor_->n, [&](Integer first) { return entries[first] > 0.0; });
+        const auto n = static_cast<int>(counts_.size());
+        for (int column = 0; column < n; ++column) {
+            next_[at(column)] = column + 1;
+            previous_[at(column)] = column - 1;
+        }
+        next_[at(n + 1)] = 0;
+        previous_[0] = n + 1;
+        next_[at(n)] = -1;
+        previous_[at(n)] = n - 1;
+        previous_[at(n + 1)] = -1;
+        if (n == 0) {
+            next_[1] = 0;
+            previous_[0] = 1;
+        }
+        order_.resize(counts_.size());
+        std::iota(order_.begin(), order_.end(), 0);
     }
 
-    MatrixView<Integer> matrix_;
+    void describe(std::size_t n)
+    {
+        factor_.n = factor_.minor = n;
+        factor_.Perm = order_.data();
+        factor_.ColCount = counts_.data();
+        factor_.nzmax = at(offsets_.back());
+        factor_.p = offsets_.data();
+        factor_.nz = n_entries_.data();
+        factor_.next = next_.data();
+        factor_.prev = previous_.data();
+        factor_.ordering = CHOLMOD_NATURAL;
+        factor_.is_monotonic = 1;
+        factor_.itype = CHOLMOD_INT;
+        factor_.xtype = CHOLMOD_REAL;
+        factor_.dtype = CHOLMOD_DOUBLE;
+    }
+
+    /// Each column has its diagonal alone, as CHOLMOD expects it of a factor of the unit matrix.
+    void begin_columns()
+    {
+        auto* entries = reinterpret_cast<double*>(memory_.data());
+        auto* rows = reinterpret_cast<int*>(entries + offsets_.back());
+        factor_.x = entries;
+        factor_.i = rows;
+        factor_.minor = factor_.n;
+        for (std::size_t column = 0; column < counts_.size(); ++column) {
+            entries[offsets_[column]] = 1.0;
+            rows[offsets_[column]] = static_cast<int>(column);
+            n_entries_[column] = 1;
+        }
+    }
+
+    MatrixView<int> matrix_;
+    cholmod_factor factor_{};
+    /// Per column: number of entries to come, of entries there are, and where the first is.
+    std::vector<int> counts_;
+    std::vector<int> n_entries_;
+    std::vector<int> offsets_;
+    std::vector<int> next_;
+    std::vector<int> previous_;
+    std::vector<int> order_;
+    std::span<std::byte> memory_;
+};
+
+/// LLᵀ by dense blocks, in CHOLMOD's own memory.
+template <class Interface>
+class BlockFactor final : public CholmodSolver::Factor {
+  public:
+    BlockFactor(const SparsePattern& upper, CholmodWorkspace& workspace)
+        : matrix_(upper)
+        , factor_(analyse<Interface>(matrix_.pattern(), CHOLMOD_NATURAL, Interface::common(workspace)))
+    {
+    }
+    ~BlockFactor() override
+    {
+        CholmodWorkspace workspace;
+        Interface::free_factor(&factor_, &Interface::common(workspace));
+    }
+
+    [[nodiscard]] std::size_t bytes() const override { return factor_->xsize * sizeof(double); }
+
+    bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) override
+    {
+        cholmod_common& common = Interface::common(workspace);
+        cholmod_sparse matrix = matrix_.with(values);
+        Interface::factorize(&matrix, factor_, &common);
+        require_ok(common, "factorisation");
+        if (common.status == CHOLMOD_OK)
+            return true;
+        free(memory);
+        return false;
+    }
+
+    void solve(cholmod_dense& right_hand_side, CholmodWorkspace& workspace) override
+    {
+        solve_by<Interface>(factor_, right_hand_side, workspace);
+    }
+
+    void free(FactorMemory&) override
+    {
+        CholmodWorkspace workspace;
+        Interface::change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor_, &Interface::common(workspace));
+    }
+
+  private:
+    MatrixView<typename Interface::Integer> matrix_;
     cholmod_factor* factor_;
 };
 
@@ -244,19 +361,26 @@ class FactorFor final : public Base {
 
 CholmodSolver::CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace)
 {
-    if (needs_long(upper))
-        factor_ = std::make_unique<FactorFor<LongInterface, Factor>>(upper, workspace);
+    if (upper.n() <= most_unknowns_for_rows)
+        factor_ = std::make_unique<RowFactor>(upper, workspace);
+    else if (needs_long(upper))
+        factor_ = std::make_unique<BlockFactor<LongInterface>>(upper, workspace);
     else
-        factor_ = std::make_unique<FactorFor<IntInterface, Factor>>(upper, workspace);
+        factor_ = std::make_unique<BlockFactor<IntInterface>>(upper, workspace);
 }
 
 CholmodSolver::~CholmodSolver() = default;
 CholmodSolver::CholmodSolver(CholmodSolver&&) noexcept = default;
 CholmodSolver& CholmodSolver::operator=(CholmodSolver&&) noexcept = default;
 
-bool CholmodSolver::factorise(std::span<const double> values, CholmodWorkspace& workspace)
+std::size_t CholmodSolver::factor_bytes() const
 {
-    return factor_->factorise(values, workspace);
+    return factor_->bytes();
+}
+
+bool CholmodSolver::factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace)
+{
+    return factor_->factorise(values, memory, workspace);
 }
 
 Eigen::Map<const Columns> CholmodSolver::solve(Columns& right_hand_side, CholmodWorkspace& workspace) const
@@ -273,9 +397,9 @@ Eigen::Map<const Columns> CholmodSolver::solve(Columns& right_hand_side, Cholmod
     return {static_cast<const double*>(workspace.state().solution->x), right_hand_side.rows(), 3};
 }
 
-void CholmodSolver::free_factor(CholmodWorkspace& workspace)
+void CholmodSolver::free_factor(FactorMemory& memory)
 {
-    factor_->free(workspace);
+    factor_->free(memory);
 }
 
 }  // namespace seamflow

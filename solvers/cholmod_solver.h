@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "solvers/cholmod_workspace.h"
 #include "solvers/columns.h"
+#include "solvers/factor_memory.h"
 #include "solvers/sparse_pattern.h"
 
 namespace seamflow {
@@ -28,10 +30,14 @@ class CholmodSolver {
     CholmodSolver(CholmodSolver&&) noexcept;
     CholmodSolver& operator=(CholmodSolver&&) noexcept;
 
+    /// What a factor takes of a FactorMemory, in bytes. Large factors use CHOLMOD's own memory, of which this is most.
+    [[nodiscard]] std::size_t factor_bytes() const;
+
     /// @param values one per entry of the pattern.
+    /// @param memory must outlive the factor.
     /// @returns whether the matrix is positive definite. If not, there is no factor.
     /// @throws ComputationError if CHOLMOD fails (memory).
-    [[nodiscard]] bool factorise(std::span<const double> values, CholmodWorkspace& workspace);
+    [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace);
 
     /// Solves for three right-hand sides.
     /// @pre there is a factor.
@@ -39,11 +45,13 @@ class CholmodSolver {
     /// @throws ComputationError if CHOLMOD fails.
     [[nodiscard]] Eigen::Map<const Columns> solve(Columns& right_hand_side, CholmodWorkspace& workspace) const;
 
-    /// Gives the factor's memory back.
-    void free_factor(CholmodWorkspace& workspace);
+    /// Gives the factor's memory back to where it was taken from.
+    void free_factor(FactorMemory& memory);
+
+    /// For the file that calls CHOLMOD.
+    class Factor;
 
   private:
-    class Factor;
     std::unique_ptr<Factor> factor_;
 };
 

@@ -10,21 +10,29 @@ namespace seamflow {
 
 namespace {
 
-void require_length(const PolygonMesh& mesh, const Topology& topology, Index f)
+/// The first corner of face f from which an edge of no sound length leads, and where that matters; -1 if there is none.
+Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
 {
     const auto corners = mesh.face(f);
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
-        const Index end = corners[(k + 1) % corners.size()];
+        const Index end = corners[k + 1 < corners.size() ? k + 1 : 0];
         const bool matters =
             topology.kind[at(start)] == VertexKind::Interior || topology.kind[at(end)] == VertexKind::Interior;
-        const double length = (mesh.vertices.row(end) - mesh.vertices.row(start)).norm();
-        if (matters && !std::isnormal(length))
-            throw InputError("vertices " + std::to_string(start) + " and " + std::to_string(end) +
-                             " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
-                             " and lie at the same place, or so near or far that the distance is no normal double: "
-                             "merge them, move one, or scale the mesh");
+        if (matters && !std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
+            return static_cast<Index>(k);
     }
+    return -1;
+}
+
+[[noreturn]] void refuse_edge(const PolygonMesh& mesh, Index f, Index corner)
+{
+    const auto corners = mesh.face(f);
+    throw InputError("vertices " + std::to_string(corners[at(corner)]) + " and " +
+                     std::to_string(corners[(at(corner) + 1) % corners.size()]) +
+                     " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
+                     " and lie at the same place, or so near or far that the distance is no normal double: "
+                     "merge them, move one, or scale the mesh");
 }
 
 bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
@@ -47,25 +55,26 @@ bool area_matters(const PolygonMesh& mesh, const Topology& topology, Laplacian l
                        [&](Index twin) { return twin >= 0 && may_move(mesh, topology, topology.face_of[at(twin)]); });
 }
 
-void require_area(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
+bool has_area(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
 {
-    const bool matters = area_matters(mesh, topology, laplacian, f);
-    if (matters && !std::isnormal(area(mesh.face(f), mesh.vertices)))
-        throw InputError("face " + std::to_string(f) +
-                         " (numbered from 0) has no area that is a normal double: remove it, move one of its vertices, "
-                         "or use the Laplacian fujiwara, "
-                         "which does not divide by areas");
+    return std::isnormal(area(mesh.face(f), mesh.vertices)) || !area_matters(mesh, topology, laplacian, f);
 }
 
 }  // namespace
 
-void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian)
+void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop)
 {
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (laplacian == Laplacian::Fujiwara)
-            require_length(mesh, topology, f);
-        else
-            require_area(mesh, topology, laplacian, f);
+    const bool lengths_matter = laplacian == Laplacian::Fujiwara;
+    const auto bad = select(loop, mesh.n_faces(), [&](Index f) {
+        return lengths_matter ? edge_without_length(mesh, topology, f) >= 0 : !has_area(mesh, topology, laplacian, f);
+    });
+    if (bad.empty())
+        return;
+    if (lengths_matter)
+        refuse_edge(mesh, bad.front(), edge_without_length(mesh, topology, bad.front()));
+    throw InputError("face " + std::to_string(bad.front()) +
+                     " (numbered from 0) has no area that is a normal double: remove it, move one of its vertices, "
+                     "or use the Laplacian fujiwara, which does not divide by areas");
 }
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/geometry.h"
 #include "solvers/laplacian/laplacian.h"
@@ -9,6 +10,7 @@ namespace seamflow {
 /// Checks that the Laplacian's coefficients are finite at all vertices that may move: Fujiwara divides by the lengths
 /// of their edges, Alexa-Wardetzky by the areas of their faces, Ptáčková-Velho also by those of the faces next to them.
 /// @throws InputError naming the first edge without length or face without area, and what to do.
-void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian);
+void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                            const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace seamflow {
 
@@ -75,21 +76,28 @@ void LuSolver::list_loads(const SparsePattern& pattern)
     });
 }
 
-bool LuSolver::factorise(std::span<const double> values, LuWorkspace& workspace)
+bool LuSolver::factorise(std::span<const double> values, FactorMemory& memory, LuWorkspace& workspace)
 {
     measure_rows(values, workspace);
     workspace.elimination.assign(at(pattern_.n()), Pair::Zero());
-    factor_ = std::make_unique_for_overwrite<Pair[]>(panels_.back());
+    if (memory_.empty())
+        memory_ = memory.take(factor_bytes());
     for (Index b = 0; b < pattern_.n_blocks(); ++b)
         for (Index column = 0; column < pattern_.width(b); ++column) {
             load(pattern_.first[at(b)] + column, values, workspace);
             eliminate(b, column, workspace);
             if (!store(b, column, workspace)) {
-                free_factor();
+                free_factor(memory);
                 return false;
             }
         }
     return true;
+}
+
+void LuSolver::free_factor(FactorMemory& memory)
+{
+    if (!memory_.empty())
+        memory.give_back(std::exchange(memory_, {}));
 }
 
 void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspace) const

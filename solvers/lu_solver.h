@@ -1,12 +1,13 @@
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "solvers/columns.h"
+#include "solvers/factor_memory.h"
 #include "solvers/factor_pattern.h"
 #include "solvers/lu_workspace.h"
 
@@ -23,21 +24,25 @@ class LuSolver {
     /// @throws ComputationError if CHOLMOD, which finds the order of elimination, fails (memory).
     LuSolver(const SparsePattern& pattern, CholmodWorkspace& workspace);
 
+    /// What a factor takes, in bytes.
+    [[nodiscard]] std::size_t factor_bytes() const { return panels_.back() * sizeof(Eigen::Array2d); }
+
     /// @param values one per entry of the pattern; needed only during the call.
+    /// @param memory must outlive the factor.
     /// @returns whether the diagonal will do: with rows divided by their sizes, no pivot is less than a thousandth of
     ///          an entry below it (the bound that UMFPACK has for symmetric patterns). If not, there is no factor.
-    [[nodiscard]] bool factorise(std::span<const double> values, LuWorkspace& workspace);
+    [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, LuWorkspace& workspace);
 
     /// Whether there is a factor.
-    [[nodiscard]] bool has_factor() const { return factor_ != nullptr; }
+    [[nodiscard]] bool has_factor() const { return !memory_.empty(); }
 
     /// Solves for three right-hand sides.
     /// @pre there is a factor.
     /// @param solution n by 3.
     void solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const;
 
-    /// Gives the factor's memory back.
-    void free_factor() { factor_.reset(); }
+    /// Gives the factor's memory back to where it was taken from.
+    void free_factor(FactorMemory& memory);
 
   private:
     /// Where a value goes before its column of L or row of U is computed.
@@ -55,7 +60,8 @@ class LuSolver {
     /// One column of a block, with an entry for each of the block's rows.
     [[nodiscard]] Eigen::Array2d* column_of(Index block, Index column) const
     {
-        return factor_.get() + panels_[at(block)] + at(column) * pattern_.rows[block].size();
+        return reinterpret_cast<Eigen::Array2d*>(memory_.data()) + panels_[at(block)] +
+               at(column) * pattern_.rows[block].size();
     }
 
     FactorPattern pattern_;
@@ -64,9 +70,9 @@ class LuSolver {
     std::vector<Load> loads_;
     /// Per block, where its columns begin, and where the last one ends.
     std::vector<std::size_t> panels_{0};
-    /// Block after block, column after column: entries of L and of Uᵀ in pairs. On the diagonal stands the pivot's
-    /// inverse; above it nothing of use.
-    std::unique_ptr<Eigen::Array2d[]> factor_;
+    /// The factor, block after block, column after column: entries of L and of Uᵀ in pairs. On the diagonal stands the
+    /// pivot's inverse; above it nothing of use.
+    std::span<std::byte> memory_;
 };
 
 }  // namespace seamflow

@@ -4,12 +4,15 @@
 
 #include "solvers/cholmod_workspace.h"
 #include "solvers/columns.h"
+#include "solvers/factor_memory.h"
 #include "solvers/lu_workspace.h"
 
 namespace seamflow {
 
 /// What systems need while they work and not after: one for each thread. Grows to what the largest system needs.
 struct SolverWorkspace {
+    /// Factors outlive the work: this is not the workspace's own. The same in all workspaces that a system meets.
+    FactorMemory* factors = &heap_memory();
     CholmodWorkspace cholmod;
     LuWorkspace lu;
     /// Of a matrix.

@@ -7,31 +7,8 @@
 #include <string>
 
 #include "partition/errors.h"
-#include "partition/index_lists.h"
 
 namespace seamflow {
-
-namespace {
-
-/// The rows of the entries in each column, in no order and with their repetitions.
-IndexLists by_columns(Index n, const std::vector<MatrixEntry>& entries)
-{
-    if (entries.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-        throw ComputationError("a system of " + std::to_string(n) +
-                               " unknowns has too many entries: cut the mesh into more sub-meshes");
-    IndexLists columns;
-    columns.offsets.assign(at(n) + 1, 0);
-    for (const MatrixEntry& entry : entries)
-        ++columns.offsets[at(entry.column) + 1];
-    std::partial_sum(columns.offsets.begin(), columns.offsets.end(), columns.offsets.begin());
-    columns.values.resize(entries.size());
-    std::vector<Index> next = columns.offsets;
-    for (const MatrixEntry& entry : entries)
-        columns.values[at(next[at(entry.column)]++)] = entry.row;
-    return columns;
-}
-
-}  // namespace
 
 Index SparsePattern::slot(MatrixEntry entry) const
 {
@@ -42,23 +19,46 @@ Index SparsePattern::slot(MatrixEntry entry) const
     return static_cast<Index>(found - rows.begin());
 }
 
+namespace {
+
+void sort_into_columns(Index n, const std::vector<MatrixEntry>& entries, SparsePattern& pattern)
+{
+    pattern.column_offsets.assign(at(n) + 1, 0);
+    for (const MatrixEntry& entry : entries)
+        ++pattern.column_offsets[at(entry.column) + 1];
+    std::partial_sum(pattern.column_offsets.begin(), pattern.column_offsets.end(), pattern.column_offsets.begin());
+    std::vector<Index> next(pattern.column_offsets.begin(), pattern.column_offsets.end() - 1);
+    pattern.rows.resize(entries.size());
+    for (const MatrixEntry& entry : entries)
+        pattern.rows[at(next[at(entry.column)]++)] = entry.row;
+}
+
+/// Also sorts the rows of each column.
+void leave_one_of_each(SparsePattern& pattern)
+{
+    auto end = pattern.rows.begin();
+    for (std::size_t column = 0; column + 1 < pattern.column_offsets.size(); ++column) {
+        const auto first = pattern.rows.begin() + pattern.column_offsets[column];
+        const auto last = pattern.rows.begin() + pattern.column_offsets[column + 1];
+        pattern.column_offsets[column] = static_cast<Index>(end - pattern.rows.begin());
+        std::sort(first, last);
+        end = std::unique_copy(first, last, end);
+    }
+    pattern.column_offsets.back() = static_cast<Index>(end - pattern.rows.begin());
+    pattern.rows.erase(end, pattern.rows.end());
+    pattern.rows.shrink_to_fit();
+}
+
+}  // namespace
+
 SparsePattern make_pattern(Index n, const std::vector<MatrixEntry>& entries)
 {
-    IndexLists columns = by_columns(n, entries);
+    if (entries.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+        throw ComputationError("a system of " + std::to_string(n) +
+                               " unknowns has too many entries: cut the mesh into more sub-meshes");
     SparsePattern pattern;
-    for (Index column = 0; column < n; ++column) {
-        const auto first = columns.values.begin() + columns.offsets[at(column)];
-        const auto last = columns.values.begin() + columns.offsets[at(column) + 1];
-        std::sort(first, last);
-        pattern.column_offsets.push_back(pattern.column_offsets.back() +
-                                         static_cast<Index>(std::unique(first, last) - first));
-    }
-    pattern.rows.reserve(at(pattern.column_offsets.back()));
-    for (Index column = 0; column < n; ++column) {
-        const auto rows = columns[column];
-        const Index n_rows = pattern.column_offsets[at(column) + 1] - pattern.column_offsets[at(column)];
-        pattern.rows.insert(pattern.rows.end(), rows.begin(), rows.begin() + n_rows);
-    }
+    sort_into_columns(n, entries, pattern);
+    leave_one_of_each(pattern);
     return pattern;
 }
 

@@ -30,7 +30,7 @@ struct SparsePattern {
 };
 
 /// The pattern of an n by n matrix with these entries, in any order and as often as they come.
-/// @throws ComputationError if there are 2³¹ or more entries, repetitions included.
+/// @throws ComputationError if 2³¹ or more entries are given.
 SparsePattern make_pattern(Index n, const std::vector<MatrixEntry>& entries);
 
 }  // namespace seamflow

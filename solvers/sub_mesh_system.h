@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -32,6 +33,9 @@ class SubMeshSystem {
     /// @param roles one per vertex of Γ.
     virtual void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                           std::span<const InterfaceRole> roles, SolverWorkspace& workspace) = 0;
+
+    /// What a factor takes, in bytes; where that is not known beforehand, an estimate.
+    [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
     /// To be called after `assemble`, with the same workspace.
     /// @throws ComputationError if the equations are singular or not finite.

@@ -54,6 +54,7 @@ void require_ok(long status, const char* task)
 class UmfpackSolver::Backend {
   public:
     virtual ~Backend() = default;
+    [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
     virtual void factorise(std::span<const double> values) = 0;
     virtual void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution) = 0;
     virtual void free_factor() = 0;
@@ -78,6 +79,7 @@ class UmfpackSolver::BackendFor final : public Backend {
         require_ok(Interface::symbolic(n_, n_, offsets_.data(), rows_.data(), nullptr, &symbolic_, control_.data(),
                                        info_.data()),
                    "analysis");
+        factor_bytes_ = static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info_[UMFPACK_SIZE_OF_UNIT]);
     }
 
     ~BackendFor() override
@@ -88,6 +90,8 @@ class UmfpackSolver::BackendFor final : public Backend {
 
     BackendFor(const BackendFor&) = delete;
     BackendFor& operator=(const BackendFor&) = delete;
+
+    [[nodiscard]] std::size_t factor_bytes() const override { return factor_bytes_; }
 
     void factorise(std::span<const double> values) override
     {
@@ -121,6 +125,7 @@ class UmfpackSolver::BackendFor final : public Backend {
     std::vector<double> work_;
     std::array<double, UMFPACK_CONTROL> control_{};
     std::array<double, UMFPACK_INFO> info_{};
+    std::size_t factor_bytes_ = 0;
     void* symbolic_ = nullptr;
     void* numeric_ = nullptr;
 };
@@ -136,6 +141,11 @@ UmfpackSolver::UmfpackSolver(const SparsePattern& pattern)
 UmfpackSolver::~UmfpackSolver() = default;
 UmfpackSolver::UmfpackSolver(UmfpackSolver&&) noexcept = default;
 UmfpackSolver& UmfpackSolver::operator=(UmfpackSolver&&) noexcept = default;
+
+std::size_t UmfpackSolver::factor_bytes() const
+{
+    return backend_->factor_bytes();
+}
 
 void UmfpackSolver::factorise(std::span<const double> values)
 {

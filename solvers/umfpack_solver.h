@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -19,6 +20,9 @@ class UmfpackSolver {
     ~UmfpackSolver();
     UmfpackSolver(UmfpackSolver&&) noexcept;
     UmfpackSolver& operator=(UmfpackSolver&&) noexcept;
+
+    /// UMFPACK's estimate of what a factor takes, in bytes; an upper bound for most matrices.
+    [[nodiscard]] std::size_t factor_bytes() const;
 
     /// @param values one per entry of the pattern; must stay as they are until the solve.
     /// @throws ComputationError if the matrix is singular or memory runs out.

@@ -18,9 +18,14 @@ UnsymmetricSolver::UnsymmetricSolver(const SparsePattern& pattern, SolverWorkspa
         umfpack_ = std::make_unique<UmfpackSolver>(pattern);
 }
 
+std::size_t UnsymmetricSolver::factor_bytes() const
+{
+    return lu_ ? lu_->factor_bytes() : umfpack_->factor_bytes();
+}
+
 void UnsymmetricSolver::factorise(std::span<const double> values, SolverWorkspace& workspace)
 {
-    if (lu_ && lu_->factorise(values, workspace.lu))
+    if (lu_ && lu_->factorise(values, *workspace.factors, workspace.lu))
         return;
     if (!umfpack_)
         umfpack_ = std::make_unique<UmfpackSolver>(*pattern_);
@@ -36,10 +41,10 @@ void UnsymmetricSolver::solve(std::span<const double> values, const Columns& rig
         umfpack_->solve(values, right_hand_side, solution);
 }
 
-void UnsymmetricSolver::free_factor()
+void UnsymmetricSolver::free_factor(FactorMemory& memory)
 {
     if (lu_)
-        lu_->free_factor();
+        lu_->free_factor(memory);
     if (umfpack_)
         umfpack_->free_factor();
 }

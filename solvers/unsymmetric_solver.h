@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -18,6 +19,9 @@ class UnsymmetricSolver {
     /// @throws ComputationError if the analysis fails (memory).
     UnsymmetricSolver(const SparsePattern& pattern, SolverWorkspace& workspace);
 
+    /// What a factor takes, in bytes; of UMFPACK's an estimate.
+    [[nodiscard]] std::size_t factor_bytes() const;
+
     /// @param values one per entry of the pattern; must stay as they are until the solve.
     /// @throws ComputationError if the matrix is singular or memory runs out.
     void factorise(std::span<const double> values, SolverWorkspace& workspace);
@@ -29,8 +33,8 @@ class UnsymmetricSolver {
     void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution,
                SolverWorkspace& workspace);
 
-    /// Gives the factor's memory back.
-    void free_factor();
+    /// Gives the factor's memory back to where it was taken from.
+    void free_factor(FactorMemory& memory);
 
   private:
     const SparsePattern* pattern_;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -29,12 +30,13 @@ inline constexpr Index min_faces_per_part = 12;
 /// even where the mesh has several connected components. k > 1: every part lies within one component, so that there are
 /// at least as many parts as components; there may be fewer than k on a small mesh. A remark says when it is not k.
 /// @throws OptionError if k < 1, ComputationError if METIS fails.
-Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k);
+Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop = run_serially);
 
 /// Cuts a mesh as given. Gaps in the labels are closed, keeping their order, and parts that are no manifolds with
 /// boundary are repaired (see repair); remarks tell of both. If all labels are equal the mesh is not cut at all.
 /// @param labels #F, at least 0.
 /// @throws InputError if there are not as many labels as faces, or one is negative.
-Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels);
+Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
+                  const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -35,77 +35,112 @@ std::vector<Index> arc_weights(const std::vector<double>& lengths)
     return weights;
 }
 
-std::vector<Index> node_weights(const PolygonMesh& mesh, std::span<const Index> faces)
+/// Σ face_weight in units of `unit`, at least 1 for each face.
+Index node_weight(const PolygonMesh& mesh, std::span<const Index> faces, Index unit)
 {
-    double total = 0;
+    Index weight = 0;
     for (const Index f : faces)
-        total += static_cast<double>(mesh.face(f).size());
-    const auto divisor = static_cast<Index>(std::ceil(2 * total / max_weight_sum));
-    std::vector<Index> weights(faces.size());
-    std::transform(faces.begin(), faces.end(), weights.begin(), [&](Index f) {
-        return std::max(Index{1}, (static_cast<Index>(mesh.face(f).size()) - 2) / std::max(divisor, Index{1}));
+        weight += std::max(Index{1}, face_weight(mesh, f) / unit);
+    return weight;
+}
+
+/// An arc before its length is turned into a whole number.
+struct Arc {
+    Index target;
+    double length;
+    /// By length too, so that shared edges add up to the same bits from both sides.
+    friend auto operator<=>(const Arc&, const Arc&) = default;
+};
+
+/// Appends the arcs of a cluster, ascending, with the lengths of all edges shared with the same other cluster added up.
+void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters, ArcMeasure measure,
+                 Index cluster, std::vector<Arc>& arcs)
+{
+    const auto begin = static_cast<std::ptrdiff_t>(arcs.size());
+    for (const Index f : clusters.faces[cluster])
+        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
+            const Index twin = topology.twin[at(h)];
+            const Index target = twin < 0 ? cluster : clusters.cluster_of[at(topology.face_of[at(twin)])];
+            if (target != cluster)
+                arcs.push_back({target, measure == ArcMeasure::Length ? edge_length(mesh, topology, h) : 1.0});
+        }
+    std::sort(arcs.begin() + begin, arcs.end());
+    auto last = arcs.begin() + begin;
+    for (auto arc = last; arc != arcs.end(); ++arc)
+        if (arc != last && arc->target == last->target)
+            last->length += arc->length;
+        else if (arc != last)
+            *++last = *arc;
+    if (last != arcs.end())
+        arcs.erase(last + 1, arcs.end());
+}
+
+/// The arcs of one block of nodes, and how many each node has.
+struct BlockOfArcs {
+    std::vector<Arc> arcs;
+    std::vector<Index> counts;
+};
+
+std::vector<BlockOfArcs> list_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
+                                   ArcMeasure measure, const Loop& loop)
+{
+    std::vector<BlockOfArcs> blocks(at(clusters.size() / block_size) + 1);
+    for_each_block(loop, clusters.size(), [&](Index b, Index begin, Index end) {
+        BlockOfArcs& block = blocks[at(b)];
+        for (Index cluster = begin; cluster < end; ++cluster) {
+            const std::size_t before = block.arcs.size();
+            append_arcs(mesh, topology, clusters, measure, cluster, block.arcs);
+            block.counts.push_back(static_cast<Index>(block.arcs.size() - before));
+        }
     });
-    return weights;
+    return blocks;
 }
 
 }  // namespace
 
-/// An arc before its length is turned into a whole number.
-struct FaceGraphMaker::Arc {
-    Index target;
-    double length;
-    /// By length too, so that parallel edges add up to the same bits from both sides.
-    friend auto operator<=>(const Arc&, const Arc&) = default;
-};
-
-FaceGraphMaker::FaceGraphMaker(const PolygonMesh& mesh, const Topology& topology)
-    : mesh_(mesh)
-    , topology_(topology)
-    , node_of_(at(mesh.n_faces()), -1)
+FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
+                          ArcMeasure measure, const Loop& loop)
 {
-}
-
-/// The arcs of one face, ascending, with the lengths of parallel edges added up.
-void FaceGraphMaker::collect_arcs(Index f, std::vector<Arc>& arcs) const
-{
-    arcs.clear();
-    for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
-        const Index twin = topology_.twin[at(h)];
-        const Index target = twin < 0 ? -1 : node_of_[at(topology_.face_of[at(twin)])];
-        if (target < 0)
-            continue;
-        arcs.push_back({target, edge_length(mesh_, topology_, h)});
-    }
-    std::sort(arcs.begin(), arcs.end());
-    std::size_t n = 0;
-    for (const Arc& arc : arcs)
-        if (n > 0 && arcs[n - 1].target == arc.target)
-            arcs[n - 1].length += arc.length;
-        else
-            arcs[n++] = arc;
-    arcs.resize(n);
-}
-
-FaceGraph FaceGraphMaker::make(std::span<const Index> faces)
-{
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        node_of_[at(faces[i])] = static_cast<Index>(i);
     FaceGraph graph;
     std::vector<double> lengths;
-    std::vector<Arc> arcs;
-    for (const Index f : faces) {
-        collect_arcs(f, arcs);
-        for (const Arc& arc : arcs) {
+    for (const BlockOfArcs& block : list_arcs(mesh, topology, clusters, measure, loop)) {
+        for (const Index count : block.counts)
+            graph.offsets.push_back(graph.offsets.back() + count);
+        for (const Arc& arc : block.arcs) {
             graph.targets.push_back(arc.target);
             lengths.push_back(arc.length);
         }
-        graph.offsets.push_back(static_cast<Index>(graph.targets.size()));
     }
     graph.arc_weights = arc_weights(lengths);
-    graph.node_weights = node_weights(mesh_, faces);
-    for (const Index f : faces)
-        node_of_[at(f)] = -1;
+    const double total = mesh.n_corners();
+    const auto unit = std::max(Index{1}, static_cast<Index>(std::ceil(2 * total / max_weight_sum)));
+    graph.node_weights.resize(at(graph.n_nodes()));
+    for_each(loop, graph.n_nodes(),
+             [&](Index node) { graph.node_weights[at(node)] = node_weight(mesh, clusters.faces[node], unit); });
     return graph;
+}
+
+std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts)
+{
+    std::vector<FaceGraph> parts(at(n_parts));
+    std::vector<Index> node_in_part(part_of.size());
+    for (std::size_t node = 0; node < part_of.size(); ++node) {
+        auto& node_weights = parts[at(part_of[node])].node_weights;
+        node_in_part[node] = static_cast<Index>(node_weights.size());
+        node_weights.push_back(graph.node_weights[node]);
+    }
+    for (std::size_t node = 0; node < part_of.size(); ++node) {
+        FaceGraph& part = parts[at(part_of[node])];
+        for (Index arc = graph.offsets[node]; arc < graph.offsets[node + 1]; ++arc) {
+            const auto target = at(graph.targets[at(arc)]);
+            if (part_of[target] != part_of[node])
+                continue;
+            part.targets.push_back(node_in_part[target]);
+            part.arc_weights.push_back(graph.arc_weights[at(arc)]);
+        }
+        part.offsets.push_back(static_cast<Index>(part.targets.size()));
+    }
+    return parts;
 }
 
 }  // namespace seamflow

@@ -3,21 +3,25 @@
 #include <span>
 #include <vector>
 
+#include "partition/cut/clusters.h"
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
 namespace seamflow {
 
-/// The dual graph of a set of faces in compressed rows: one node per face, an arc each way between two faces that
-/// share edges. Arcs of a node are in ascending order of their targets; no arc is double, none leads to its own node.
+/// The dual graph of a mesh, or a coarser one, in compressed rows: one node per cluster of faces, an arc each way
+/// between two clusters that share edges. Arcs of a node are in ascending order of their targets; no arc is double,
+/// none leads to its own node.
 struct FaceGraph {
     /// #nodes + 1; the arcs of node i are those from offsets[i] to offsets[i + 1] - 1.
     std::vector<Index> offsets{0};
     /// #arcs; the node an arc leads to.
     std::vector<Index> targets;
-    /// #arcs, at least 1: the length of all shared edges, in a unit in which the mean is about 64. Equal both ways.
+    /// #arcs, at least 1: the length or number of all shared edges, in a unit in which the mean is about 64. Equal both
+    /// ways.
     std::vector<Index> arc_weights;
-    /// #nodes: the number of triangles the face could be split into, which is about its share of the unknowns.
+    /// #nodes, at least 1: the weight of its faces (see face_weight), in larger units for the largest meshes.
     std::vector<Index> node_weights;
 
     [[nodiscard]] Index n_nodes() const { return static_cast<Index>(offsets.size()) - 1; }
@@ -26,25 +30,20 @@ struct FaceGraph {
 /// Neither the arc weights nor the node weights of a graph add up to more than this.
 inline constexpr double max_weight_sum = 1e9;
 
-/// Makes dual graphs of sets of faces, node i being faces[i]. Edges to faces outside the set are left out. A graph
-/// costs time in proportion to its own size, not to the mesh's.
-class FaceGraphMaker {
-  public:
-    /// The mesh and its topology must outlive the object.
-    FaceGraphMaker(const PolygonMesh& mesh, const Topology& topology);
-
-    /// @param faces distinct faces of the mesh.
-    FaceGraph make(std::span<const Index> faces);
-
-  private:
-    struct Arc;
-
-    void collect_arcs(Index f, std::vector<Arc>& arcs) const;
-
-    const PolygonMesh& mesh_;
-    const Topology& topology_;
-    /// #F: the node of a face in the graph in hand; -1 between calls.
-    std::vector<Index> node_of_;
+/// What makes it costly to cut an arc.
+enum class ArcMeasure {
+    /// The length of the shared edges.
+    Length,
+    /// Their number, which is about that of the vertices that will lie on the interface.
+    Count,
 };
+
+/// The graph of the clusters of a mesh.
+FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
+                          ArcMeasure measure, const Loop& loop = run_serially);
+
+/// Takes a graph apart, arcs between parts left out. The nodes of each part keep their order.
+/// @param part_of #nodes, from 0 to n_parts - 1.
+std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts);
 
 }  // namespace seamflow

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "partition/cut/pinches.h"
+#include "partition/cut/seams.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -24,13 +25,12 @@ Index merged_into(std::vector<Index>& parent, Index label)
 void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
 {
     PinchMender mender(mesh, topology, labels, n_labels);
-    std::vector<Index> vertices(at(mesh.n_vertices()));
-    std::iota(vertices.begin(), vertices.end(), 0);
+    std::vector<Index> vertices = mixed_vertices(topology, labels);
     std::vector<Index> parent(at(n_labels));
     std::iota(parent.begin(), parent.end(), 0);
     for (bool merged = true; merged;) {
         merged = false;
-        std::erase_if(vertices, [&](Index v) { return !mender.is_mixed(v); });
+        std::erase_if(vertices, [&](Index v) { return !is_mixed(topology, labels, v); });
         for (const Index v : vertices) {
             if (mender.pinches_at(v) == 0)
                 continue;

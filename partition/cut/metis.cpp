@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <mutex>
+#include <numeric>
 #include <string>
 
 #include <metis.h>
@@ -26,13 +28,17 @@ std::mutex& metis_mutex()
     return mutex;
 }
 
-std::array<idx_t, METIS_NOPTIONS> options(bool k_way)
+/// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on
+/// top.
+constexpr idx_t tolerance_of_groups = 10;
+
+std::array<idx_t, METIS_NOPTIONS> options(bool connected_parts)
 {
     std::array<idx_t, METIS_NOPTIONS> result{};
     METIS_SetDefaultOptions(result.data());
     result[METIS_OPTION_NUMBERING] = 0;
     result[METIS_OPTION_SEED] = seed;
-    if (k_way)
+    if (connected_parts)
         result[METIS_OPTION_CONTIG] = 1;
     return result;
 }
@@ -42,33 +48,61 @@ std::vector<idx_t> copy(const std::vector<Index>& from)
     return {from.begin(), from.end()};
 }
 
+/// Whether every node can be reached from the first: METIS refuses to make connected parts of other graphs.
+bool is_connected(const FaceGraph& graph)
+{
+    std::vector<bool> reached(at(graph.n_nodes()), false);
+    std::vector<Index> nodes{0};
+    reached[0] = true;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (Index arc = graph.offsets[at(nodes[i])]; arc < graph.offsets[at(nodes[i]) + 1]; ++arc) {
+            const Index target = graph.targets[at(arc)];
+            if (!reached[at(target)])
+                nodes.push_back(target);
+            reached[at(target)] = true;
+        }
+    return nodes.size() == reached.size();
+}
+
+/// The part of the whole weight for each part; empty if all get the same.
+std::vector<real_t> target_weights(std::span<const Index> shares)
+{
+    if (std::all_of(shares.begin(), shares.end(), [&](Index share) { return share == shares.front(); }))
+        return {};
+    const auto total = static_cast<double>(std::accumulate(shares.begin(), shares.end(), std::int64_t{0}));
+    std::vector<real_t> targets(shares.size());
+    std::transform(shares.begin(), shares.end(), targets.begin(),
+                   [&](Index share) { return static_cast<real_t>(share / total); });
+    return targets;
+}
+
 }  // namespace
 
-std::vector<Index> metis_k_way(const FaceGraph& graph, Index k)
+std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> shares)
 {
-    if (k < 1)
-        throw OptionError("the number of parts is " + std::to_string(k) + ", but must be at least 1");
     std::vector<idx_t> labels(at(graph.n_nodes()), 0);
-    k = std::min(k, graph.n_nodes());
-    if (k > 1) {
+    auto n_parts = static_cast<idx_t>(std::min(shares.size(), labels.size()));
+    if (n_parts > 1) {
         const std::lock_guard lock(metis_mutex());
-        const bool k_way = graph.n_nodes() / k >= min_nodes_per_part_k_way;
-        auto settings = options(k_way);
+        const bool k_way = graph.n_nodes() / n_parts >= min_nodes_per_part_k_way;
+        auto settings = options(k_way && is_connected(graph));
+        if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
+            settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
         auto offsets = copy(graph.offsets);
         auto targets = copy(graph.targets);
         auto arc_weights = copy(graph.arc_weights);
         auto node_weights = copy(graph.node_weights);
+        auto weights = target_weights(shares.first(static_cast<std::size_t>(n_parts)));
         idx_t n_nodes = graph.n_nodes();
         idx_t n_constraints = 1;
-        idx_t n_parts = k;
         idx_t cut_weight = 0;
         const auto partition = k_way ? METIS_PartGraphKway : METIS_PartGraphRecursive;
-        const int status =
-            partition(&n_nodes, &n_constraints, offsets.data(), targets.data(), node_weights.data(), nullptr,
-                      arc_weights.data(), &n_parts, nullptr, nullptr, settings.data(), &cut_weight, labels.data());
+        const int status = partition(&n_nodes, &n_constraints, offsets.data(), targets.data(), node_weights.data(),
+                                     nullptr, arc_weights.data(), &n_parts, weights.empty() ? nullptr : weights.data(),
+                                     nullptr, settings.data(), &cut_weight, labels.data());
         if (status != METIS_OK)
-            throw ComputationError("METIS could not divide " + std::to_string(n_nodes) + " faces into " +
-                                   std::to_string(k) + " parts (METIS status " + std::to_string(status) +
+            throw ComputationError("METIS could not divide a graph of " + std::to_string(n_nodes) + " nodes into " +
+                                   std::to_string(n_parts) + " parts (METIS status " + std::to_string(status) +
                                    "); try another number of parts");
     }
     return {labels.begin(), labels.end()};

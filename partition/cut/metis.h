@@ -1,16 +1,18 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "partition/cut/face_graph.h"
 
 namespace seamflow {
 
-/// Divides the nodes of a connected graph into k parts of about equal weight with short boundaries (METIS). The same
-/// graph and k give the same parts each time. May be called from several threads, which then wait for each other.
-/// @returns one label per node, from 0 to k - 1; on graphs of few nodes per part some labels may not occur, and a part
-/// need not be connected.
-/// @throws OptionError if k < 1, ComputationError if METIS fails.
-std::vector<Index> metis_k_way(const FaceGraph& graph, Index k);
+/// Divides the nodes of a graph into parts with short boundaries (METIS). The same input gives the same parts each
+/// time. May be called from several threads, which then wait for each other.
+/// @param shares one entry per part, at least 1: parts get about as much weight as is in proportion.
+/// @returns one label per node, from 0 to the number of parts - 1; on graphs of few nodes per part some labels may not
+/// occur, and a part need not be connected.
+/// @throws ComputationError if METIS fails.
+std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> shares);
 
 }  // namespace seamflow

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "partition/cut/components.h"
 #include "partition/index.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -24,30 +26,23 @@ class LoosePieces {
     {
     }
 
-    void find(const std::vector<bool>& suspects);
+    void find(const std::vector<bool>& suspects, const Loop& loop);
     std::vector<Index> join();
 
   private:
     template <class Visit>
     void for_each_neighbour(Index f, Visit&& visit) const;
-    void collect_piece(Index f);
-    void settle_largest_pieces();
+    IndexLists collect_pieces(std::span<const Index> faces);
+    void keep_loose_pieces(const IndexLists& pieces);
     void enqueue_loose_neighbours(Index f);
     Index best_neighbour(Index piece);
-
-    [[nodiscard]] std::span<const Index> faces_of(Index piece) const
-    {
-        const auto begin = piece_offsets_[at(piece)];
-        return std::span<const Index>(piece_faces_).subspan(begin, piece_offsets_[at(piece) + 1] - begin);
-    }
 
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    /// #F: the face's piece, or `settled`.
+    /// #F: the face's loose piece, or `settled`.
     std::vector<Index> piece_of_;
-    std::vector<std::size_t> piece_offsets_{0};
-    std::vector<Index> piece_faces_;
+    IndexLists pieces_;
     std::vector<bool> queued_;
     std::vector<Index> queue_;
     /// Scratch: one entry per label, zero between uses.
@@ -64,46 +59,64 @@ void LoosePieces::for_each_neighbour(Index f, Visit&& visit) const
             visit(h, topology_.face_of[at(twin)]);
 }
 
-void LoosePieces::collect_piece(Index f)
+/// The pieces of one part, given by its faces, which become settled. Looks at `piece_of_` for faces of this part alone.
+IndexLists LoosePieces::collect_pieces(std::span<const Index> faces)
 {
-    const auto piece = static_cast<Index>(piece_offsets_.size()) - 1;
-    piece_of_[at(f)] = piece;
-    piece_faces_.push_back(f);
-    for (std::size_t i = piece_offsets_.back(); i < piece_faces_.size(); ++i)
-        for_each_neighbour(piece_faces_[i], [&](Index, Index g) {
-            if (piece_of_[at(g)] != unvisited || labels_[at(g)] != labels_[at(f)])
-                return;
-            piece_of_[at(g)] = piece;
-            piece_faces_.push_back(g);
-        });
-    piece_offsets_.push_back(piece_faces_.size());
-}
-
-void LoosePieces::settle_largest_pieces()
-{
-    std::vector<Index> largest(shared_length_.size(), -1);
-    const auto n_pieces = static_cast<Index>(piece_offsets_.size()) - 1;
-    for (Index piece = 0; piece < n_pieces; ++piece) {
-        Index& best = largest[at(labels_[at(faces_of(piece).front())])];
-        if (best < 0 || faces_of(piece).size() > faces_of(best).size())
-            best = piece;
+    IndexLists pieces;
+    const auto collect = [&](Index, Index g) {
+        if (labels_[at(g)] != labels_[at(faces.front())] || piece_of_[at(g)] != unvisited)
+            return;
+        piece_of_[at(g)] = settled;
+        pieces.values.push_back(g);
+    };
+    for (const Index f : faces) {
+        if (piece_of_[at(f)] != unvisited)
+            continue;
+        piece_of_[at(f)] = settled;
+        pieces.values.push_back(f);
+        for (std::size_t i = at(pieces.offsets.back()); i < pieces.values.size(); ++i)
+            for_each_neighbour(pieces.values[i], collect);
+        pieces.close();
     }
-    for (const Index piece : largest)
-        if (piece >= 0)
-            for (const Index f : faces_of(piece))
-                piece_of_[at(f)] = settled;
+    return pieces;
 }
 
-void LoosePieces::find(const std::vector<bool>& suspects)
+/// All of a part but the largest one.
+void LoosePieces::keep_loose_pieces(const IndexLists& pieces)
 {
-    piece_of_.resize(labels_.size());
-    std::transform(labels_.begin(), labels_.end(), piece_of_.begin(),
-                   [&](Index label) { return suspects[at(label)] ? unvisited : settled; });
+    Index largest = 0;
+    for (Index piece = 1; piece < pieces.size(); ++piece)
+        if (pieces[piece].size() > pieces[largest].size())
+            largest = piece;
+    for (Index piece = 0; piece < pieces.size(); ++piece) {
+        if (piece == largest)
+            continue;
+        for (const Index f : pieces[piece]) {
+            piece_of_[at(f)] = pieces_.size();
+            pieces_.values.push_back(f);
+        }
+        pieces_.close();
+    }
+}
+
+void LoosePieces::find(const std::vector<bool>& suspects, const Loop& loop)
+{
+    piece_of_.assign(labels_.size(), settled);
+    std::vector<std::vector<Index>> faces(suspects.size());
     for (Index f = 0; f < mesh_.n_faces(); ++f)
-        if (piece_of_[at(f)] == unvisited)
-            collect_piece(f);
-    queued_.assign(piece_offsets_.size() - 1, false);
-    settle_largest_pieces();
+        if (suspects[at(labels_[at(f)])]) {
+            piece_of_[at(f)] = unvisited;
+            faces[at(labels_[at(f)])].push_back(f);
+        }
+    std::vector<IndexLists> found(suspects.size());
+    for_each(loop, static_cast<Index>(faces.size()), [&](Index label) {
+        found[at(label)] = collect_pieces(std::exchange(faces[at(label)], {}));
+        if (found[at(label)].size() < 2)
+            found[at(label)] = {};
+    });
+    for (const IndexLists& pieces : found)
+        keep_loose_pieces(pieces);
+    queued_.assign(at(pieces_.size()), false);
 }
 
 void LoosePieces::enqueue_loose_neighbours(Index f)
@@ -121,7 +134,7 @@ void LoosePieces::enqueue_loose_neighbours(Index f)
 Index LoosePieces::best_neighbour(Index piece)
 {
     candidates_.clear();
-    for (const Index f : faces_of(piece))
+    for (const Index f : pieces_[piece])
         for_each_neighbour(f, [&](Index h, Index g) {
             if (piece_of_[at(g)] != settled)
                 return;
@@ -145,23 +158,22 @@ Index LoosePieces::best_neighbour(Index piece)
 std::vector<Index> LoosePieces::join()
 {
     std::vector<Index> moved;
-    for (const Index f : piece_faces_)
-        if (piece_of_[at(f)] != settled)
-            for_each_neighbour(f, [&](Index, Index g) {
-                const Index piece = piece_of_[at(f)];
-                if (piece_of_[at(g)] != settled || queued_[at(piece)])
-                    return;
-                queued_[at(piece)] = true;
-                queue_.push_back(piece);
-            });
+    for (const Index f : pieces_.values)
+        for_each_neighbour(f, [&](Index, Index g) {
+            const Index piece = piece_of_[at(f)];
+            if (piece_of_[at(g)] != settled || queued_[at(piece)])
+                return;
+            queued_[at(piece)] = true;
+            queue_.push_back(piece);
+        });
     for (std::size_t i = 0; i < queue_.size(); ++i) {
         const Index label = best_neighbour(queue_[i]);
-        for (const Index f : faces_of(queue_[i])) {
+        for (const Index f : pieces_[queue_[i]]) {
             labels_[at(f)] = label;
             piece_of_[at(f)] = settled;
             moved.push_back(f);
         }
-        for (const Index f : faces_of(queue_[i]))
+        for (const Index f : pieces_[queue_[i]])
             enqueue_loose_neighbours(f);
     }
     return moved;
@@ -170,10 +182,10 @@ std::vector<Index> LoosePieces::join()
 }  // namespace
 
 std::vector<Index> join_loose_pieces(const PolygonMesh& mesh, const Topology& topology,
-                                     const std::vector<bool>& suspects, std::vector<Index>& labels)
+                                     const std::vector<bool>& suspects, std::vector<Index>& labels, const Loop& loop)
 {
     LoosePieces pieces(mesh, topology, labels, suspects.size());
-    pieces.find(suspects);
+    pieces.find(suspects, loop);
     return pieces.join();
 }
 

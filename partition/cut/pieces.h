@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -14,7 +15,8 @@ namespace seamflow {
 /// @param labels #F, in the range of `suspects`; no part may lie in several connected components of the mesh.
 /// @returns the faces that changed their label.
 std::vector<Index> join_loose_pieces(const PolygonMesh& mesh, const Topology& topology,
-                                     const std::vector<bool>& suspects, std::vector<Index>& labels);
+                                     const std::vector<bool>& suspects, std::vector<Index>& labels,
+                                     const Loop& loop = run_serially);
 
 /// Gives a part that lies in several connected components of the mesh a label for each of them: the first
 /// component keeps the label, the others get new ones.

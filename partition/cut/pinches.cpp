@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "partition/cut/seams.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -22,14 +23,6 @@ void PinchMender::count_faces()
     std::fill(n_faces_.begin(), n_faces_.end(), 0);
     for (const Index label : labels_)
         ++n_faces_[at(label)];
-}
-
-bool PinchMender::is_mixed(Index v) const
-{
-    const auto corners = topology_.corners_at(v);
-    return std::any_of(corners.begin(), corners.end(), [&](Index corner) {
-        return labels_[at(topology_.face_of[at(corner)])] != labels_[at(topology_.face_of[at(corners.front())])];
-    });
 }
 
 void PinchMender::find_runs(const Umbrella& umbrella)
@@ -65,7 +58,7 @@ Index PinchMender::count_excess_runs()
 
 Index PinchMender::pinches_at(Index v)
 {
-    if (!is_mixed(v))
+    if (!is_mixed(topology_, labels_, v))
         return 0;
     Index excess = 0;
     for (const Umbrella& umbrella : walker_.at_vertex(v)) {
@@ -78,7 +71,7 @@ Index PinchMender::pinches_at(Index v)
 /// The first umbrella at v with a pinch, and its runs in runs_; no faces if there is none.
 Umbrella PinchMender::find_pinch(Index v)
 {
-    if (is_mixed(v))
+    if (is_mixed(topology_, labels_, v))
         for (const Umbrella& umbrella : walker_.at_vertex(v)) {
             find_runs(umbrella);
             if (count_excess_runs() > 0)

@@ -19,9 +19,6 @@ class PinchMender {
     /// To be called after others have changed labels: counts the faces of the parts anew.
     void count_faces();
 
-    /// Whether faces at v have different labels.
-    [[nodiscard]] bool is_mixed(Index v) const;
-
     /// How many fans too many there are at v.
     Index pinches_at(Index v);
 

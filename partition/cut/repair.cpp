@@ -1,12 +1,12 @@
 #include "partition/cut/repair.h"
 
-#include <numeric>
 #include <utility>
 
 #include "partition/cut/compact.h"
 #include "partition/cut/merge.h"
 #include "partition/cut/pieces.h"
 #include "partition/cut/pinches.h"
+#include "partition/cut/seams.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -19,11 +19,12 @@ constexpr int max_rounds = 12;
 /// Vertices to look at, each once.
 class VertexQueue {
   public:
-    explicit VertexQueue(Index n_vertices)
-        : queued_(at(n_vertices), true)
-        , vertices_(at(n_vertices))
+    VertexQueue(Index n_vertices, std::vector<Index> vertices)
+        : queued_(at(n_vertices), false)
+        , vertices_(std::move(vertices))
     {
-        std::iota(vertices_.begin(), vertices_.end(), 0);
+        for (const Index v : vertices_)
+            queued_[at(v)] = true;
     }
 
     void add_corners_of(const PolygonMesh& mesh, const std::vector<Index>& faces)
@@ -50,22 +51,24 @@ class VertexQueue {
 };
 
 /// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
-void mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
+/// @returns whether no vertex is pinched any more.
+bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
+                    const Loop& loop)
 {
     PinchMender mender(mesh, topology, labels, n_labels);
-    VertexQueue queue(mesh.n_vertices());
+    VertexQueue queue(mesh.n_vertices(), mixed_vertices(topology, labels, loop));
     std::vector<bool> suspects(at(n_labels), true);
     for (int round = 0;; ++round) {
-        queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels));
+        queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));
         if (round == max_rounds)
-            return;
+            return false;
         mender.count_faces();
         std::vector<Index> moved;
         std::vector<Index> robbed;
         for (const Index v : queue.take())
             mender.mend(v, moved, robbed);
         if (moved.empty())
-            return;
+            return true;
         queue.add_corners_of(mesh, moved);
         suspects.assign(at(n_labels), false);
         for (const Index label : robbed)
@@ -73,20 +76,36 @@ void mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_l
     }
 }
 
-}  // namespace
-
-Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels)
+/// @param labels from 0 to n_labels - 1, each within one component.
+/// @returns the number of faces whose labels differ from `before`.
+Index mend(const PolygonMesh& mesh, const Topology& topology, Index n_labels, const std::vector<Index>& before,
+           std::vector<Index>& labels, const Loop& loop)
 {
-    Index n_labels = compact_labels(labels);
-    const std::vector<Index> before = labels;
-    n_labels = split_by_component(mesh, topology, n_labels, labels);
-    mend_in_rounds(mesh, topology, n_labels, labels);
-    merge_pinched(mesh, topology, n_labels, labels);
+    if (!mend_in_rounds(mesh, topology, n_labels, labels, loop))
+        merge_pinched(mesh, topology, n_labels, labels);
     Index n_moved = 0;
     for (std::size_t f = 0; f < labels.size(); ++f)
         n_moved += labels[f] != before[f] ? 1 : 0;
     compact_labels(labels);
     return n_moved;
+}
+
+}  // namespace
+
+Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, const Loop& loop)
+{
+    Index n_labels = compact_labels(labels);
+    const std::vector<Index> before = labels;
+    n_labels = split_by_component(mesh, topology, n_labels, labels);
+    return mend(mesh, topology, n_labels, before, labels, loop);
+}
+
+Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
+                               const Loop& loop)
+{
+    const Index n_labels = compact_labels(labels);
+    const std::vector<Index> before = labels;
+    return mend(mesh, topology, n_labels, before, labels, loop);
 }
 
 }  // namespace seamflow

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -15,6 +16,11 @@ namespace seamflow {
 /// @param labels #F, at least 0; on return from 0 to n_parts - 1 without gaps. The order of labels is kept; parts that
 /// had to be divided get new labels after the largest.
 /// @returns the number of faces that were given another label, renumbering apart.
-Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels);
+Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
+             const Loop& loop = run_serially);
+
+/// The same for a cut of which each part is known to lie within one connected component of the mesh.
+Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
+                               const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -24,8 +24,6 @@ void list_sharing(const Topology& topology, std::span<const Index> labels, Index
         }
         interface.sharing.close();
         interface.index_in_sharing.close();
-        if (interface.sharing[interface.sharing.size() - 1].front() == s)
-            ++decomposition.n_interface_vertices;
     }
     std::sort(adjacent.begin(), adjacent.end());
     adjacent.erase(std::unique(adjacent.begin(), adjacent.end()), adjacent.end());
@@ -62,32 +60,42 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<co
 
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts)
 {
+    std::vector<std::size_t> counts(at(n_parts), 0);
+    for (const Index label : labels)
+        ++counts[at(label)];
     std::vector<std::vector<Index>> faces(at(n_parts));
+    for (std::size_t s = 0; s < faces.size(); ++s)
+        faces[s].reserve(counts[s]);
     for (std::size_t f = 0; f < labels.size(); ++f)
         faces[at(labels[f])].push_back(static_cast<Index>(f));
     return faces;
 }
 
-Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels)
+Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels,
+                      const Loop& loop)
 {
     Decomposition decomposition;
     decomposition.sub_meshes = std::move(sub_meshes);
     const auto n = static_cast<Index>(decomposition.sub_meshes.size());
     decomposition.adjacency.resize(at(n));
     decomposition.halo.resize(at(n));
-    for (Index s = 0; s < n; ++s)
-        list_sharing(topology, labels, s, decomposition);
-    for (Index s = 0; s < n; ++s)
-        decomposition.halo[at(s)] = list_halo_transfers(topology, labels, s, decomposition);
+    for_each(loop, n, [&](Index s) { list_sharing(topology, labels, s, decomposition); });
+    for_each(loop, n,
+             [&](Index s) { decomposition.halo[at(s)] = list_halo_transfers(topology, labels, s, decomposition); });
+    for (const SubMesh& sub_mesh : decomposition.sub_meshes)
+        for (const Index i : sub_mesh.interface.vertices)
+            decomposition.n_interface_vertices += sub_mesh.owned[at(i)];
     return decomposition;
 }
 
-Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts)
+Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
+                        const Loop& loop)
 {
-    std::vector<SubMesh> sub_meshes;
-    for (auto& faces : faces_by_label(labels, n_parts))
-        sub_meshes.push_back(make_sub_mesh(mesh, topology, labels, std::move(faces)));
-    return connect(std::move(sub_meshes), topology, labels);
+    auto faces = faces_by_label(labels, n_parts);
+    std::vector<SubMesh> sub_meshes(faces.size());
+    for_each(loop, n_parts,
+             [&](Index s) { sub_meshes[at(s)] = make_sub_mesh(mesh, topology, labels, std::move(faces[at(s)])); });
+    return connect(std::move(sub_meshes), topology, labels, loop);
 }
 
 }  // namespace seamflow

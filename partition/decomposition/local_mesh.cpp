@@ -1,35 +1,97 @@
 #include "partition/decomposition/local_mesh.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace seamflow {
 
 namespace {
 
-void list_own_vertices(const PolygonMesh& mesh, SubMesh& sub_mesh)
+/// Positions in an ascending list, found in constant time.
+class PositionTable {
+  public:
+    /// The list must outlive the table. @param most how many there may be.
+    explicit PositionTable(std::size_t most)
+        : mask_(std::bit_ceil(2 * most + 1) - 1)
+        , slots_(mask_ + 1, {-1, -1})
+    {
+    }
+
+    /// @returns whether `value`, at least 0, was not in the table.
+    bool insert(Index value)
+    {
+        Slot& slot = slots_[slot_of(value)];
+        const bool is_new = slot.value < 0;
+        slot.value = value;
+        return is_new;
+    }
+
+    void set_positions(std::span<const Index> values)
+    {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            slots_[slot_of(values[i])] = {values[i], static_cast<Index>(i)};
+    }
+
+    /// -1 for what is not in the table.
+    [[nodiscard]] Index operator[](Index value) const { return slots_[slot_of(value)].position; }
+
+  private:
+    struct Slot {
+        Index value;
+        Index position;
+    };
+
+    /// Where `value` is, or the free slot for it.
+    [[nodiscard]] std::size_t slot_of(Index value) const
+    {
+        std::size_t slot = static_cast<std::size_t>(static_cast<std::uint32_t>(value) * 2654435769U) & mask_;
+        while (slots_[slot].value != value && slots_[slot].value >= 0)
+            slot = (slot + 1) & mask_;
+        return slot;
+    }
+
+    std::size_t mask_;
+    std::vector<Slot> slots_;
+};
+
+std::size_t count_corners(const PolygonMesh& mesh, std::span<const Index> faces)
 {
-    for (const Index f : sub_mesh.faces)
-        sub_mesh.local_to_global.insert(sub_mesh.local_to_global.end(), mesh.face(f).begin(), mesh.face(f).end());
-    sort_unique(sub_mesh.local_to_global);
-    sub_mesh.n_vertices = static_cast<Index>(sub_mesh.local_to_global.size());
+    std::size_t n = 0;
+    for (const Index f : faces)
+        n += mesh.face(f).size();
+    return n;
 }
 
-void localise_faces(const PolygonMesh& mesh, SubMesh& sub_mesh)
+void copy_vertices(const PolygonMesh& mesh, std::size_t n_corners, SubMesh& sub_mesh)
 {
+    PositionTable vertices(n_corners);
+    for (const Index f : sub_mesh.faces)
+        for (const Index v : mesh.face(f))
+            if (vertices.insert(v))
+                sub_mesh.local_to_global.push_back(v);
+    std::sort(sub_mesh.local_to_global.begin(), sub_mesh.local_to_global.end());
+    sub_mesh.n_vertices = static_cast<Index>(sub_mesh.local_to_global.size());
+    vertices.set_positions(sub_mesh.local_to_global);
+
+    sub_mesh.face_vertices.offsets.reserve(sub_mesh.faces.size() + 1);
+    sub_mesh.face_vertices.values.reserve(n_corners);
     for (const Index f : sub_mesh.faces) {
         for (const Index v : mesh.face(f))
-            sub_mesh.face_vertices.values.push_back(local_index(sub_mesh, v));
+            sub_mesh.face_vertices.values.push_back(vertices[v]);
         sub_mesh.face_vertices.close();
     }
 }
 
-void localise_twins(const PolygonMesh& mesh, const Topology& topology, SubMesh& sub_mesh)
+void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMesh& sub_mesh)
 {
+    PositionTable faces(sub_mesh.faces.size());
+    faces.set_positions(sub_mesh.faces);
     sub_mesh.twin.reserve(sub_mesh.face_vertices.values.size());
     for (const Index f : sub_mesh.faces)
         for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
             const Index twin = topology.twin[at(h)];
-            const Index face = twin < 0 ? -1 : position_in(sub_mesh.faces, topology.face_of[at(twin)]);
+            const Index face = twin < 0 ? -1 : faces[topology.face_of[at(twin)]];
             sub_mesh.twin.push_back(face < 0 ? -1
                                              : sub_mesh.face_vertices.offsets[at(face)] + twin -
                                                    mesh.face_offsets[at(topology.face_of[at(twin)])]);
@@ -38,6 +100,7 @@ void localise_twins(const PolygonMesh& mesh, const Topology& topology, SubMesh& 
 
 void mark_fixed(const Topology& topology, SubMesh& sub_mesh)
 {
+    sub_mesh.fixed.reserve(sub_mesh.local_to_global.size());
     for (const Index v : sub_mesh.local_to_global)
         sub_mesh.fixed.push_back(topology.kind[at(v)] == VertexKind::Interior ? 0 : 1);
 }
@@ -90,9 +153,8 @@ SubMesh copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vecto
 {
     SubMesh sub_mesh;
     sub_mesh.faces = std::move(faces);
-    list_own_vertices(mesh, sub_mesh);
-    localise_faces(mesh, sub_mesh);
-    localise_twins(mesh, topology, sub_mesh);
+    copy_vertices(mesh, count_corners(mesh, sub_mesh.faces), sub_mesh);
+    copy_twins(mesh, topology, sub_mesh);
     mark_fixed(topology, sub_mesh);
     return sub_mesh;
 }

@@ -36,10 +36,10 @@ void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, st
 VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
     : mesh_(mesh)
     , topology_(topology)
-    , sense_(at(mesh.n_corners()), 1)
 {
     if (is_oriented(mesh, topology))
         return;
+    sense_.assign(at(mesh.n_corners()), 1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         for (const Fan& fan : fans_at(mesh, topology, v, {}, 0))
             align(mesh, topology, fan, sense_);
@@ -49,7 +49,8 @@ Point VertexNormals::operator()(Index v, const Points& positions) const
 {
     Point sum = Point::Zero();
     for (const Index corner : topology_.corners_at(v))
-        sum += sense_[at(corner)] * vector_area(mesh_.face(topology_.face_of[at(corner)]), positions);
+        sum += (sense_.empty() ? 1 : sense_[at(corner)]) *
+               vector_area(mesh_.face(topology_.face_of[at(corner)]), positions);
     sum.stableNormalize();
     return sum;
 }

@@ -24,7 +24,7 @@ class VertexNormals {
   private:
     const PolygonMesh& mesh_;
     const Topology& topology_;
-    /// One per corner: 1, or -1 if its face is turned against the first one of its fan.
+    /// One per corner: 1, or -1 if its face is turned against the first one of its fan. Empty: 1 everywhere.
     std::vector<std::int8_t> sense_;
 };
 

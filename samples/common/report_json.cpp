@@ -124,6 +124,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["time_step"] = number(report.time_step);
     json["threads"] = report.threads;
     json["p"] = numbers(report.p);
+    json["live_factors"] = report.live_factors;
+    json["factor_memory_bytes"] = report.factor_memory_bytes;
     json["seconds"] = seconds_json(run, report.seconds);
     json["steps"] = steps_json(report.steps, run.mean_edge);
     json["displacement"] = total_json(report.displacement, run.mean_edge);

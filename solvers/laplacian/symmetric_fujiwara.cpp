@@ -7,30 +7,48 @@ namespace seamflow {
 
 namespace {
 
-void append_edges(const IndexLists& faces, std::vector<VertexPair>& edges)
+/// Calls action(h, start, end) for every half-edge h.
+template <class Action>
+void for_each_halfedge(const IndexLists& faces, Action&& action)
 {
     for (Index f = 0; f < faces.size(); ++f) {
         const auto corners = faces[f];
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Index start = corners[k];
-            const Index end = corners[k + 1 == corners.size() ? 0 : k + 1];
-            edges.push_back({std::min(start, end), std::max(start, end)});
-        }
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            action(at(faces.offsets[at(f)]) + k, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1]);
     }
+}
+
+/// Every edge once. Those along Γ belong to faces on both sides.
+std::vector<VertexPair> list_edges(const FacesOnBothSides& faces)
+{
+    std::vector<VertexPair> edges;
+    edges.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
+    std::vector<VertexPair> on_rim;
+    const auto add_to_rim = [&](Index start, Index end) {
+        on_rim.push_back({std::min(start, end), std::max(start, end)});
+    };
+    for_each_halfedge(faces.own, [&](std::size_t h, Index start, Index end) {
+        const Index twin = faces.twin[h];
+        if (twin < 0)
+            add_to_rim(start, end);
+        else if (h < at(twin))
+            edges.push_back({start, end});
+    });
+    for_each_halfedge(faces.beyond, [&](std::size_t, Index start, Index end) { add_to_rim(start, end); });
+    std::sort(on_rim.begin(), on_rim.end());
+    on_rim.erase(std::unique(on_rim.begin(), on_rim.end()), on_rim.end());
+    edges.insert(edges.end(), on_rim.begin(), on_rim.end());
+    edges.shrink_to_fit();
+    return edges;
 }
 
 /// K has -1/‖e‖ for each edge, M_v the mean length of the edges at v.
 class SymmetricFujiwara final : public SymmetricLaplacian {
   public:
     explicit SymmetricFujiwara(const FacesOnBothSides& faces)
-        : inverse_degree_(at(faces.n_vertices), 0.0)
+        : edges_(list_edges(faces))
+        , inverse_degree_(at(faces.n_vertices), 0.0)
     {
-        edges_.reserve(faces.own.values.size() + faces.beyond.values.size());
-        append_edges(faces.own, edges_);
-        append_edges(faces.beyond, edges_);
-        std::sort(edges_.begin(), edges_.end());
-        edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-        edges_.shrink_to_fit();
         for (const VertexPair& e : edges_) {
             inverse_degree_[at(e.first)] += 1.0;
             inverse_degree_[at(e.second)] += 1.0;

@@ -41,6 +41,8 @@ class SymmetricLaplacian {
 struct FacesOnBothSides {
     const IndexLists& own;
     const IndexLists& beyond;
+    /// Of the own faces: see SubMesh::twin.
+    std::span<const Index> twin;
     /// Of all vertices.
     Index n_vertices;
 };

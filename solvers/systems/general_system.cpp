@@ -120,7 +120,7 @@ void GeneralSystem::predict(const Points& positions, Points& prediction, SolverW
 void GeneralSystem::solve(const Points&, Points& solution, SolverWorkspace& workspace)
 {
     solve_with(solution, solution, workspace);
-    solver_->free_factor();
+    solver_->free_factor(*workspace.factors);
 }
 
 /// @param given #local by 3: Vᵏ⁺¹, or what stands for it, where the sub-mesh follows; may be the solution itself.

@@ -36,8 +36,8 @@ SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vec
 SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows,
                                  SolverWorkspace& workspace)
     : sub_mesh_(&sub_mesh)
-    , laplacian_(make_symmetric_laplacian(
-          laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces, sub_mesh.n_vertices + sub_mesh.n_halo}))
+    , laplacian_(make_symmetric_laplacian(laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces,
+                                                      sub_mesh.twin, sub_mesh.n_vertices + sub_mesh.n_halo}))
 {
     number_unknowns(rows);
     const std::vector<VertexPair> pairs = laplacian_->pairs();
@@ -222,10 +222,10 @@ void SymmetricSystem::factorise(SolverWorkspace& workspace)
     const auto values = std::span<double>(workspace.values).first(at(upper_.n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (vertex_of_.empty() || solver_->factorise(values, workspace.cholmod))
+    if (vertex_of_.empty() || solver_->factorise(values, *workspace.factors, workspace.cholmod))
         return;
     stop_yielding(values);
-    if (!solver_->factorise(values, workspace.cholmod))
+    if (!solver_->factorise(values, *workspace.factors, workspace.cholmod))
         throw ComputationError("the system is singular: use a smaller time step, or another Laplacian");
 }
 
@@ -250,7 +250,7 @@ void SymmetricSystem::predict(const Points& positions, Points& prediction, Solve
 void SymmetricSystem::solve(const Points& positions, Points& solution, SolverWorkspace& workspace)
 {
     solve_with(positions, solution, workspace);
-    solver_->free_factor(workspace.cholmod);
+    solver_->free_factor(*workspace.factors);
 }
 
 /// @param solution in: what is known of Γ; out: everything.

@@ -30,6 +30,7 @@ class SymmetricSystem final : public SubMeshSystem {
 
     void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
+    [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
     void factorise(SolverWorkspace& workspace) override;
     void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;

@@ -49,7 +49,7 @@ struct Workshop {
 TEST_CASE("help and success end with 0")
 {
     const Workshop w;
-    for (const char* program : {SMOOTH, COMPARE, GENERATE, FIGURES})
+    for (const char* program : {SMOOTH, COMPARE, GENERATE, FIGURES, BENCHMARK})
         CHECK(w.run(std::string(program) + " --help") == 0);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
     CHECK(w.has("out.obj"));
@@ -336,4 +336,100 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     CHECK(w.said().find("there are teaser, ") != std::string::npos);
     CHECK(w.run(FIGURES " texture") == 2);
     CHECK(w.run(FIGURES " --out results --meshes none texture") == 3);
+}
+
+TEST_CASE("benchmark holds every peer beside ours, each in a process of its own")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " triangles grid.obj --vertices 2000") == 0);
+    REQUIRE(w.run(BENCHMARK " --mesh grid.obj --subdomains 4 --steps 3 --threads 2 --json case.json --export exported "
+                            "--peers cholmod,umfpack,cg,cg-ic,cgal") == 0);
+    const Json json = w.json("case.json");
+    for (const char* key : {"vertices", "dt_over_h2", "laplacian", "threads", "ours", "peers", "ratios", "reference"})
+        CHECK_MESSAGE(json.contains(key), key);
+    for (const char* key : {"subdomains", "setup_s", "step_s", "phases", "peak_memory_bytes", "v_mean", "v_max"})
+        CHECK_MESSAGE(json["ours"].contains(key), key);
+    CHECK(json["reference"] == "cholmod");
+    CHECK(json["ours"]["subdomains"] == 4);
+    CHECK(json["ours"]["v_max"].get<double>() > 1e-6);
+    for (const char* name : {"cholmod", "umfpack", "cg-1e-8", "cg-1e-4", "cg-equal-accuracy", "cg-ic-1e-8",
+                             "cg-ic-1e-4", "cg-ic-equal-accuracy", "cgal"}) {
+        CAPTURE(name);
+        REQUIRE(json["peers"].contains(name));
+        const Json peer = json["peers"][name];
+        CHECK(peer["setup_s"].get<double>() > 0.0);
+        CHECK(peer["step_s"].get<double>() > 0.0);
+        CHECK(peer["peak_memory_bytes"].get<double>() > 1e6);
+        CHECK(json["ratios"][name].get<double>() ==
+              doctest::Approx(peer["step_s"].get<double>() / json["ours"]["step_s"].get<double>()));
+    }
+    CHECK(json["peers"]["umfpack"]["v_max"].get<double>() < 1e-9);
+    CHECK(json["peers"]["cg-equal-accuracy"]["v_max"] <= json["ours"]["v_max"]);
+    CHECK_FALSE(json["peers"]["cgal"].contains("v_max"));
+    CHECK(w.count_lines("said", "cg-ic-equal-accuracy") == 1);
+    for (const char* name : {"system", "system_rhs", "symmetric", "symmetric_rhs", "symmetric_vertices", "positions"})
+        CHECK(w.has(std::string("exported/") + name + ".mtx"));
+}
+
+TEST_CASE("benchmark says which peers cannot take part, and goes on")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --mesh mesh.obj --laplacian ptackova-velho --steps 2 --json case.json") == 0);
+    const Json json = w.json("case.json");
+    CHECK(json["reference"] == "umfpack");
+    CHECK(json["peers"]["cholmod"]["error"] == "left out: Ptáčková-Velho is not symmetric");
+    CHECK(json["peers"]["cgal"]["error"] == "left out: smooth_shape takes triangles only");
+    CHECK(json["peers"]["bicgstab-1e-8"]["step_s"].get<double>() > 0.0);
+    CHECK_FALSE(json["ratios"].contains("cholmod"));
+}
+
+TEST_CASE("benchmark without peers knows its distance to the undecomposed flow, or does without")
+{
+    const Workshop w;
+    const std::string ours = BENCHMARK " --vertices 2000 --steps 1 --subdomains 4 --peers none --json case.json";
+    REQUIRE(w.run(ours) == 0);
+    const double direct = w.json("case.json")["ours"]["v_max"].get<double>();
+    REQUIRE(w.run(ours + " --reference iterative") == 0);
+    CHECK(w.json("case.json")["reference"] == "cg-1e-12");
+    CHECK(w.json("case.json")["ours"]["v_max"].get<double>() == doctest::Approx(direct).epsilon(1e-6));
+    REQUIRE(w.run(ours + " --reference none") == 0);
+    CHECK_FALSE(w.json("case.json")["ours"].contains("v_max"));
+}
+
+TEST_CASE("benchmark sweeps over sizes and over threads")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --scaling --vertices 15000 --steps 1 --json scaling.json") == 0);
+    const Json sizes = w.json("scaling.json")["scaling"];
+    REQUIRE(sizes.size() == 2);
+    CHECK(sizes[0]["vertices"].get<double>() == doctest::Approx(10'000).epsilon(0.1));
+    CHECK(sizes[1]["vertices"].get<double>() == doctest::Approx(15'000).epsilon(0.1));
+    REQUIRE(w.run(BENCHMARK " --threads-sweep --vertices 1000 --threads 2 --steps 2 --json sweep.json") == 0);
+    const Json threads = w.json("sweep.json")["threads_sweep"];
+    REQUIRE(threads.size() == 2);
+    CHECK(threads[1]["threads"] == 2);
+}
+
+TEST_CASE("benchmark refuses wrong usage and unusable files")
+{
+    const Workshop w;
+    for (const char* arguments :
+         {"--vertices 10", "--vertices 1e5", "--kind dodecahedra", "--laplacian cotan", "--time-step-edges 0",
+          "--steps 0", "--subdomains -1", "--threads 1025", "--conditions none", "--peers everybody",
+          "--reference nobody", "--mesh mesh.obj --vertices 1000", "--mesh mesh.obj --kind quads",
+          "--scaling --threads-sweep", "--scaling --mesh mesh.obj", "--scaling --export exported",
+          "--scaling --vertices 1000", "--threads-sweep --peers cg", "mesh.obj"}) {
+        CAPTURE(arguments);
+        CHECK(w.run(std::string(BENCHMARK " --json case.json ") + arguments) == 2);
+        CHECK_FALSE(w.said().empty());
+    }
+    CHECK_FALSE(w.has("case.json"));
+    CHECK(w.run(BENCHMARK " --mesh nothing.obj") == 3);
+    (void)w.directory.with("sliver.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nv 0 0 0\n"
+                                         "f 1 2 5\nf 5 2 3\nf 1 5 3\nf 3 4 1\n");
+    CHECK(w.run(BENCHMARK " --mesh sliver.obj --peers none") == 3);
+    CHECK(w.said().find("sliver.obj") != std::string::npos);
+    CHECK(w.run(BENCHMARK " --json nowhere/case.json") == 5);
+    (void)w.directory.with("file", "");
+    CHECK(w.run(BENCHMARK " --export file/below") == 5);
 }

@@ -61,11 +61,11 @@ TEST_CASE("three systems are solved at once, for one set of values after the oth
         for (const double shift : {0.01, 1.0, 100.0}) {
             const SymmetricMatrix matrix = grid_matrix(side, shift, random);
             Columns right = random_columns(side * side, random);
-            REQUIRE(solver.factorise(matrix.values, workspace));
+            REQUIRE(solver.factorise(matrix.values, heap_memory(), workspace));
             const Columns found = solver.solve(right, another);
             CHECK((matrix.dense * found - right).norm() < 1e-11 * matrix.dense.norm());
             CHECK(Columns(solver.solve(right, workspace)) == found);
-            solver.free_factor(another);
+            solver.free_factor(heap_memory());
         }
     }
 }
@@ -78,12 +78,12 @@ TEST_CASE("a matrix that is not positive definite is found out, and the solver g
     CholmodSolver solver(matrix.upper, workspace);
     auto indefinite = matrix.values;
     indefinite[at(matrix.upper.slot({30, 30}))] = -1.0;
-    CHECK_FALSE(solver.factorise(indefinite, workspace));
+    CHECK_FALSE(solver.factorise(indefinite, heap_memory(), workspace));
     auto singular = matrix.values;
     std::fill(singular.begin(), singular.end(), 0.0);
-    CHECK_FALSE(solver.factorise(singular, workspace));
+    CHECK_FALSE(solver.factorise(singular, heap_memory(), workspace));
     Columns right = random_columns(64, random);
-    REQUIRE(solver.factorise(matrix.values, workspace));
+    REQUIRE(solver.factorise(matrix.values, heap_memory(), workspace));
     CHECK((matrix.dense * Columns(solver.solve(right, workspace)) - right).norm() < 1e-10);
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("large systems are solved by dense blocks")
     for (Index u = 0; u < n; ++u)
         values[at(upper.slot({u, u}))] = 2.5;
     CholmodSolver solver(upper, workspace);
-    REQUIRE(solver.factorise(values, workspace));
+    REQUIRE(solver.factorise(values, heap_memory(), workspace));
     Columns right = random_columns(n, random);
     const Columns found = solver.solve(right, workspace);
     Columns residual = 2.5 * found - right;
@@ -134,5 +134,5 @@ TEST_CASE("large systems are solved by dense blocks")
     residual.bottomRows(n - 1) -= found.topRows(n - 1);
     CHECK(residual.cwiseAbs().maxCoeff() < 1e-14);
     values[at(upper.slot({7, 7}))] = -1.0;
-    CHECK_FALSE(solver.factorise(values, workspace));
+    CHECK_FALSE(solver.factorise(values, heap_memory(), workspace));
 }

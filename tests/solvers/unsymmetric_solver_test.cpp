@@ -16,7 +16,7 @@ Columns solved(UnsymmetricSolver& solver, std::span<const double> values, const 
     solver.factorise(values, workspace);
     Columns solution(right_hand_side.rows(), 3);
     solver.solve(values, right_hand_side, solution, workspace);
-    solver.free_factor();
+    solver.free_factor(*workspace.factors);
     return solution;
 }
 

@@ -73,6 +73,27 @@ TEST_CASE("a mesh large enough is cut into as many parts as asked, about equal")
         }
 }
 
+TEST_CASE("large meshes, divided by clusters, are cut soundly too, however loops are run")
+{
+    const NamedMesh m = named(side_by_side({triangle_torus(500, 500), quad_grid(3, 3), triangle_grid(100, 30)}));
+    for (const Index k : {2, 90}) {
+        const Cut cut = cut_into(m.mesh, m.topology, k);
+        check_sound(m, cut);
+        CHECK(cut.n_parts >= k);
+        CHECK(cut.repaired_faces < m.mesh.n_faces() / 100);
+        std::vector<Index> sizes(static_cast<std::size_t>(cut.n_parts), 0);
+        for (const Index label : cut.labels)
+            ++sizes[static_cast<std::size_t>(label)];
+        CHECK(*std::max_element(sizes.begin(), sizes.end()) < 1.1 * m.mesh.n_faces() / k);
+    }
+    const Loop backwards = [](Index n, const LoopBody& body) {
+        for (Index i = n; i > 0; --i)
+            body(i - 1, i);
+    };
+    CHECK(cut_into(m.mesh, make_topology(m.mesh, backwards), 90, backwards).labels ==
+          cut_into(m.mesh, m.topology, 90).labels);
+}
+
 TEST_CASE("one part is the whole mesh, with all its components")
 {
     const NamedMesh m = named(side_by_side({quad_grid(3, 3), quad_torus(4, 4)}));

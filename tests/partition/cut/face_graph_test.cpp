@@ -13,22 +13,10 @@ using namespace seamflow::test;
 
 namespace {
 
-std::vector<Index> all_faces(const PolygonMesh& mesh)
-{
-    std::vector<Index> faces(static_cast<std::size_t>(mesh.n_faces()));
-    std::iota(faces.begin(), faces.end(), 0);
-    return faces;
-}
-
-FaceGraph graph_of(const PolygonMesh& mesh, const std::vector<Index>& faces)
+FaceGraph graph_of(const PolygonMesh& mesh, Index cluster_weight = 1, ArcMeasure measure = ArcMeasure::Length)
 {
     const Topology topology = make_topology(mesh);
-    return FaceGraphMaker(mesh, topology).make(faces);
-}
-
-FaceGraph graph_of(const PolygonMesh& mesh)
-{
-    return graph_of(mesh, all_faces(mesh));
+    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, cluster_weight), measure);
 }
 
 /// The weight of the arc from one node to another, 0 if there is none.
@@ -114,12 +102,17 @@ TEST_CASE("lengths without a finite sum count as equal")
     }
 }
 
-TEST_CASE("a subset of the faces gives the graph within it")
+TEST_CASE("a graph taken apart keeps the arcs within its parts")
 {
-    const PolygonMesh mesh = quad_grid(3, 1);
-    const FaceGraph graph = graph_of(mesh, std::vector<Index>{2, 1});
-    CHECK(graph.offsets == std::vector<Index>{0, 1, 2});
-    CHECK(graph.targets == std::vector<Index>{1, 0});
+    const auto parts = take_apart(graph_of(quad_grid(4, 1)), std::vector<Index>{2, 0, 0, 2}, 3);
+    REQUIRE(parts.size() == 3);
+    CHECK(parts[0].offsets == std::vector<Index>{0, 1, 2});
+    CHECK(parts[0].targets == std::vector<Index>{1, 0});
+    CHECK(parts[0].arc_weights == std::vector<Index>{64, 64});
+    CHECK(parts[0].node_weights == std::vector<Index>{2, 2});
+    CHECK(parts[1].n_nodes() == 0);
+    CHECK(parts[2].n_nodes() == 2);
+    CHECK(parts[2].targets.empty());
 }
 
 TEST_CASE("node weights count the triangles of a face")
@@ -128,13 +121,25 @@ TEST_CASE("node weights count the triangles of a face")
     CHECK(graph_of(triangle_grid(1, 1)).node_weights == std::vector<Index>{1, 1});
 }
 
-TEST_CASE("one maker makes many graphs, each as if it were the first")
+TEST_CASE("the graph of clusters weighs as much as that of the faces, and has fewer nodes and arcs")
 {
-    const PolygonMesh mesh = quad_grid(3, 3);
-    const Topology topology = make_topology(mesh);
-    FaceGraphMaker maker(mesh, topology);
-    maker.make(all_faces(mesh));
-    const FaceGraph graph = maker.make(std::vector<Index>{4, 8});
-    CHECK(graph.targets.empty());
-    CHECK(maker.make(std::vector<Index>{4, 5}).targets == std::vector<Index>{1, 0});
+    for (const NamedMesh& m : assorted_meshes()) {
+        CAPTURE(m.name);
+        const FaceGraph fine = graph_of(m.mesh);
+        const FaceGraph coarse = graph_of(m.mesh, 6);
+        CHECK(sum(coarse.node_weights) == sum(fine.node_weights));
+        CHECK(coarse.n_nodes() <= fine.n_nodes());
+        CHECK(coarse.targets.size() <= fine.targets.size());
+        for (Index i = 0; i < coarse.n_nodes(); ++i)
+            for (Index arc = coarse.offsets[at(i)]; arc < coarse.offsets[at(i) + 1]; ++arc)
+                CHECK(weight(coarse, coarse.targets[at(arc)], i) == coarse.arc_weights[at(arc)]);
+    }
+}
+
+TEST_CASE("edges may count alike, however long")
+{
+    PolygonMesh mesh = quad_grid(2, 2);
+    mesh.vertices.col(0) *= 3;
+    const FaceGraph graph = graph_of(mesh, 1, ArcMeasure::Count);
+    CHECK(graph.arc_weights == std::vector<Index>(8, 64));
 }

@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <numeric>
 #include <thread>
 
 #include <doctest/doctest.h>
 
 #include "partition/cut/metis.h"
-#include "partition/errors.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -15,10 +13,13 @@ namespace {
 
 FaceGraph graph_of(const PolygonMesh& mesh)
 {
-    std::vector<Index> faces(static_cast<std::size_t>(mesh.n_faces()));
-    std::iota(faces.begin(), faces.end(), 0);
     const Topology topology = make_topology(mesh);
-    return FaceGraphMaker(mesh, topology).make(faces);
+    return make_face_graph(mesh, topology, grow_clusters(mesh, topology, 1), ArcMeasure::Length);
+}
+
+std::vector<Index> equal(Index k)
+{
+    return std::vector<Index>(static_cast<std::size_t>(k), 1);
 }
 
 std::vector<Index> sizes(const std::vector<Index>& labels, Index k)
@@ -36,40 +37,50 @@ TEST_CASE("parts are balanced, none is empty, and the result is reproducible")
     const FaceGraph graph = graph_of(quad_torus(60, 60));
     for (const Index k : {2, 3, 8, 50, 70, 200, 300}) {
         CAPTURE(k);
-        const auto labels = metis_k_way(graph, k);
+        const auto labels = metis_k_way(graph, equal(k));
         REQUIRE(labels.size() == 3600);
         CHECK(*std::min_element(labels.begin(), labels.end()) >= 0);
         CHECK(*std::max_element(labels.begin(), labels.end()) < k);
         const auto size = sizes(labels, k);
         CHECK(*std::min_element(size.begin(), size.end()) > 0);
         CHECK(*std::max_element(size.begin(), size.end()) <= 3600 / k * 3 / 2 + 1);
-        CHECK(metis_k_way(graph, k) == labels);
+        CHECK(metis_k_way(graph, equal(k)) == labels);
     }
 }
 
 TEST_CASE("one part needs no partitioning, and no graph is too small")
 {
-    CHECK(metis_k_way(graph_of(quad_grid(3, 2)), 1) == std::vector<Index>(6, 0));
-    CHECK(metis_k_way(FaceGraph{}, 5).empty());
-    CHECK(metis_k_way(graph_of(quad_grid(1, 1)), 5) == std::vector<Index>{0});
+    CHECK(metis_k_way(graph_of(quad_grid(3, 2)), equal(1)) == std::vector<Index>(6, 0));
+    CHECK(metis_k_way(FaceGraph{}, equal(5)).empty());
+    CHECK(metis_k_way(graph_of(quad_grid(1, 1)), equal(5)) == std::vector<Index>{0});
     for (Index n = 2; n < 12; ++n)
         for (Index k = 2; k < 15; ++k)
-            CHECK(metis_k_way(graph_of(quad_grid(n, 1)), k).size() == static_cast<std::size_t>(n));
+            CHECK(metis_k_way(graph_of(quad_grid(n, 1)), equal(k)).size() == static_cast<std::size_t>(n));
 }
 
-TEST_CASE("no parts at all cannot be asked for")
+TEST_CASE("parts get weight in proportion to their shares")
 {
-    CHECK_THROWS_AS(metis_k_way(FaceGraph{}, 0), OptionError);
+    const FaceGraph graph = graph_of(quad_torus(60, 60));
+    const std::vector<Index> shares{1, 2, 5};
+    const auto size = sizes(metis_k_way(graph, shares), 3);
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(size[i] == doctest::Approx(450.0 * shares[i]).epsilon(0.05));
+}
+
+TEST_CASE("a graph need not be connected")
+{
+    const auto size = sizes(metis_k_way(graph_of(side_by_side({quad_grid(20, 20), quad_grid(20, 20)})), equal(4)), 4);
+    CHECK(*std::min_element(size.begin(), size.end()) > 150);
 }
 
 TEST_CASE("callers from several threads get what they would get alone")
 {
     const FaceGraph graph = graph_of(triangle_torus(30, 30));
-    const auto alone = metis_k_way(graph, 9);
+    const auto alone = metis_k_way(graph, equal(9));
     std::vector<std::vector<Index>> together(4);
     std::vector<std::thread> threads;
     for (auto& labels : together)
-        threads.emplace_back([&] { labels = metis_k_way(graph, 9); });
+        threads.emplace_back([&] { labels = metis_k_way(graph, equal(9)); });
     for (auto& thread : threads)
         thread.join();
     for (const auto& labels : together)

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The faces of a mesh in small connected groups, the nodes of a graph coarser than that of its faces (see FaceGraph).
+struct FaceClusters {
+    /// The faces of every cluster, each connected through edges of exactly two faces.
+    IndexLists faces;
+    /// #F: the cluster of every face.
+    std::vector<Index> cluster_of;
+    /// The connected component of the mesh that every cluster lies in. Components are numbered by their lowest faces.
+    std::vector<Index> component_of;
+    Index n_components = 0;
+
+    [[nodiscard]] Index size() const { return faces.size(); }
+};
+
+/// How much a face counts when a mesh is divided: the number of triangles it could be split into, which is about its
+/// share of the unknowns.
+inline Index face_weight(const PolygonMesh& mesh, Index f)
+{
+    return static_cast<Index>(mesh.face(f).size()) - 2;
+}
+
+/// Grows clusters breadth first, one beside the other, each until its faces weigh `weight` or nothing is left around
+/// it. Linear in the size of the mesh.
+/// @param weight at least 1, which makes every face f the cluster f.
+FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight);
+
+}  // namespace seamflow

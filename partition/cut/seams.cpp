@@ -1,0 +1,137 @@
+#include "partition/cut/seams.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "partition/cut/clusters.h"
+#include "partition/index.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Hardly anything moves in later rounds.
+constexpr int max_rounds = 8;
+
+/// Calls visit(face across) for every edge of f that has one.
+template <class Visit>
+void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index f, Visit&& visit)
+{
+    for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h)
+        if (const Index twin = topology.twin[at(h)]; twin >= 0)
+            visit(topology.face_of[at(twin)]);
+}
+
+class SeamShortener {
+  public:
+    SeamShortener(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
+        : mesh_(mesh)
+        , topology_(topology)
+        , labels_(labels)
+        , weight_(at(n_labels), 0)
+        , shared_(at(n_labels), 0)
+    {
+        std::int64_t total = 0;
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            weight_[at(labels[at(f)])] += face_weight(mesh, f);
+            total += face_weight(mesh, f);
+        }
+        const double mean = static_cast<double>(total) / n_labels;
+        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + seam_tolerance));
+        lightest_ = static_cast<std::int64_t>(mean / (1.0 + seam_tolerance));
+    }
+
+    [[nodiscard]] bool is_beside_seam(Index f) const
+    {
+        bool beside = false;
+        for_each_neighbour(mesh_, topology_, f, [&](Index g) { beside = beside || labels_[at(g)] != labels_[at(f)]; });
+        return beside;
+    }
+
+    /// @returns whether the face changed its label.
+    bool improve(Index f)
+    {
+        const Index own = labels_[at(f)];
+        candidates_.assign(1, own);
+        for_each_neighbour(mesh_, topology_, f, [&](Index g) {
+            const Index label = labels_[at(g)];
+            if (shared_[at(label)]++ == 0 && label != own)
+                candidates_.push_back(label);
+        });
+        Index best = own;
+        for (const Index label : candidates_)
+            if (label != own && may_move(f, own, label) && is_better(f, label, best))
+                best = label;
+        for (const Index label : candidates_)
+            shared_[at(label)] = 0;
+        weight_[at(own)] -= face_weight(mesh_, f);
+        weight_[at(best)] += face_weight(mesh_, f);
+        labels_[at(f)] = best;
+        return best != own;
+    }
+
+  private:
+    [[nodiscard]] bool may_move(Index f, Index from, Index to) const
+    {
+        const Index weight = face_weight(mesh_, f);
+        return weight_[at(to)] + weight <= heaviest_ && weight_[at(from)] - weight >= lightest_;
+    }
+
+    /// Than to stay with, or go to, `other`.
+    [[nodiscard]] bool is_better(Index f, Index label, Index other) const
+    {
+        if (shared_[at(label)] != shared_[at(other)])
+            return shared_[at(label)] > shared_[at(other)];
+        const Index weight = other == labels_[at(f)] ? face_weight(mesh_, f) : 0;
+        return weight_[at(label)] + weight < weight_[at(other)];
+    }
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    std::vector<Index>& labels_;
+    /// One entry per label.
+    std::vector<std::int64_t> weight_;
+    std::int64_t heaviest_ = 0;
+    std::int64_t lightest_ = 0;
+    /// One entry per label, 0 between faces: how many edges the face in hand shares with the part.
+    std::vector<Index> shared_;
+    std::vector<Index> candidates_;
+};
+
+}  // namespace
+
+bool is_mixed(const Topology& topology, const std::vector<Index>& labels, Index v)
+{
+    const auto corners = topology.corners_at(v);
+    return std::any_of(corners.begin(), corners.end(), [&](Index corner) {
+        return labels[at(topology.face_of[at(corner)])] != labels[at(topology.face_of[at(corners.front())])];
+    });
+}
+
+std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<Index>& labels, const Loop& loop)
+{
+    return select(loop, static_cast<Index>(topology.kind.size()),
+                  [&](Index v) { return is_mixed(topology, labels, v); });
+}
+
+void shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
+                   const Loop& loop)
+{
+    if (n_labels < 2)
+        return;
+    SeamShortener shortener(mesh, topology, n_labels, labels);
+    auto faces = select(loop, mesh.n_faces(), [&](Index f) { return shortener.is_beside_seam(f); });
+    for (int round = 0; round < max_rounds && !faces.empty(); ++round) {
+        // Only around faces that have moved may others follow.
+        std::vector<Index> next;
+        for (const Index f : faces)
+            if (shortener.improve(f))
+                for_each_neighbour(mesh, topology, f, [&](Index g) { next.push_back(g); });
+        std::sort(next.begin(), next.end());
+        next.erase(std::unique(next.begin(), next.end()), next.end());
+        faces = std::move(next);
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// The part of a loop over the indices begin to end - 1.
+using LoopBody = std::function<void(Index begin, Index end)>;
+
+/// How loops over 0 … n - 1 are run: a caller who has threads passes one that uses them. It runs the body for ranges
+/// that together have every index once, in any order and perhaps several at a time, and returns when all are done. What
+/// a loop computes never depends on how it is divided.
+using Loop = std::function<void(Index n, const LoopBody& body)>;
+
+/// The whole loop as one range in the thread of the caller.
+inline void run_serially(Index n, const LoopBody& body)
+{
+    if (n > 0)
+        body(0, n);
+}
+
+/// Runs body(i) for every i from 0 to n - 1.
+template <class Body>
+void for_each(const Loop& loop, Index n, Body&& body)
+{
+    loop(n, [&body](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i)
+            body(i);
+    });
+}
+
+/// How many indices the functions below take together.
+inline constexpr Index block_size = 4096;
+
+/// Cuts 0 … n - 1 into blocks that depend on n alone and runs body(block, begin, end) for each.
+template <class Body>
+void for_each_block(const Loop& loop, Index n, Body&& body)
+{
+    const Index n_blocks = n / block_size + (n % block_size > 0 ? 1 : 0);
+    for_each(loop, n_blocks, [&](Index block) {
+        const Index begin = block * block_size;
+        body(block, begin, begin + std::min(block_size, n - begin));
+    });
+}
+
+/// Those of 0 … n - 1 for which `holds`, in ascending order.
+template <class Predicate>
+std::vector<Index> select(const Loop& loop, Index n, Predicate&& holds)
+{
+    std::vector<std::vector<Index>> of_block(at(n / block_size) + 1);
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i)
+            if (holds(i))
+                of_block[at(block)].push_back(i);
+    });
+    std::vector<Index> selected;
+    for (const auto& found : of_block)
+        selected.insert(selected.end(), found.begin(), found.end());
+    return selected;
+}
+
+/// The sum of value(i) over 0 … n - 1. Always added up in the same order.
+template <class Value>
+double sum(const Loop& loop, Index n, Value&& value)
+{
+    std::vector<double> of_block(at(n / block_size) + 1, 0.0);
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+        double total = 0.0;
+        for (Index i = begin; i < end; ++i)
+            total += value(i);
+        of_block[at(block)] = total;
+    });
+    double total = 0.0;
+    for (const double part : of_block)
+        total += part;
+    return total;
+}
+
+}  // namespace seamflow

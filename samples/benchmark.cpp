@@ -1,0 +1,39 @@
+// Holds one implicit step of ours beside what a user would run instead.
+//
+//     mesh ──► temporary file ──► a process for each method ──► positions, times, memory ──► table, JSON
+//                                 (ours, CHOLMOD, UMFPACK,
+//                                 conjugate gradients, …)
+
+#include <iostream>
+#include <string_view>
+
+#include "samples/benchmark/benchmark_command.h"
+#include "samples/benchmark/method_process.h"
+#include "samples/benchmark/sweeps.h"
+#include "samples/common/output_files.h"
+
+using namespace seamflow;
+
+namespace {
+
+ExitStatus benchmark(int argc, char** argv)
+{
+    if (argc == 3 && std::string_view(argv[1]) == run_method_word) {
+        serve_method(argv[2]);
+        return ExitStatus::Success;
+    }
+    BenchmarkCommand command;
+    if (const auto end = parse_benchmark_command(argc, argv, command))
+        return *end;
+    const auto json = run_benchmark(command, std::cout);
+    if (!command.json.empty())
+        write_text(command.json, json.dump(2) + "\n");
+    return ExitStatus::Success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return run_program("benchmark", [&] { return benchmark(argc, argv); });
+}

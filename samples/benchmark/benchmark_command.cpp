@@ -1,0 +1,158 @@
+#include "samples/benchmark/benchmark_command.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <thread>
+
+#include "partition/errors.h"
+#include "samples/common/command_line.h"
+#include "samples/common/meshes.h"
+#include "samples/common/output_files.h"
+
+namespace seamflow {
+
+namespace {
+
+struct Peer {
+    std::string_view name;
+    Method method;
+};
+
+constexpr std::array<Peer, 6> all_peers{{{"cholmod", Method::Cholmod},
+                                         {"umfpack", Method::Umfpack},
+                                         {"cg", Method::Krylov},
+                                         {"cg-ic", Method::KrylovIncomplete},
+                                         {"amg", Method::Amg},
+                                         {"cgal", Method::SmoothShape}}};
+
+constexpr Index smallest_of_scaling = 10'000;
+constexpr Index largest_of_scaling = 10'000'000;
+constexpr Index most_vertices = 100'000'000;
+
+void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
+{
+    auto* vertices = add_integer(app, "--vertices", command.vertices, 100,
+                                 "about so many, of the mesh that is made; with --scaling of the largest one "
+                                 "[100000; with --scaling 10000000]");
+    std::vector<std::pair<std::string, std::string>> kinds;
+    for (const MeshKind& kind : mesh_kinds())
+        kinds.emplace_back(kind.name, kind.name);
+    auto* kind = add_choice<std::string>(app, "--kind", command.kind, kinds, "of mesh that is made [triangles]");
+    app.add_option("--mesh", command.mesh, "mesh to read instead: .obj, .off, .ply or .stl")
+        ->excludes(vertices)
+        ->excludes(kind)
+        ->type_name("FILE");
+}
+
+void add_flow_options(CLI::App& app, BenchmarkCommand& command)
+{
+    FlowOptions& flow = command.options.flow;
+    add_choice<Laplacian>(app, "--laplacian", flow.laplacian,
+                          {{"fujiwara", Laplacian::Fujiwara},
+                           {"alexa-wardetzky", Laplacian::AlexaWardetzky},
+                           {"ptackova-velho", Laplacian::PtackovaVelho}},
+                          "discrete Laplacian [fujiwara]");
+    add_real(app, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths [5]");
+    add_integer(app, "--steps", flow.steps, 1, "number of steps [5]");
+    add_integer(app, "--subdomains", flow.subdomains, 0, "number of sub-meshes of ours; 0: chosen [0]");
+    add_choice<Conditions>(app, "--conditions", flow.conditions,
+                           {{"adapted-robin", Conditions::AdaptedRobin}, {"schwarz", Conditions::Schwarz}},
+                           "what holds between sub-meshes of ours [adapted-robin]");
+    add_integer(app, "--threads", flow.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
+}
+
+void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
+{
+    require_valid(command.options.flow);
+    if (app.count("--scaling") > 0 && app.count("--vertices") > 0 && command.vertices < smallest_of_scaling)
+        throw OptionError("--scaling begins with " + std::to_string(smallest_of_scaling) +
+                          " vertices; --vertices is the largest number and must be no less");
+    if (command.vertices > most_vertices)
+        throw OptionError("--vertices must be at most " + std::to_string(most_vertices));
+    if (!command.json.empty())
+        require_writable(command.json);
+    if (command.export_folder.empty())
+        return;
+    std::error_code error;
+    std::filesystem::create_directories(command.export_folder, error);
+    if (error)
+        throw OutputError(command.export_folder.string() + ": cannot be made, " + error.message());
+    require_writable(command.export_folder / "system.mtx");
+}
+
+}  // namespace
+
+std::vector<Method> peers_named(std::string_view word)
+{
+    std::array<bool, all_peers.size()> wanted{};
+    if (word == "all")
+        wanted.fill(true);
+    for (std::string_view rest = word; word != "all" && word != "none";) {
+        const std::string_view name = rest.substr(0, rest.find(','));
+        const auto found =
+            std::find_if(all_peers.begin(), all_peers.end(), [&](const Peer& p) { return p.name == name; });
+        if (found == all_peers.end())
+            throw OptionError("--peers: \"" + std::string(name) +
+                              "\" is none of cholmod, umfpack, cg, cg-ic, amg, cgal; or all, or none");
+        wanted[static_cast<std::size_t>(found - all_peers.begin())] = true;
+        if (name.size() == rest.size())
+            break;
+        rest.remove_prefix(name.size() + 1);
+    }
+    std::vector<Method> peers;
+    for (std::size_t i = 0; i < all_peers.size(); ++i)
+        if (wanted[i])
+            peers.push_back(all_peers[i].method);
+    return peers;
+}
+
+std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, BenchmarkCommand& command)
+{
+    CLI::App app("Holds one implicit step of ours beside what a user would run instead, time, memory and accuracy.",
+                 "benchmark");
+    std::string peers;
+    command.options.flow.time_step = 1.0;
+    command.options.flow.steps = 5;
+    add_mesh_options(app, command);
+    add_flow_options(app, command);
+    app.add_option("--peers", peers,
+                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal [all; none with --scaling and "
+                   "--threads-sweep]")
+        ->type_name("LIST");
+    auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
+                                            {{"auto", Reference::Automatic},
+                                             {"direct", Reference::Direct},
+                                             {"iterative", Reference::Iterative},
+                                             {"none", Reference::None}},
+                                            "whose positions V_mean and V_max are measured from: a factorisation of "
+                                            "the whole mesh, conjugate gradients to 1e-12, or nobody's [auto: direct "
+                                            "up to 2000000 vertices; none for sweeps without peers]");
+    app.add_option("--json", command.json, "also write the numbers")->type_name("FILE");
+    auto* export_folder = app.add_option("--export", command.export_folder,
+                                         "also write the first step's equations as Matrix Market files")
+                              ->type_name("DIR");
+    auto* scaling = app.add_flag_callback(
+                           "--scaling", [&] { command.mode = BenchmarkMode::Scaling; }, "10^4, 10^5, … vertices")
+                        ->excludes("--mesh")
+                        ->excludes(export_folder);
+    app.add_flag_callback(
+           "--threads-sweep", [&] { command.mode = BenchmarkMode::ThreadsSweep; }, "ours with 1, 2, … threads")
+        ->excludes(scaling)
+        ->excludes("--peers")
+        ->excludes(export_folder);
+    if (const auto end = parse_command_line(app, argc, argv))
+        return end;
+    const bool sweeps = command.mode != BenchmarkMode::Case;
+    command.options.peers = peers_named(!peers.empty() ? peers : sweeps ? "none" : "all");
+    if (sweeps && command.options.peers.empty() && reference->count() == 0)
+        command.options.reference = Reference::None;
+    if (command.mode == BenchmarkMode::Scaling && app.count("--vertices") == 0)
+        command.vertices = largest_of_scaling;
+    require_consistent(app, command);
+    if (command.options.flow.threads == 0)
+        command.options.flow.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return std::nullopt;
+}
+
+}  // namespace seamflow

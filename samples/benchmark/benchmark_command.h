@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "samples/benchmark/benchmark_case.h"
+#include "samples/common/exit_status.h"
+
+namespace seamflow {
+
+/// What `benchmark` does.
+enum class BenchmarkMode {
+    /// One mesh, ours and the peers.
+    Case,
+    /// Meshes of 10⁴, 10⁵, … vertices.
+    Scaling,
+    /// One mesh, ours, with 1, 2, … threads.
+    ThreadsSweep,
+};
+
+/// The command line of `benchmark`.
+struct BenchmarkCommand {
+    /// A mesh to read; empty: one is made.
+    std::filesystem::path mesh;
+    std::string kind = "triangles";
+    Index vertices = 100'000;
+    /// dt in squared mean edge lengths.
+    double time_step_edges = 5.0;
+    /// All but the time step, which follows from the mesh; `threads` at least 1.
+    CaseOptions options;
+    BenchmarkMode mode = BenchmarkMode::Case;
+    /// Files and folders; empty: none.
+    std::filesystem::path json;
+    std::filesystem::path export_folder;
+};
+
+/// The peers that a word stands for: "all", "none", or names with commas between them (cholmod, umfpack, cg, cg-ic,
+/// amg, cgal), each one once, in that order.
+/// @throws OptionError for another word.
+std::vector<Method> peers_named(std::string_view word);
+
+/// Parses the command line, makes the folder of --export, and checks that the results can be written.
+/// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
+/// @throws OptionError, OutputError (see output_files.h).
+std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, BenchmarkCommand& command);
+
+}  // namespace seamflow

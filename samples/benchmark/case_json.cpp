@@ -1,0 +1,63 @@
+#include "samples/benchmark/case_json.h"
+
+namespace seamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json row_json(const Row& row)
+{
+    if (!row.succeeded())
+        return {{"error", row.result.error}};
+    const StepSeconds& phases = row.result.phases;
+    Json json{{"setup_s", row.result.setup_seconds},
+              {"step_s", row.result.step_seconds()},
+              {"all_s", row.result.total_seconds()},
+              {"phases", {{"assemble", phases.assemble}, {"prepare", phases.prepare}, {"solve", phases.solve}}},
+              {"peak_memory_bytes", row.result.peak_memory_bytes},
+              {"threads", row.task.options.threads}};
+    if (row.v_mean && row.v_max) {
+        json["v_mean"] = *row.v_mean;
+        json["v_max"] = *row.v_max;
+    }
+    if (is_iterative(row.task.method)) {
+        json["tolerance"] = row.task.tolerance;
+        json["iterations"] = row.result.iterations;
+    }
+    if (row.task.method == Method::Ours) {
+        json["subdomains"] = row.result.subdomains;
+        json["remarks"] = row.result.remarks;
+    }
+    return json;
+}
+
+}  // namespace
+
+Json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options, const CaseResult& result)
+{
+    Json json{{"mesh", mesh},
+              {"vertices", result.vertices},
+              {"faces", result.faces},
+              {"laplacian", name_of(options.flow.laplacian)},
+              {"time_step", options.flow.time_step},
+              {"dt_over_h2", dt_over_h2},
+              {"steps", options.flow.steps},
+              {"threads", options.flow.threads},
+              {"reference", result.reference},
+              {"ours", row_json(result.ours)}};
+    if (result.ours_one_thread)
+        json["ours_one_thread"] = row_json(*result.ours_one_thread);
+    json["peers"] = json["ratios"] = json["ratios_one_thread"] = Json::object();
+    for (const Row& peer : result.peers) {
+        json["peers"][peer.name] = row_json(peer);
+        if (!peer.succeeded())
+            continue;
+        json["ratios"][peer.name] = ratio(result, peer);
+        if (const auto one_thread = ratio_one_thread(result, peer))
+            json["ratios_one_thread"][peer.name] = *one_thread;
+    }
+    return json;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "samples/benchmark/benchmark_case.h"
+
+namespace seamflow {
+
+/// What was found for one mesh, as `--json` has it (see README).
+/// @param mesh name of the mesh.
+/// @param dt_over_h2 time step in squared mean edge lengths.
+nlohmann::ordered_json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options,
+                                 const CaseResult& result);
+
+}  // namespace seamflow

@@ -1,0 +1,73 @@
+#include "samples/benchmark/method_json.h"
+
+namespace seamflow {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json seconds_json(const StepSeconds& seconds)
+{
+    return Json::array({seconds.assemble, seconds.prepare, seconds.solve, seconds.total});
+}
+
+StepSeconds seconds_of(const Json& json)
+{
+    return {.assemble = json.at(0), .prepare = json.at(1), .solve = json.at(2), .total = json.at(3)};
+}
+
+}  // namespace
+
+Json task_json(const MethodTask& task)
+{
+    const FlowOptions& options = task.options;
+    return {{"method", task.method},      {"laplacian", options.laplacian},   {"time_step", options.time_step},
+            {"steps", options.steps},     {"subdomains", options.subdomains}, {"conditions", options.conditions},
+            {"threads", options.threads}, {"tolerance", task.tolerance}};
+}
+
+MethodTask task_of(const Json& json)
+{
+    MethodTask task;
+    json.at("method").get_to(task.method);
+    json.at("laplacian").get_to(task.options.laplacian);
+    json.at("time_step").get_to(task.options.time_step);
+    json.at("steps").get_to(task.options.steps);
+    json.at("subdomains").get_to(task.options.subdomains);
+    json.at("conditions").get_to(task.options.conditions);
+    json.at("threads").get_to(task.options.threads);
+    json.at("tolerance").get_to(task.tolerance);
+    return task;
+}
+
+Json result_json(const MethodResult& result)
+{
+    Json steps = Json::array();
+    for (const StepSeconds& step : result.steps)
+        steps.push_back(seconds_json(step));
+    return {{"error", result.error},
+            {"setup_seconds", result.setup_seconds},
+            {"steps", steps},
+            {"phases", seconds_json(result.phases)},
+            {"iterations", result.iterations},
+            {"subdomains", result.subdomains},
+            {"peak_memory_bytes", result.peak_memory_bytes},
+            {"remarks", result.remarks}};
+}
+
+MethodResult result_of(const Json& json)
+{
+    MethodResult result;
+    json.at("error").get_to(result.error);
+    json.at("setup_seconds").get_to(result.setup_seconds);
+    for (const Json& step : json.at("steps"))
+        result.steps.push_back(seconds_of(step));
+    result.phases = seconds_of(json.at("phases"));
+    json.at("iterations").get_to(result.iterations);
+    json.at("subdomains").get_to(result.subdomains);
+    json.at("peak_memory_bytes").get_to(result.peak_memory_bytes);
+    json.at("remarks").get_to(result.remarks);
+    return result;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "samples/benchmark/method.h"
+
+namespace seamflow {
+
+/// A task and a result on their way from one process to another; the positions go another way.
+nlohmann::json task_json(const MethodTask& task);
+MethodTask task_of(const nlohmann::json& json);
+nlohmann::json result_json(const MethodResult& result);
+MethodResult result_of(const nlohmann::json& json);
+
+}  // namespace seamflow

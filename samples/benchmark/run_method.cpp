@@ -1,0 +1,71 @@
+#include "samples/benchmark/run_method.h"
+
+#include <memory>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/stopwatch.h"
+#include "samples/benchmark/peers/peer_solver.h"
+#include "samples/benchmark/peers/smooth_shape.h"
+
+namespace seamflow {
+
+namespace {
+
+MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
+{
+    const FlowReport report = mean_curvature_flow(mesh, task.options);
+    MethodResult result;
+    result.setup_seconds = report.seconds.cut + report.seconds.analyse;
+    for (const StepReport& step : report.steps)
+        result.steps.push_back({.total = step.seconds});
+    const auto n_steps = static_cast<double>(report.steps.size());
+    result.phases.assemble = report.seconds.assemble / n_steps;
+    result.phases.prepare = report.seconds.factorise / n_steps;
+    result.phases.solve = (report.seconds.solve + report.seconds.correct) / n_steps;
+    result.phases.total = result.step_seconds();
+    result.subdomains = report.subdomains;
+    result.remarks = report.remarks;
+    result.positions = std::move(mesh.vertices);
+    return result;
+}
+
+MethodResult run_peer(const PolygonMesh& mesh, const MethodTask& task)
+{
+    MethodResult result;
+    const std::unique_ptr<PeerSolver> solver = make_peer_solver(task);
+    Stopwatch watch;
+    const Topology topology = make_topology(mesh);
+    WholeSystem system(mesh, topology, task.options.laplacian, solver->form(), solver->order());
+    solver->analyse(system);
+    result.setup_seconds = watch.lap();
+
+    result.positions = mesh.vertices;
+    for (int step = 0; step < task.options.steps; ++step) {
+        StepSeconds& seconds = result.steps.emplace_back();
+        watch.lap();
+        system.assemble(result.positions, task.options.time_step);
+        seconds.assemble = watch.lap();
+        solver->prepare(system);
+        seconds.prepare = watch.lap();
+        Columns unknowns = system.unknowns_at(result.positions);
+        result.iterations += solver->solve(system, unknowns);
+        system.move(unknowns, result.positions);
+        seconds.solve = watch.lap();
+        seconds.total = seconds.assemble + seconds.prepare + seconds.solve;
+    }
+    result.phases = median_step(result.steps);
+    return result;
+}
+
+}  // namespace
+
+MethodResult run_method(const PolygonMesh& mesh, const MethodTask& task)
+{
+    if (task.method == Method::Ours)
+        return run_ours(mesh, task);
+    if (task.method == Method::SmoothShape)
+        return run_smooth_shape(mesh, task);
+    return run_peer(mesh, task);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "samples/benchmark/method.h"
+
+namespace seamflow {
+
+/// Takes the steps of a task in this process. The peak of the memory is left to the caller.
+/// @throws ComputationError, OptionError, InputError as the method itself; a message of a failure becomes
+///         MethodResult::error where it is caught.
+MethodResult run_method(const PolygonMesh& mesh, const MethodTask& task);
+
+}  // namespace seamflow

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+
+#include "samples/benchmark/method.h"
+
+namespace seamflow {
+
+/// A folder for temporary files that goes away with this object, and what the processes of a benchmark hand to each
+/// other in it.
+class ScratchFolder {
+  public:
+    /// @throws OutputError if no folder can be made where temporary files belong (TMPDIR).
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// The files of such a folder; numbers are stored as memory has them.
+/// Writing throws OutputError naming the file, reading InputError.
+void write_mesh_for_methods(const std::filesystem::path& folder, const PolygonMesh& mesh);
+PolygonMesh read_mesh_for_methods(const std::filesystem::path& folder);
+void write_task(const std::filesystem::path& folder, const MethodTask& task);
+MethodTask read_task(const std::filesystem::path& folder);
+void write_result(const std::filesystem::path& folder, const MethodResult& result);
+MethodResult read_result(const std::filesystem::path& folder);
+
+}  // namespace seamflow

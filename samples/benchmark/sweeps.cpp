@@ -1,0 +1,140 @@
+#include "samples/benchmark/sweeps.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ostream>
+
+#include "partition/errors.h"
+#include "partition/io/mesh_io.h"
+#include "partition/metrics/vertex_distance.h"
+#include "partition/topology.h"
+#include "samples/benchmark/case_json.h"
+#include "samples/benchmark/case_text.h"
+#include "samples/benchmark/matrix_market.h"
+#include "samples/common/meshes.h"
+#include "solvers/degenerate.h"
+
+namespace seamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+PolygonMesh load(const BenchmarkCommand& command, Index vertices)
+{
+    if (command.mesh.empty())
+        return make_mesh(command.kind, vertices);
+    try {
+        PolygonMesh mesh = read_mesh(command.mesh).mesh;
+        require_sound_geometry(mesh, make_topology(mesh), command.options.flow.laplacian);
+        return mesh;
+    } catch (const InputError& error) {
+        const std::string name = command.mesh.string();
+        const std::string message = error.what();
+        throw InputError(message.starts_with(name) ? message : name + ": " + message);
+    }
+}
+
+std::string name_of_mesh(const BenchmarkCommand& command)
+{
+    return command.mesh.empty() ? command.kind : command.mesh.string();
+}
+
+/// The options of a case with the time step that belongs to its mesh.
+CaseOptions options_for(const BenchmarkCommand& command, const PolygonMesh& mesh)
+{
+    CaseOptions options = command.options;
+    const double edge = mean_edge_length(mesh);
+    if (edge <= 0.0)
+        throw InputError(name_of_mesh(command) + ": has no edges of any length to measure --time-step-edges by");
+    options.flow.time_step = command.time_step_edges * edge * edge;
+    return options;
+}
+
+/// One case with its table.
+CaseResult run_table(const BenchmarkCommand& command, const PolygonMesh& mesh, const CaseOptions& options,
+                     std::ostream& out)
+{
+    CaseTable table(out, name_of_mesh(command), mesh.n_vertices(), command.time_step_edges, options);
+    CaseResult result = run_case(mesh, options, [&](const Row& row) { table.print(row); });
+    table.finish(result);
+    return result;
+}
+
+Json run_one(const BenchmarkCommand& command, std::ostream& out)
+{
+    const PolygonMesh mesh = load(command, command.vertices);
+    const CaseOptions options = options_for(command, mesh);
+    if (!command.export_folder.empty())
+        export_first_step(command.export_folder, mesh, options.flow);
+    const CaseResult result = run_table(command, mesh, options, out);
+    return case_json(name_of_mesh(command), command.time_step_edges, options, result);
+}
+
+template <class... Numbers>
+void print_line(std::ostream& out, const char* format, Numbers... numbers)
+{
+    char text[256];
+    std::snprintf(text, sizeof text, format, numbers...);
+    out << text << std::endl;
+}
+
+Json run_scaling(const BenchmarkCommand& command, std::ostream& out)
+{
+    Json list = Json::array();
+    std::vector<CaseResult> results;
+    for (Index vertices = 10'000;; vertices = std::min(10 * vertices, command.vertices)) {
+        const PolygonMesh mesh = load(command, vertices);
+        const CaseOptions options = options_for(command, mesh);
+        results.push_back(run_table(command, mesh, options, out));
+        list.push_back(case_json(name_of_mesh(command), command.time_step_edges, options, results.back()));
+        if (vertices == command.vertices)
+            break;
+    }
+    out << "  vertices  sub-meshes   step us/vertex  setup us/vertex     bytes/vertex\n";
+    for (const CaseResult& result : results) {
+        const auto n = static_cast<double>(result.vertices);
+        const MethodResult& ours = result.ours.result;
+        print_line(out, "%10d  %10d  %15.3f  %15.3f  %15.0f", result.vertices, ours.subdomains,
+                   1e6 * ours.step_seconds() / n, 1e6 * ours.setup_seconds / n,
+                   static_cast<double>(ours.peak_memory_bytes) / n);
+    }
+    return {{"scaling", list}};
+}
+
+Json run_threads_sweep(const BenchmarkCommand& command, std::ostream& out)
+{
+    const PolygonMesh mesh = load(command, command.vertices);
+    CaseOptions options = options_for(command, mesh);
+    Json list = Json::array();
+    std::vector<CaseResult> results;
+    for (int threads = 1; threads <= command.options.flow.threads; ++threads) {
+        options.flow.threads = threads;
+        results.push_back(run_table(command, mesh, options, out));
+        list.push_back(case_json(name_of_mesh(command), command.time_step_edges, options, results.back()));
+    }
+    out << "   threads      step s    speed-up  efficiency\n";
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const double step = results[i].ours.result.step_seconds();
+        const double speed_up = results.front().ours.result.step_seconds() / step;
+        print_line(out, "%10zu  %10.4f  %10.2f  %10.2f", i + 1, step, speed_up, speed_up / static_cast<double>(i + 1));
+    }
+    return {{"threads_sweep", list}};
+}
+
+}  // namespace
+
+Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
+{
+    switch (command.mode) {
+    case BenchmarkMode::Scaling:
+        return run_scaling(command, out);
+    case BenchmarkMode::ThreadsSweep:
+        return run_threads_sweep(command, out);
+    case BenchmarkMode::Case:
+        break;
+    }
+    return run_one(command, out);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <iosfwd>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/benchmark/benchmark_command.h"
+
+namespace seamflow {
+
+/// What a command asks for. Prints the tables as they grow.
+/// @returns what --json gets: of one case as case_json; of --scaling and --threads-sweep {"scaling": […]} and
+///          {"threads_sweep": […]}, one case after the other.
+/// @throws InputError, OptionError, OutputError, ComputationError as its parts.
+nlohmann::ordered_json run_benchmark(const BenchmarkCommand& command, std::ostream& out);
+
+}  // namespace seamflow

@@ -1,0 +1,69 @@
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "partition/cut/clusters.h"
+#include "partition/cut/components.h"
+#include "partition/cut/defects.h"
+#include "samples/common/meshes.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+Index weight_of(const PolygonMesh& mesh, std::span<const Index> faces)
+{
+    Index weight = 0;
+    for (const Index f : faces)
+        weight += face_weight(mesh, f);
+    return weight;
+}
+
+}  // namespace
+
+TEST_CASE("every face lies in one cluster, every cluster in one component")
+{
+    for (const NamedMesh& m : assorted_meshes())
+        for (const Index weight : {1, 2, 5, 30, 1000}) {
+            CAPTURE(m.name);
+            CAPTURE(weight);
+            const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
+            const FaceComponents components = face_components(m.mesh, m.topology);
+            CHECK(clusters.n_components == components.count);
+            REQUIRE(clusters.component_of.size() == at(clusters.size()));
+            std::vector<Index> faces = clusters.faces.values;
+            std::sort(faces.begin(), faces.end());
+            REQUIRE(faces.size() == at(m.mesh.n_faces()));
+            for (Index f = 0; f < m.mesh.n_faces(); ++f)
+                CHECK(faces[at(f)] == f);
+            for (Index cluster = 0; cluster < clusters.size(); ++cluster)
+                for (const Index f : clusters.faces[cluster]) {
+                    CHECK(clusters.cluster_of[at(f)] == cluster);
+                    CHECK(components.component[at(f)] == clusters.component_of[at(cluster)]);
+                }
+        }
+}
+
+TEST_CASE("clusters are connected and about as heavy as asked")
+{
+    for (const PolygonMesh& mesh :
+         {make_quads(2000), make_triangles(2000), make_hexagons(2000), make_mixed_polygons(2000)})
+        for (const Index weight : {8, 40}) {
+            const Topology topology = make_topology(mesh);
+            const FaceClusters clusters = grow_clusters(mesh, topology, weight);
+            const auto defect = first_defect(mesh, topology, clusters.cluster_of);
+            CHECK((!defect || defect->find("not connected") == std::string::npos));
+            for (Index cluster = 0; cluster < clusters.size(); ++cluster)
+                CHECK(weight_of(mesh, clusters.faces[cluster]) < 3 * weight);
+            CHECK(clusters.size() < 2 * weight_of(mesh, clusters.faces.values) / weight);
+        }
+}
+
+TEST_CASE("with weight 1 every face is a cluster")
+{
+    const PolygonMesh mesh = hexagon_sheet(5, 4);
+    CHECK(grow_clusters(mesh, make_topology(mesh), 1).size() == 20);
+    CHECK(grow_clusters(PolygonMesh{}, make_topology(PolygonMesh{}), 7).size() == 0);
+}

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "partition/cut/clusters.h"
+#include "partition/cut/components.h"
+#include "partition/cut/seams.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+/// The number of edges between faces of different labels.
+Index cut_edges(const NamedMesh& m, const std::vector<Index>& labels)
+{
+    Index n = 0;
+    for (Index h = 0; h < m.mesh.n_corners(); ++h)
+        if (const Index twin = m.topology.twin[at(h)]; twin > h)
+            n += labels[at(m.topology.face_of[at(h)])] != labels[at(m.topology.face_of[at(twin)])] ? 1 : 0;
+    return n;
+}
+
+std::vector<Index> random_labels(const PolygonMesh& mesh, Index n_labels)
+{
+    std::mt19937 random(7);
+    std::vector<Index> labels(at(mesh.n_faces()));
+    for (Index& label : labels)
+        label = static_cast<Index>(random() % static_cast<unsigned>(n_labels));
+    return labels;
+}
+
+std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& labels, Index n_labels)
+{
+    std::vector<double> weight(at(n_labels), 0.0);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        weight[at(labels[at(f)])] += face_weight(mesh, f);
+    return weight;
+}
+
+NamedMesh named(PolygonMesh mesh)
+{
+    Topology topology = make_topology(mesh);
+    return {"", std::move(mesh), std::move(topology)};
+}
+
+}  // namespace
+
+TEST_CASE("fewer edges are cut, and no label enters another component")
+{
+    for (const NamedMesh& m : assorted_meshes()) {
+        CAPTURE(m.name);
+        std::vector<Index> labels = random_labels(m.mesh, 3);
+        const Index before = cut_edges(m, labels);
+        shorten_seams(m.mesh, m.topology, 3, labels);
+        CHECK(cut_edges(m, labels) <= before);
+
+        const FaceComponents components = face_components(m.mesh, m.topology);
+        std::vector<Index> whole = components.component;
+        shorten_seams(m.mesh, m.topology, components.count, whole);
+        CHECK(whole == components.component);
+    }
+}
+
+TEST_CASE("parts in balance remain so, and the result does not depend on how loops are run")
+{
+    const NamedMesh m = named(triangle_torus(40, 40));
+    std::vector<Index> labels = random_labels(m.mesh, 4);
+    std::vector<Index> other = labels;
+    const auto before = weights(m.mesh, labels, 4);
+    const Index cut_before = cut_edges(m, labels);
+    shorten_seams(m.mesh, m.topology, 4, labels);
+    CHECK(cut_edges(m, labels) < cut_before * 2 / 3);
+    const auto after = weights(m.mesh, labels, 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(after[i] <= std::max(before[i], 800 * (1.0 + seam_tolerance)));
+        CHECK(after[i] >= std::min(before[i], 800 / (1.0 + seam_tolerance) - 1.0));
+    }
+    shorten_seams(m.mesh, m.topology, 4, other, [](Index n, const LoopBody& body) {
+        for (Index i = n; i > 0; --i)
+            body(i - 1, i);
+    });
+    CHECK(other == labels);
+}
+
+TEST_CASE("a spike is cut off, a straight seam stays")
+{
+    const NamedMesh grid = named(quad_grid(16, 12));
+    std::vector<Index> straight(at(grid.mesh.n_faces()));
+    for (Index f = 0; f < grid.mesh.n_faces(); ++f)
+        straight[at(f)] = f % 16 < 8 ? 0 : 1;
+    std::vector<Index> labels = straight;
+    shorten_seams(grid.mesh, grid.topology, 2, labels);
+    CHECK(labels == straight);
+    for (Index f = 6 * 16 + 8; f < 6 * 16 + 11; ++f)
+        labels[at(f)] = 0;
+    shorten_seams(grid.mesh, grid.topology, 2, labels);
+    CHECK(labels == straight);
+}
+
+TEST_CASE("mixed vertices are those whose faces differ")
+{
+    const NamedMesh m = named(quad_grid(2, 1));
+    CHECK(mixed_vertices(m.topology, std::vector<Index>{0, 1}) == std::vector<Index>{1, 4});
+    CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
+}

@@ -1,0 +1,272 @@
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/benchmark/benchmark_command.h"
+#include "samples/benchmark/loosest_tolerance.h"
+#include "samples/benchmark/matrix_market.h"
+#include "samples/benchmark/peers/peer_solver.h"
+#include "samples/benchmark/run_method.h"
+#include "samples/benchmark/scratch_folder.h"
+#include "samples/common/meshes.h"
+#include "tests/support/temporary_directory.h"
+
+using namespace seamflow;
+
+namespace {
+
+constexpr std::array laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho};
+
+MethodTask task_of(Method method, const PolygonMesh& mesh, Laplacian laplacian, double tolerance = 0.0)
+{
+    MethodTask task{method, {}, tolerance};
+    task.options.laplacian = laplacian;
+    const double edge = mean_edge_length(mesh);
+    task.options.time_step = 5.0 * edge * edge;
+    task.options.steps = 2;
+    task.options.subdomains = 1;
+    task.options.threads = 2;
+    return task;
+}
+
+/// Largest distance to the undecomposed flow of the library, in mean edge lengths.
+double distance(Method method, const PolygonMesh& mesh, Laplacian laplacian, double tolerance = 0.0)
+{
+    PolygonMesh undecomposed = mesh;
+    mean_curvature_flow(undecomposed, task_of(Method::Ours, mesh, laplacian).options);
+    const MethodResult result = run_method(mesh, task_of(method, mesh, laplacian, tolerance));
+    CHECK(result.steps.size() == 2);
+    const VertexDistance d = vertex_distance(mesh, undecomposed.vertices, result.positions);
+    return d.max / d.mean_edge;
+}
+
+/// A Matrix Market file of any kind as a dense or sparse matrix.
+Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& path)
+{
+    std::ifstream file(path);
+    std::string banner;
+    std::getline(file, banner);
+    const bool array = banner.find(" array ") != std::string::npos;
+    int rows = 0;
+    int columns = 0;
+    file >> rows >> columns;
+    int n = array ? rows * columns : 0;
+    if (!array)
+        file >> n;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i) {
+        int row = i % rows + 1;
+        int column = i / rows + 1;
+        double value = 0.0;
+        if (!array)
+            file >> row >> column;
+        file >> value;
+        entries.emplace_back(row - 1, column - 1, value);
+        if (banner.ends_with("symmetric") && row != column)
+            entries.emplace_back(column - 1, row - 1, value);
+    }
+    REQUIRE(file.good());
+    Eigen::SparseMatrix<double> matrix(rows, columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+std::optional<ExitStatus> parse(std::vector<std::string> words, BenchmarkCommand& command)
+{
+    words.insert(words.begin(), "benchmark");
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    return parse_benchmark_command(static_cast<int>(arguments.size()), arguments.data(), command);
+}
+
+}  // namespace
+
+TEST_CASE("direct solvers take the steps of the undecomposed flow")
+{
+    for (const char* kind : {"triangles", "mixed", "noisy-sphere"})
+        for (const Laplacian laplacian : laplacians) {
+            CAPTURE(kind);
+            CAPTURE(name_of(laplacian));
+            const PolygonMesh mesh = make_mesh(kind, 1'000);
+            CHECK(distance(Method::Umfpack, mesh, laplacian) < 1e-9);
+            if (laplacian != Laplacian::PtackovaVelho)
+                CHECK(distance(Method::Cholmod, mesh, laplacian) < 1e-9);
+        }
+}
+
+TEST_CASE("iterative solvers come as near to it as their tolerance lets them")
+{
+    const PolygonMesh mesh = make_mesh("mixed", 1'000);
+    for (const Laplacian laplacian : laplacians)
+        for (const Method method : {Method::Krylov, Method::KrylovIncomplete}) {
+            CAPTURE(name_of(laplacian));
+            const double tight = distance(method, mesh, laplacian, 1e-10);
+            CHECK(tight < 1e-6);
+            CHECK(distance(method, mesh, laplacian, 1e-3) > tight);
+        }
+}
+
+TEST_CASE("algebraic multigrid, where it is built in")
+{
+    const PolygonMesh mesh = make_mesh("mixed", 1'000);
+    if (!has_amg()) {
+        MESSAGE("amg is not built in: install libhypre-dev");
+        CHECK_THROWS_WITH_AS(run_method(mesh, task_of(Method::Amg, mesh, Laplacian::Fujiwara, 1e-8)),
+                             "not built in: install libhypre-dev", ComputationError);
+        return;
+    }
+    CHECK(distance(Method::Amg, mesh, Laplacian::Fujiwara, 1e-8) < 1e-6);
+}
+
+TEST_CASE("smooth_shape takes the step of Alexa-Wardetzky on triangles, and no other")
+{
+    const PolygonMesh mesh = make_mesh("triangles", 1'000);
+    CHECK(distance(Method::SmoothShape, mesh, Laplacian::AlexaWardetzky) < 1e-6);
+    CHECK(run_method(mesh, task_of(Method::SmoothShape, mesh, Laplacian::Fujiwara)).positions.rows() == 0);
+    // Without fixed vertices it scales the mesh.
+    const PolygonMesh sphere = make_mesh("noisy-sphere", 1'000);
+    CHECK(run_method(sphere, task_of(Method::SmoothShape, sphere, Laplacian::AlexaWardetzky)).positions.rows() == 0);
+    const PolygonMesh quads = make_mesh("quads", 1'000);
+    CHECK_THROWS_AS(run_method(quads, task_of(Method::SmoothShape, quads, Laplacian::AlexaWardetzky)),
+                    ComputationError);
+}
+
+TEST_CASE("the symmetric form is symmetric, and stored by rows it is the same matrix")
+{
+    const PolygonMesh mesh = make_mesh("mixed", 500);
+    const Topology topology = make_topology(mesh);
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky}) {
+        WholeSystem by_columns(mesh, topology, laplacian, SystemForm::Symmetric, StorageOrder::ByColumns);
+        WholeSystem by_rows(mesh, topology, laplacian, SystemForm::Symmetric, StorageOrder::ByRows);
+        by_columns.assemble(mesh.vertices, 0.01);
+        by_rows.assemble(mesh.vertices, 0.01);
+        REQUIRE(by_columns.n() < mesh.n_vertices());
+        REQUIRE(by_columns.pattern().rows == by_rows.pattern().rows);
+        for (std::size_t i = 0; i < by_columns.values().size(); ++i)
+            CHECK(by_columns.values()[i] == doctest::Approx(by_rows.values()[i]).epsilon(1e-12));
+        CHECK(by_columns.right_hand_side() == by_rows.right_hand_side());
+    }
+}
+
+TEST_CASE("exported equations read back and solve to the first step, in both forms")
+{
+    const test::TemporaryDirectory folder;
+    const PolygonMesh mesh = make_mesh("mixed", 500);
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky}) {
+        MethodTask task = task_of(Method::Umfpack, mesh, laplacian);
+        task.options.steps = 1;
+        const Points expected = run_method(mesh, task).positions;
+        export_first_step(folder.path(), mesh, task.options);
+
+        Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(read_matrix_market(folder / "system.mtx"));
+        const Eigen::MatrixXd solved = lu.solve(Eigen::MatrixXd(read_matrix_market(folder / "system_rhs.mtx")));
+        CHECK((solved - expected).cwiseAbs().maxCoeff() < 1e-12);
+
+        const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(read_matrix_market(folder / "symmetric.mtx"));
+        REQUIRE(cholesky.info() == Eigen::Success);
+        const Eigen::MatrixXd unknowns =
+            cholesky.solve(Eigen::MatrixXd(read_matrix_market(folder / "symmetric_rhs.mtx")));
+        const Eigen::MatrixXd vertices = read_matrix_market(folder / "symmetric_vertices.mtx");
+        Eigen::MatrixXd moved = read_matrix_market(folder / "positions.mtx");
+        for (Eigen::Index u = 0; u < unknowns.rows(); ++u)
+            moved.row(static_cast<Eigen::Index>(vertices(u, 0)) - 1) = unknowns.row(u);
+        CHECK((moved - expected).cwiseAbs().maxCoeff() < 1e-12);
+    }
+}
+
+TEST_CASE("what processes hand to each other arrives as it was")
+{
+    const ScratchFolder folder;
+    const PolygonMesh mesh = make_mesh("mixed", 200);
+    write_mesh_for_methods(folder.path(), mesh);
+    const PolygonMesh read = read_mesh_for_methods(folder.path());
+    CHECK(read.vertices == mesh.vertices);
+    CHECK(read.face_offsets == mesh.face_offsets);
+    CHECK(read.face_vertices == mesh.face_vertices);
+
+    MethodTask task = task_of(Method::Amg, mesh, Laplacian::AlexaWardetzky, 1e-4);
+    task.options.conditions = Conditions::Schwarz;
+    write_task(folder.path(), task);
+    const MethodTask task_read = read_task(folder.path());
+    CHECK(task_read.method == task.method);
+    CHECK(task_read.tolerance == task.tolerance);
+    CHECK(task_read.options.laplacian == task.options.laplacian);
+    CHECK(task_read.options.conditions == task.options.conditions);
+    CHECK(task_read.options.time_step == task.options.time_step);
+    CHECK(task_read.options.steps == task.options.steps);
+
+    MethodResult result = run_method(mesh, task_of(Method::Cholmod, mesh, Laplacian::Fujiwara));
+    result.remarks = {"a remark"};
+    write_result(folder.path(), result);
+    const MethodResult result_read = read_result(folder.path());
+    CHECK(result_read.positions == result.positions);
+    CHECK(result_read.step_seconds() == result.step_seconds());
+    CHECK(result_read.total_seconds() == result.total_seconds());
+    CHECK(result_read.remarks == result.remarks);
+}
+
+TEST_CASE("the time of a step is the median of those after the first")
+{
+    MethodResult result;
+    for (const double total : {100.0, 3.0, 1.0, 2.0})
+        result.steps.push_back({.total = total});
+    result.setup_seconds = 4.0;
+    CHECK(result.step_seconds() == 2.0);
+    CHECK(result.total_seconds() == 110.0);
+    result.steps.resize(1);
+    CHECK(result.step_seconds() == 100.0);
+}
+
+TEST_CASE("the loosest tolerance that suffices is found with few questions")
+{
+    for (const double limit : tolerance_ladder) {
+        int questions = 0;
+        const auto found = loosest_tolerance([&](double tolerance) {
+            ++questions;
+            return tolerance <= limit;
+        });
+        CHECK(found == limit);
+        CHECK(questions <= 6);
+    }
+    CHECK_FALSE(loosest_tolerance([](double) { return false; }));
+}
+
+TEST_CASE("peers go by names")
+{
+    CHECK(peers_named("none").empty());
+    CHECK(peers_named("all").size() == 6);
+    CHECK(peers_named("cg,cholmod,cg") == std::vector{Method::Cholmod, Method::Krylov});
+    for (const char* word : {"", "cg,", ",cg", "CG", "cg cholmod", "all,cg"})
+        CHECK_THROWS_AS(peers_named(word), OptionError);
+}
+
+TEST_CASE("the command line of benchmark has defaults that fit the mode")
+{
+    BenchmarkCommand command;
+    REQUIRE_FALSE(parse({}, command));
+    CHECK(command.options.peers.size() == 6);
+    CHECK(command.options.flow.steps == 5);
+    CHECK(command.options.flow.threads >= 1);
+    CHECK(command.options.reference == Reference::Automatic);
+    BenchmarkCommand scaling;
+    REQUIRE_FALSE(parse({"--scaling"}, scaling));
+    CHECK(scaling.options.peers.empty());
+    CHECK(scaling.vertices == 10'000'000);
+    CHECK(scaling.options.reference == Reference::None);
+    BenchmarkCommand with_peers;
+    REQUIRE_FALSE(parse({"--scaling", "--peers", "amg", "--vertices", "20000"}, with_peers));
+    CHECK(with_peers.options.peers == std::vector{Method::Amg});
+    CHECK(with_peers.vertices == 20'000);
+    CHECK(with_peers.options.reference == Reference::Automatic);
+    BenchmarkCommand ignored;
+    CHECK_THROWS_AS(parse({"--scaling", "--vertices", "500"}, ignored), OptionError);
+}
