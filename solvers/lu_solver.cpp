@@ -18,18 +18,18 @@ constexpr Eigen::Index upper = 1;
 /// Takes what some columns of a block contribute away from the column of L and the row of U of the unknown
 /// rows[place].
 /// @param columns the first of them; each has as many entries as there are rows.
-template <std::size_t width>
+template <std::size_t Width>
 void subtract(const Pair* columns, std::span<const Index> rows, std::size_t place, Pair* elimination)
 {
-    std::array<const Pair*, width> column;
-    std::array<Pair, width> factor;
-    for (std::size_t c = 0; c < width; ++c) {
+    std::array<const Pair*, Width> column;
+    std::array<Pair, Width> factor;
+    for (std::size_t c = 0; c < Width; ++c) {
         column[c] = columns + c * rows.size();
         factor[c] = column[c][place].reverse();
     }
     for (std::size_t m = place; m < rows.size(); ++m) {
         Pair sum = elimination[rows[m]];
-        for (std::size_t c = 0; c < width; ++c)
+        for (std::size_t c = 0; c < Width; ++c)
             sum -= column[c][m] * factor[c];
         elimination[rows[m]] = sum;
     }
