@@ -11,7 +11,7 @@ class FactorMemory {
   public:
     virtual ~FactorMemory() = default;
 
-    /// @returns at least that many bytes, fit for doubles.
+    /// @returns at least that many bytes, aligned like memory of ::operator new.
     virtual std::span<std::byte> take(std::size_t bytes) = 0;
 
     virtual void give_back(std::span<std::byte> memory) = 0;

@@ -1,7 +1,5 @@
 #include "solvers/conditions/adapted_ventcell.h"
 
-#include <vector>
-
 #include "solvers/conditions/adapted_robin.h"
 
 namespace seamflow {
@@ -28,12 +26,8 @@ class AdaptedVentcell final : public TransmissionCondition {
     void left_hand_side(Index i, const Points& positions, std::span<double> row) const override
     {
         robin_.left_hand_side(i, positions, row);
-        if (dt_q_ == 0.0)
-            return;
-        std::vector<double> tangential(row.size());
-        tangential_derivative_row(robin_.stencils(), i, tangential_weights(*sub_mesh_, i, positions), tangential);
-        for (std::size_t k = 0; k < row.size(); ++k)
-            row[k] += dt_q_ * tangential[k];
+        if (dt_q_ != 0.0)
+            add_tangential_derivative(robin_.stencils(), i, tangential_weights(*sub_mesh_, i, positions), dt_q_, row);
     }
 
     [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points& other_side) const override

@@ -1,7 +1,7 @@
 #include "solvers/conditions/predicted_side.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "solvers/conditions/adapted_robin.h"
@@ -142,13 +142,15 @@ class PredictedSide final : public TransmissionCondition {
         return static_cast<std::size_t>(std::lower_bound(columns.begin(), columns.end(), column) - columns.begin());
     }
 
+    /// Robin's columns are some of this condition's: its row is computed in front, then spread from the end.
     void robin_left_hand_side(Index i, const Points& positions, std::span<double> row) const
     {
         const auto columns = robin_.columns()[i];
-        std::vector<double> robin_row(columns.size());
-        robin_.left_hand_side(i, positions, robin_row);
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            row[place_of(i, columns[k])] = robin_row[k];
+        robin_.left_hand_side(i, positions, row.first(columns.size()));
+        for (std::size_t k = columns.size(); k-- > 0;) {
+            const double coefficient = std::exchange(row[k], 0.0);
+            row[place_of(i, columns[k])] = coefficient;
+        }
     }
 
     const SubMesh* sub_mesh_;

@@ -110,13 +110,12 @@ TangentialWeights tangential_weights(const SubMesh& sub_mesh, Index i, const Poi
     return {scale / to_before, scale / to_after};
 }
 
-void tangential_derivative_row(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
-                               std::span<double> row)
+void add_tangential_derivative(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
+                               double factor, std::span<double> row)
 {
-    std::fill(row.begin(), row.end(), 0.0);
-    row[at(stencils.before[at(i)])] -= weights.before;
-    row[at(stencils.after[at(i)])] -= weights.after;
-    row[at(stencils.centre[at(i)])] += weights.before + weights.after;
+    row[at(stencils.before[at(i)])] -= factor * weights.before;
+    row[at(stencils.after[at(i)])] -= factor * weights.after;
+    row[at(stencils.centre[at(i)])] += factor * (weights.before + weights.after);
 }
 
 Point tangential_derivative(const SubMesh& sub_mesh, Index i, const TangentialWeights& weights, const Points& positions)

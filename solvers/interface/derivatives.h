@@ -61,10 +61,10 @@ struct TangentialWeights {
 /// The weights at the i-th vertex of Γ, with l₁ and l₂ the lengths of its two edges along Γ.
 TangentialWeights tangential_weights(const SubMesh& sub_mesh, Index i, const Points& positions);
 
-/// The row of ∂t at the i-th vertex of Γ, weights held.
-/// @param row receives one coefficient per vertex of the stencil.
-void tangential_derivative_row(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
-                               std::span<double> row);
+/// Adds a multiple of the row of ∂t at the i-th vertex of Γ, weights held.
+/// @param row one coefficient per vertex of the stencil.
+void add_tangential_derivative(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
+                               double factor, std::span<double> row);
 
 /// ∂t at the i-th vertex of Γ, applied to positions, weights held. In 1/length.
 Point tangential_derivative(const SubMesh& sub_mesh, Index i, const TangentialWeights& weights,

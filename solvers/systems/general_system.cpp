@@ -19,7 +19,7 @@ FaceView faces_of(const SubMesh& sub_mesh)
 }  // namespace
 
 GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
-                             std::unique_ptr<TransmissionCondition> condition)
+                             std::unique_ptr<TransmissionCondition> condition, SolverWorkspace& workspace)
     : sub_mesh_(&sub_mesh)
     , condition_(std::move(condition))
     , laplacian_(make_assembler(laplacian, faces_of(sub_mesh)))
@@ -39,7 +39,7 @@ GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
     for (Index i = 0; i < interface_columns.size(); ++i)
         for (const Index column : interface_columns[i])
             entries.push_back({column, sub_mesh.interface.vertices[at(i)]});
-    pattern_ = std::make_unique<SparsePattern>(make_pattern(sub_mesh.n_vertices, std::move(entries)));
+    pattern_ = std::make_unique<SparsePattern>(make_pattern(sub_mesh.n_vertices, entries));
 
     const Index unread = pattern_->n_entries();
     laplacian_slots_.reserve(laplacian_entries.size());
@@ -51,7 +51,7 @@ GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
         for (const Index column : interface_columns[i])
             interface_slots_.push_back(pattern_->slot({column, sub_mesh.interface.vertices[at(i)]}));
     values_.resize(at(unread) + 1);
-    solver_ = std::make_unique<UmfpackSolver>(*pattern_);
+    solver_ = std::make_unique<UnsymmetricSolver>(*pattern_, workspace);
 }
 
 void GeneralSystem::make_rows()
@@ -96,12 +96,12 @@ void GeneralSystem::assemble_interface(const Points& positions, const Points& ot
     }
 }
 
-void GeneralSystem::factorise(SolverWorkspace&)
+void GeneralSystem::factorise(SolverWorkspace& workspace)
 {
     const auto values = std::span<const double>(values_).first(values_.size() - 1);
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    solver_->factorise(values);
+    solver_->factorise(values, workspace);
 }
 
 void GeneralSystem::use_other_side(const Points& positions, const Points& other_side)
@@ -112,25 +112,25 @@ void GeneralSystem::use_other_side(const Points& positions, const Points& other_
             right_hand_side_.row(vertices[at(i)]) = condition_->right_hand_side(i, positions, other_side);
 }
 
-void GeneralSystem::predict(const Points& positions, Points& prediction, SolverWorkspace&)
+void GeneralSystem::predict(const Points& positions, Points& prediction, SolverWorkspace& workspace)
 {
-    solve_with(positions, prediction);
+    solve_with(positions, prediction, workspace);
 }
 
-void GeneralSystem::solve(const Points&, Points& solution, SolverWorkspace&)
+void GeneralSystem::solve(const Points&, Points& solution, SolverWorkspace& workspace)
 {
-    solve_with(solution, solution);
-    solver_->free_factor();
+    solve_with(solution, solution, workspace);
+    solver_->free_factor(*workspace.factors);
 }
 
 /// @param given #local by 3: Vᵏ⁺¹, or what stands for it, where the sub-mesh follows; may be the solution itself.
-void GeneralSystem::solve_with(const Points& given, Points& solution)
+void GeneralSystem::solve_with(const Points& given, Points& solution, SolverWorkspace& workspace)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (roles_[i] == InterfaceRole::Follows)
             right_hand_side_.row(vertices[i]) = given.row(vertices[i]);
-    solver_->solve(std::span<const double>(values_).first(values_.size() - 1), right_hand_side_, solution_);
+    solver_->solve(std::span<const double>(values_).first(values_.size() - 1), right_hand_side_, solution_, workspace);
     if (!solution_.allFinite())
         throw ComputationError(result_not_finite);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)

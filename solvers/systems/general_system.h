@@ -6,7 +6,7 @@
 
 #include "solvers/laplacian/laplacian_assembler.h"
 #include "solvers/sub_mesh_system.h"
-#include "solvers/umfpack_solver.h"
+#include "solvers/unsymmetric_solver.h"
 
 namespace seamflow {
 
@@ -18,7 +18,8 @@ class GeneralSystem final : public SubMeshSystem {
     /// @param sub_mesh must outlive the system.
     /// @param condition what stands on Γ where the sub-mesh leads.
     /// @throws ComputationError if the analysis fails.
-    GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition);
+    GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
+                  SolverWorkspace& workspace);
 
     void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
@@ -34,7 +35,7 @@ class GeneralSystem final : public SubMeshSystem {
 
     void make_rows();
     void assemble_interface(const Points& positions, const Points& other_side);
-    void solve_with(const Points& given, Points& solution);
+    void solve_with(const Points& given, Points& solution, SolverWorkspace& workspace);
 
     const SubMesh* sub_mesh_;
     std::vector<Row> row_of_;
@@ -53,7 +54,7 @@ class GeneralSystem final : public SubMeshSystem {
     std::vector<double> row_;
     Columns right_hand_side_;
     Columns solution_;
-    std::unique_ptr<UmfpackSolver> solver_;
+    std::unique_ptr<UnsymmetricSolver> solver_;
 };
 
 }  // namespace seamflow

@@ -4,10 +4,11 @@
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
 #include "solvers/cholmod_solver.h"
+#include "tests/support/random_matrices.h"
 
 using namespace seamflow;
+using namespace seamflow::test;
 
 namespace {
 
@@ -40,19 +41,11 @@ SymmetricMatrix grid_matrix(Index side, double shift, RandomNumbers& random)
             if (y + 1 < side)
                 add_edge(y * side + x, (y + 1) * side + x);
         }
-    matrix.upper = make_pattern(n, std::move(entries));
+    matrix.upper = make_pattern(n, entries);
     for (Index column = 0; column < n; ++column)
         for (Index k = matrix.upper.column_offsets[at(column)]; k < matrix.upper.column_offsets[at(column) + 1]; ++k)
             matrix.values.push_back(matrix.dense(matrix.upper.rows[at(k)], column));
     return matrix;
-}
-
-Columns random_columns(Index n, RandomNumbers& random)
-{
-    Columns columns(n, 3);
-    for (double& value : columns.reshaped())
-        value = random.symmetric();
-    return columns;
 }
 
 }  // namespace
@@ -128,7 +121,7 @@ TEST_CASE("large systems are solved by dense blocks")
         if (u > 0)
             entries.push_back({u, u - 1});
     }
-    const SparsePattern upper = make_pattern(n, std::move(entries));
+    const SparsePattern upper = make_pattern(n, entries);
     std::vector<double> values(at(upper.n_entries()), -1.0);
     for (Index u = 0; u < n; ++u)
         values[at(upper.slot({u, u}))] = 2.5;

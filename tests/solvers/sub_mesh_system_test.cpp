@@ -6,8 +6,11 @@
 #include "partition/errors.h"
 #include "samples/common/meshes/random_numbers.h"
 #include "solvers/conditions/adapted_robin.h"
+#include "solvers/conditions/adapted_ventcell.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
+#include "solvers/conditions/robin.h"
+#include "solvers/conditions/ventcell.h"
 #include "solvers/sub_mesh_system.h"
 #include "solvers/systems/general_system.h"
 #include "tests/support/conditions.h"
@@ -54,10 +57,24 @@ Points nearby(Points positions, RandomNumbers& random)
     return positions;
 }
 
-void check_interface_rows(const SubMesh& sub_mesh, const Points& positions, std::span<const InterfaceRole> roles,
-                          const Points& given, const Points& solution)
+struct NamedCondition {
+    const char* name;
+    std::unique_ptr<TransmissionCondition> (*make)(const SubMesh& sub_mesh, Laplacian laplacian);
+};
+
+/// All that may stand on Γ.
+const NamedCondition conditions[] = {
+    {"adapted Robin", [](const SubMesh& sub_mesh, Laplacian) { return make_adapted_robin(sub_mesh); }},
+    {"adapted Ventcell", [](const SubMesh& sub_mesh, Laplacian) { return make_adapted_ventcell(sub_mesh, 0.4); }},
+    {"Robin", [](const SubMesh& sub_mesh, Laplacian) { return make_robin(sub_mesh); }},
+    {"Ventcell", [](const SubMesh& sub_mesh, Laplacian) { return make_ventcell(sub_mesh, 0.4); }},
+    {"predicted side",
+     [](const SubMesh& sub_mesh, Laplacian laplacian) { return make_predicted_side(sub_mesh, laplacian); }},
+};
+
+void check_interface_rows(TransmissionCondition& condition, const SubMesh& sub_mesh, const Points& positions,
+                          std::span<const InterfaceRole> roles, const Points& given, const Points& solution)
 {
-    AdaptedRobin condition(sub_mesh);
     condition.begin_step(positions, positions, time_step, p);
     for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
         const Index v = sub_mesh.interface.vertices[at(i)];
@@ -129,18 +146,22 @@ TEST_CASE("every row of a sub-mesh's system holds, and what is given comes out t
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(name_of(laplacian));
             const SubMesh& sub_mesh = decomposition.sub_meshes[at(random.below(cut.n_parts))];
-            const auto system = make_system(sub_mesh, laplacian, make_adapted_robin(sub_mesh), workspace);
-            for (int step = 0; step < 2; ++step) {
-                const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
-                const Points given = nearby(positions, random);
-                const auto roles = random_roles(sub_mesh, random);
-                system->assemble(positions, positions, time_step, p, roles, workspace);
-                system->factorise(workspace);
-                Points solution = given;
-                system->solve(positions, solution, workspace);
-                check_interface_rows(sub_mesh, positions, roles, given, solution);
-                check_other_rows(sub_mesh, laplacian, positions, solution);
-                CHECK(solution.bottomRows(sub_mesh.n_halo) == given.bottomRows(sub_mesh.n_halo));
+            for (const NamedCondition& condition : conditions) {
+                CAPTURE(condition.name);
+                const auto system = make_system(sub_mesh, laplacian, condition.make(sub_mesh, laplacian), workspace);
+                const auto expected = condition.make(sub_mesh, laplacian);
+                for (int step = 0; step < 2; ++step) {
+                    const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
+                    const Points given = nearby(positions, random);
+                    const auto roles = random_roles(sub_mesh, random);
+                    system->assemble(positions, positions, time_step, p, roles, workspace);
+                    system->factorise(workspace);
+                    Points solution = given;
+                    system->solve(positions, solution, workspace);
+                    check_interface_rows(*expected, sub_mesh, positions, roles, given, solution);
+                    check_other_rows(sub_mesh, laplacian, positions, solution);
+                    CHECK(solution.bottomRows(sub_mesh.n_halo) == given.bottomRows(sub_mesh.n_halo));
+                }
             }
         }
     }
@@ -174,7 +195,7 @@ TEST_CASE("predicted by a symmetric system or by a general one, the result is th
             for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
                 CAPTURE(name_of(laplacian));
                 const auto fast = make_predicted_system(sub_mesh, laplacian, workspace);
-                GeneralSystem general(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian));
+                GeneralSystem general(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian), workspace);
                 for (int step = 0; step < 2; ++step) {
                     const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                     const Points other_side = nearby(positions, random);
@@ -219,7 +240,7 @@ TEST_CASE("following everywhere, a symmetric system and a general one give the s
                     return solution;
                 };
                 const auto following = make_following_system(sub_mesh, laplacian, workspace);
-                GeneralSystem general(sub_mesh, laplacian, make_dirichlet(sub_mesh));
+                GeneralSystem general(sub_mesh, laplacian, make_dirichlet(sub_mesh), workspace);
                 const Points solution = solved(*following);
                 CHECK(largest_difference(solution, solved(general)) < 1e-10 * positions.cwiseAbs().maxCoeff());
                 for (const Index v : sub_mesh.interface.vertices)

@@ -5,45 +5,14 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/meshes/random_numbers.h"
 #include "solvers/umfpack_solver.h"
 #include "tests/support/matrices.h"
+#include "tests/support/random_matrices.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
 
 namespace {
-
-/// About five entries a row, on the diagonal among them, in a pattern that is not symmetric.
-SparsePattern random_pattern(Index n, RandomNumbers& random)
-{
-    std::vector<MatrixEntry> entries;
-    for (Index row = 0; row < n; ++row) {
-        entries.push_back({row, row});
-        for (int i = 0; i < 4; ++i)
-            entries.push_back({random.below(n), row});
-    }
-    return make_pattern(n, std::move(entries));
-}
-
-/// Random values, the diagonal large enough for a well-conditioned matrix.
-std::vector<double> random_values(const SparsePattern& pattern, RandomNumbers& random)
-{
-    std::vector<double> values(at(pattern.n_entries()));
-    for (double& value : values)
-        value = random.symmetric();
-    for (Index i = 0; i < pattern.n(); ++i)
-        values[at(pattern.slot({i, i}))] += 6.0;
-    return values;
-}
-
-Columns random_columns(Index n, RandomNumbers& random)
-{
-    Columns columns(n, 3);
-    for (double& entry : columns.reshaped())
-        entry = random.symmetric();
-    return columns;
-}
 
 /// `copies` times the same matrix along the diagonal.
 SparsePattern repeated(const SparsePattern& block, Index copies)
@@ -53,7 +22,7 @@ SparsePattern repeated(const SparsePattern& block, Index copies)
         for (Index column = 0; column < block.n(); ++column)
             for (Index i = block.column_offsets[at(column)]; i < block.column_offsets[at(column) + 1]; ++i)
                 entries.push_back({k * block.n() + column, k * block.n() + block.rows[at(i)]});
-    return make_pattern(copies * block.n(), std::move(entries));
+    return make_pattern(copies * block.n(), entries);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST_CASE("the Ventcell row is the Robin row and dt q ∂t")
                     std::vector<double> row;
                     CHECK(row_of(*ventcell, i, positions, row) == row_of(robin, i, positions, robin_row));
                     std::vector<double> tangential(row.size());
-                    tangential_derivative_row(robin.stencils(), i, tangential_weights(sub_mesh, i, positions),
+                    add_tangential_derivative(robin.stencils(), i, tangential_weights(sub_mesh, i, positions), 1.0,
                                               tangential);
                     for (std::size_t k = 0; k < row.size(); ++k)
                         CHECK(row[k] == doctest::Approx(robin_row[k] + time_step * q * tangential[k]).epsilon(1e-14));

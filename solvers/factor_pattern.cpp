@@ -1,0 +1,102 @@
+#include "solvers/factor_pattern.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "solvers/cholmod_solver.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The entries on and above the diagonal of the pattern made symmetric, its unknowns renumbered.
+SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>& position)
+{
+    std::vector<MatrixEntry> entries;
+    entries.reserve(at(pattern.n() + pattern.n_entries()));
+    for (Index column = 0; column < pattern.n(); ++column) {
+        entries.push_back({position[at(column)], position[at(column)]});
+        for (Index k = pattern.column_offsets[at(column)]; k < pattern.column_offsets[at(column) + 1]; ++k) {
+            const Index a = position[at(column)];
+            const Index b = position[at(pattern.rows[at(k)])];
+            entries.push_back({std::max(a, b), std::min(a, b)});
+        }
+    }
+    return make_pattern(pattern.n(), entries);
+}
+
+/// The elimination tree: of each column of L the first row below the diagonal, or -1, and the number of such rows.
+struct Tree {
+    std::vector<Index> parent;
+    std::vector<Index> count;
+};
+
+/// Calls visit(row, column) for each entry of L below the diagonal, rows ascending, and makes the tree on the way.
+template <class Visit>
+Tree for_each_entry(const SparsePattern& upper, Visit visit)
+{
+    Tree tree{std::vector<Index>(at(upper.n()), -1), std::vector<Index>(at(upper.n()), 0)};
+    std::vector<Index> visited(at(upper.n()), -1);
+    for (Index row = 0; row < upper.n(); ++row) {
+        visited[at(row)] = row;
+        for (Index k = upper.column_offsets[at(row)]; k < upper.column_offsets[at(row) + 1]; ++k)
+            for (Index column = upper.rows[at(k)]; visited[at(column)] != row; column = tree.parent[at(column)]) {
+                visited[at(column)] = row;
+                ++tree.count[at(column)];
+                if (tree.parent[at(column)] < 0)
+                    tree.parent[at(column)] = row;
+                visit(row, column);
+            }
+    }
+    return tree;
+}
+
+/// Whether two consecutive columns have the same rows but for the second one itself.
+bool belong_together(const Tree& tree, Index column)
+{
+    return tree.parent[at(column)] == column + 1 && tree.count[at(column)] == tree.count[at(column) + 1] + 1;
+}
+
+}  // namespace
+
+FactorPattern make_factor_pattern(const SparsePattern& pattern, CholmodWorkspace& workspace)
+{
+    const Index n = pattern.n();
+    FactorPattern factor;
+    factor.position.resize(at(n));
+    std::iota(factor.position.begin(), factor.position.end(), 0);
+    const std::vector<Index> order = elimination_order(symmetrised(pattern, factor.position), workspace);
+    for (Index i = 0; i < n; ++i)
+        factor.position[at(order[at(i)])] = i;
+
+    const SparsePattern upper = symmetrised(pattern, factor.position);
+    const Tree tree = for_each_entry(upper, [](Index, Index) {});
+    std::vector<Index> block_of_last(at(n), -1);
+    for (Index first = 0, last = 0; first < n; first = ++last) {
+        while (last + 1 < n && belong_together(tree, last))
+            ++last;
+        block_of_last[at(last)] = factor.n_blocks();
+        factor.first.push_back(last + 1);
+        for (Index u = first; u <= last; ++u)
+            factor.rows.values.push_back(u);
+        factor.rows.values.resize(factor.rows.values.size() + at(tree.count[at(last)]));
+        factor.rows.close();
+    }
+
+    factor.update_offsets.assign(at(n) + 1, 0);
+    std::vector<Index> next(at(factor.n_blocks()));
+    for (Index b = 0; b < factor.n_blocks(); ++b)
+        next[at(b)] = factor.width(b);
+    for_each_entry(upper, [&](Index row, Index column) {
+        const Index block = block_of_last[at(column)];
+        if (block < 0)
+            return;
+        factor.rows.values[at(factor.rows.offsets[at(block)] + next[at(block)])] = row;
+        factor.updates.push_back({block, next[at(block)]++});
+        ++factor.update_offsets[at(row) + 1];
+    });
+    std::partial_sum(factor.update_offsets.begin(), factor.update_offsets.end(), factor.update_offsets.begin());
+    return factor;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "solvers/cholmod_workspace.h"
+#include "solvers/sparse_pattern.h"
+
+namespace seamflow {
+
+/// Which entries of the factors L and U of a matrix may be different from zero if every pivot is taken from the
+/// diagonal, with the matrix's pattern made symmetric. Unknowns are numbered in the order of elimination, and gathered
+/// into blocks of consecutive ones whose columns of L have the same rows but for each other (supernodes; a few entries
+/// that stay zero are taken in for larger blocks). The rows of U are those columns, transposed.
+struct FactorPattern {
+    /// An update of one column of L, and one row of U, by a block of earlier ones.
+    struct Update {
+        Index block;
+        /// Where the column stands among the block's rows.
+        Index place;
+    };
+
+    /// Per unknown of the matrix, its number in the order of elimination.
+    std::vector<Index> position;
+    /// Number of blocks + 1: the first unknown of each.
+    std::vector<Index> first{0};
+    /// Per block: its unknowns, then all others on which its columns have entries, ascending.
+    IndexLists rows;
+    /// Number of unknowns + 1, and the updates of each unknown's column from outside its block.
+    std::vector<Index> update_offsets;
+    std::vector<Update> updates;
+
+    [[nodiscard]] Index n() const { return static_cast<Index>(position.size()); }
+    [[nodiscard]] Index n_blocks() const { return static_cast<Index>(first.size()) - 1; }
+    [[nodiscard]] Index width(Index block) const { return first[at(block) + 1] - first[at(block)]; }
+};
+
+/// @throws ComputationError if CHOLMOD fails (memory), which finds the order of elimination.
+FactorPattern make_factor_pattern(const SparsePattern& pattern, CholmodWorkspace& workspace);
+
+}  // namespace seamflow

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <set>
+
+#include <Eigen/Core>
+#include <doctest/doctest.h>
+
+#include "solvers/factor_pattern.h"
+#include "tests/support/random_matrices.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+/// Which entries of L are different from zero, found by eliminating one unknown after the other.
+Eigen::MatrixXi eliminated(const SparsePattern& pattern, const std::vector<Index>& position)
+{
+    const Index n = pattern.n();
+    Eigen::MatrixXi filled = Eigen::MatrixXi::Identity(n, n);
+    for (Index column = 0; column < n; ++column)
+        for (Index k = pattern.column_offsets[at(column)]; k < pattern.column_offsets[at(column) + 1]; ++k) {
+            filled(position[at(pattern.rows[at(k)])], position[at(column)]) = 1;
+            filled(position[at(column)], position[at(pattern.rows[at(k)])]) = 1;
+        }
+    for (Index pivot = 0; pivot < n; ++pivot)
+        for (Index row = pivot + 1; row < n; ++row)
+            for (Index column = pivot + 1; column < n; ++column)
+                filled(row, column) |= filled(row, pivot) & filled(pivot, column);
+    return filled.triangularView<Eigen::Lower>();
+}
+
+/// The entries of L as the blocks have them.
+Eigen::MatrixXi from_blocks(const FactorPattern& factor)
+{
+    Eigen::MatrixXi filled = Eigen::MatrixXi::Zero(factor.n(), factor.n());
+    for (Index b = 0; b < factor.n_blocks(); ++b)
+        for (Index c = 0; c < factor.width(b); ++c)
+            for (const Index row : factor.rows[b].subspan(at(c)))
+                filled(row, factor.first[at(b)] + c) = 1;
+    return filled;
+}
+
+}  // namespace
+
+TEST_CASE("the blocks have exactly the entries that elimination fills in")
+{
+    RandomNumbers random(1);
+    CholmodWorkspace workspace;
+    for (const Index n : {1, 2, 9, 60}) {
+        const SparsePattern pattern = random_pattern(n, random);
+        const FactorPattern factor = make_factor_pattern(pattern, workspace);
+        std::vector<Index> position = factor.position;
+        CHECK(from_blocks(factor) == eliminated(pattern, position));
+        std::sort(position.begin(), position.end());
+        for (Index i = 0; i < n; ++i)
+            CHECK(position[at(i)] == i);
+        if (n > 2)
+            CHECK(factor.n_blocks() < n);
+    }
+}
+
+TEST_CASE("an unknown is updated once by each earlier block that has a row there")
+{
+    RandomNumbers random(2);
+    CholmodWorkspace workspace;
+    const FactorPattern factor = make_factor_pattern(random_pattern(60, random), workspace);
+    std::size_t n_expected = 0;
+    for (Index b = 0; b < factor.n_blocks(); ++b) {
+        CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end()));
+        n_expected += factor.rows[b].size() - at(factor.width(b));
+    }
+    CHECK(factor.updates.size() == n_expected);
+    for (Index u = 0; u < factor.n(); ++u) {
+        std::set<Index> blocks;
+        for (Index k = factor.update_offsets[at(u)]; k < factor.update_offsets[at(u) + 1]; ++k) {
+            const auto [block, place] = factor.updates[at(k)];
+            CHECK(blocks.insert(block).second);
+            CHECK(place >= factor.width(block));
+            CHECK(factor.rows[block][at(place)] == u);
+        }
+    }
+}
+
+TEST_CASE("a pattern without unknowns has no blocks")
+{
+    CholmodWorkspace workspace;
+    CHECK(make_factor_pattern(SparsePattern{}, workspace).n_blocks() == 0);
+}

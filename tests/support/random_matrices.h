@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "samples/common/meshes/random_numbers.h"
+#include "solvers/columns.h"
+#include "solvers/sparse_pattern.h"
+
+namespace seamflow::test {
+
+/// About five entries a row, on the diagonal among them, in a pattern that is not symmetric.
+inline SparsePattern random_pattern(Index n, RandomNumbers& random)
+{
+    std::vector<MatrixEntry> entries;
+    for (Index row = 0; row < n; ++row) {
+        entries.push_back({row, row});
+        for (int i = 0; i < 4; ++i)
+            entries.push_back({random.below(n), row});
+    }
+    return make_pattern(n, entries);
+}
+
+/// Random values, the diagonal large enough for a well-conditioned matrix.
+inline std::vector<double> random_values(const SparsePattern& pattern, RandomNumbers& random)
+{
+    std::vector<double> values(at(pattern.n_entries()));
+    for (double& value : values)
+        value = random.symmetric();
+    for (Index i = 0; i < pattern.n(); ++i)
+        values[at(pattern.slot({i, i}))] += 6.0;
+    return values;
+}
+
+inline Columns random_columns(Index n, RandomNumbers& random)
+{
+    Columns columns(n, 3);
+    for (double& entry : columns.reshaped())
+        entry = random.symmetric();
+    return columns;
+}
+
+}  // namespace seamflow::test
