@@ -133,9 +133,9 @@ struct FlowOptions {
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
-    /// Most bytes that the factorisations of sub-meshes may take at once, at least 1 and enough for a step (the flow
-    /// throws OptionError that names the number else); empty: as few as keep all threads busy. What UMFPACK makes
-    /// counts by its own estimate. Does not change the result, nor limit what `reference` takes.
+    /// Most bytes that the factorisations of sub-meshes may take at once, at least 1, and what one step needs: with
+    /// less the flow throws OptionError that tells how much that is. Empty: as few as keep all threads busy. What
+    /// UMFPACK makes counts by its own estimate. Does not change the result, nor limit what `reference` takes.
     std::optional<std::size_t> memory_limit;
     /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
     /// each step.
