@@ -18,7 +18,7 @@ TEST_CASE("a pool grows to what is taken at once, and no further")
     CHECK(pool.bytes() == 0);
     for (int round = 0; round < 3; ++round) {
         std::vector<std::span<std::byte>> taken;
-        for (const std::size_t bytes : {100, 1, 37, 100}) {
+        for (const std::size_t bytes : {100U, 1U, 37U, 100U}) {
             taken.push_back(pool.take(bytes));
             CHECK(taken.back().size() >= bytes);
         }
