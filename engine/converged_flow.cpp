@@ -8,6 +8,7 @@
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
@@ -27,16 +28,16 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
 {
-    make_systems(options.laplacian);
+    make_systems(options);
     make_graph();
 }
 
-void ConvergedFlow::make_systems(Laplacian laplacian)
+void ConvergedFlow::make_systems(const FlowOptions& options)
 {
     oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(systems_.size()), [&](Index s) {
         const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
         on_behalf_of(sub_mesh, s, [&] {
-            systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, laplacian, workspaces_.local());
+            systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian, workspaces_.local());
         });
     });
     std::size_t largest = 1;
@@ -44,6 +45,11 @@ void ConvergedFlow::make_systems(Laplacian laplacian)
         system_views_.push_back(system.get());
         largest = std::max(largest, system->factor_bytes());
     }
+    const std::size_t all = systems_.size() * largest;
+    if (options.memory_limit && *options.memory_limit < all)
+        throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) +
+                          " bytes, but a converged step keeps all factorisations at once, which take " +
+                          std::to_string(all) + ": raise it, or do without a tolerance");
     factors_.use_blocks_of(largest);
     workspaces_.use(factors_);
 }

@@ -25,7 +25,7 @@ namespace seamflow {
 class ConvergedFlow {
   public:
     /// @param mesh, topology must outlive the flow.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low.
     ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options);
 
     /// One step. After an exception the positions are those before the step, and the flow is at its end.
@@ -45,7 +45,7 @@ class ConvergedFlow {
     void describe(FlowReport& report) const;
 
   private:
-    void make_systems(Laplacian laplacian);
+    void make_systems(const FlowOptions& options);
     void make_graph();
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body);

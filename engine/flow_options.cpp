@@ -101,6 +101,8 @@ void require_valid(const FlowOptions& options)
         throw OptionError(options.q ? "q is given, but belongs to the Ventcell conditions alone"
                                     : "q must be given with the Ventcell conditions");
     require(options.overlap >= 1, "overlap", options.overlap, "at least 1 (layers of faces)");
+    if (options.memory_limit)
+        require(*options.memory_limit >= 1, "memory_limit", *options.memory_limit, "at least 1 (byte)");
     if (options.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);
     require_valid_copies(options);

@@ -138,8 +138,9 @@ struct FlowOptions {
     std::optional<double> tolerance;
     /// Most iterations of a step for that.
     int converge_iterations = 1000;
-    /// Most bytes that the factorisations of sub-meshes may take at once; empty: as few as keep all threads busy. What
-    /// UMFPACK makes counts by its own estimate. Does not change the result.
+    /// Most bytes that the factorisations of sub-meshes may take at once, at least 1, and what one step needs: with
+    /// less the flow throws OptionError that tells how much that is. Empty: as few as keep all threads busy. What
+    /// UMFPACK makes counts by its own estimate. Does not change the result, nor limit what `reference` takes.
     std::optional<std::size_t> memory_limit;
     /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
     /// each step.

@@ -115,6 +115,13 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         report.pieces = *flow.pieces();
 }
 
+/// The whole mesh is one factor, which no limit for the sub-meshes fits.
+FlowOptions without_limit(FlowOptions options)
+{
+    options.memory_limit.reset();
+    return options;
+}
+
 void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
                FlowReport& report)
 {
@@ -138,7 +145,7 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
         report.seconds.total = report.seconds.cut + report.seconds.analyse;
         std::optional<DecomposedFlow> reference;
         if (options.reference)
-            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), options, curvature);
+            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), curvature);
         run_steps(mesh, topology, options, on_step, curvature, flow, reference ? &*reference : nullptr, report);
         flow.describe(report);
     };

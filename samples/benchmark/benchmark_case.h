@@ -29,11 +29,13 @@ struct CaseOptions {
     FlowOptions flow;
     std::vector<Method> peers;
     Reference reference = Reference::Automatic;
+    /// See MethodTask.
+    std::vector<int> simulated_threads;
 };
 
 /// One method with one tolerance.
 struct Row {
-    /// As in the table and in JSON: "ours", "cholmod", "cg-1e-8", "cg-equal-accuracy", …
+    /// As in the table and in JSON: "ours", "cholmod", "cg-1e-8", "cg-equal-accuracy", "cg-equal-both", …
     std::string name;
     MethodTask task;
     /// Without the positions.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <system_error>
 #include <thread>
 
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
+#include "samples/common/flow_choices.h"
 #include "samples/common/meshes.h"
 #include "samples/common/output_files.h"
 
@@ -48,18 +50,20 @@ void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
 void add_flow_options(CLI::App& app, BenchmarkCommand& command)
 {
     FlowOptions& flow = command.options.flow;
-    add_choice<Laplacian>(app, "--laplacian", flow.laplacian,
-                          {{"fujiwara", Laplacian::Fujiwara},
-                           {"alexa-wardetzky", Laplacian::AlexaWardetzky},
-                           {"ptackova-velho", Laplacian::PtackovaVelho}},
-                          "discrete Laplacian [fujiwara]");
+    add_choice(app, "--laplacian", flow.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_real(app, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths [5]");
     add_integer(app, "--steps", flow.steps, 1, "number of steps [5]");
     add_integer(app, "--subdomains", flow.subdomains, 0, "number of sub-meshes of ours; 0: chosen [0]");
-    add_choice<Conditions>(app, "--conditions", flow.conditions,
-                           {{"adapted-robin", Conditions::AdaptedRobin}, {"schwarz", Conditions::Schwarz}},
-                           "what holds between sub-meshes of ours [adapted-robin]");
-    add_integer(app, "--threads", flow.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
+    add_choice(app, "--conditions", flow.conditions, conditions_choices(),
+               "what holds between sub-meshes of ours [adapted-robin]");
+    add_real(app, "--q", flow.q, {0.0, std::numeric_limits<double>::max()},
+             "Ventcell parameter of ours, for adapted-ventcell and ventcell");
+    add_bytes(app, "--memory-limit", flow.memory_limit,
+              "most that the factorisations of ours may take at once, in bytes or with K, M, G, KiB, MiB, GiB [as "
+              "little as keeps all threads busy; with --simulate-threads without limit]");
+    add_real(app, "--converge", flow.tolerance, positive(), "ours by converged steps, to this relative residual");
+    add_integer(app, "--threads", flow.threads, 0,
+                "number of threads, at most 1024; 0: all cores [0; with --simulate-threads 1]");
 }
 
 void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
@@ -79,6 +83,19 @@ void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
     if (error)
         throw OutputError(command.export_folder.string() + ": cannot be made, " + error.message());
     require_writable(command.export_folder / "system.mtx");
+}
+
+/// More threads than cores would be held up by each other, and what was recorded with it. Tasks wait for each other
+/// alone, not for room for their factors.
+void prepare_simulation(const CLI::App& app, std::string_view threads, BenchmarkCommand& command)
+{
+    command.mode = BenchmarkMode::SimulateThreads;
+    command.options.simulated_threads = threads_named(threads);
+    FlowOptions& flow = command.options.flow;
+    if (app.count("--threads") == 0)
+        flow.threads = 1;
+    if (!flow.memory_limit)
+        flow.memory_limit = std::numeric_limits<std::size_t>::max();
 }
 
 }  // namespace
@@ -107,18 +124,39 @@ std::vector<Method> peers_named(std::string_view word)
     return peers;
 }
 
+std::vector<int> threads_named(std::string_view word)
+{
+    std::vector<int> threads;
+    if (word == "all") {
+        for (int n = 1; n <= FlowOptions::most_threads; n *= 2)
+            threads.push_back(n);
+        return threads;
+    }
+    try {
+        for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+            end = word.find(',', begin);
+            threads.push_back(
+                static_cast<int>(parse_integer(word.substr(begin, end - begin), 1, FlowOptions::most_threads)));
+        }
+    } catch (const OptionError& error) {
+        throw OptionError(std::string("--simulate-threads: ") + error.what() + "; or all");
+    }
+    return threads;
+}
+
 std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, BenchmarkCommand& command)
 {
     CLI::App app("Holds one implicit step of ours beside what a user would run instead, time, memory and accuracy.",
                  "benchmark");
     std::string peers;
+    std::string simulated_threads;
     command.options.flow.time_step = 1.0;
     command.options.flow.steps = 5;
     add_mesh_options(app, command);
     add_flow_options(app, command);
     app.add_option("--peers", peers,
-                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal [all; none with --scaling and "
-                   "--threads-sweep]")
+                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal [all; none with --scaling, "
+                   "--threads-sweep and --simulate-threads]")
         ->type_name("LIST");
     auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
                                             {{"auto", Reference::Automatic},
@@ -136,13 +174,24 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
                            "--scaling", [&] { command.mode = BenchmarkMode::Scaling; }, "10^4, 10^5, … vertices")
                         ->excludes("--mesh")
                         ->excludes(export_folder);
-    app.add_flag_callback(
-           "--threads-sweep", [&] { command.mode = BenchmarkMode::ThreadsSweep; }, "ours with 1, 2, … threads")
+    auto* sweep =
+        app.add_flag_callback(
+               "--threads-sweep", [&] { command.mode = BenchmarkMode::ThreadsSweep; }, "ours with 1, 2, … threads")
+            ->excludes(scaling)
+            ->excludes("--peers")
+            ->excludes(export_folder);
+    app.add_option("--simulate-threads", simulated_threads,
+                   "ours, its tasks of the median step replayed with each of these numbers of threads: 1,2,8 or so, or "
+                   "all: 1, 2, 4, … 1024")
         ->excludes(scaling)
+        ->excludes(sweep)
         ->excludes("--peers")
-        ->excludes(export_folder);
+        ->excludes(export_folder)
+        ->type_name("LIST");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
+    if (app.count("--simulate-threads") > 0)
+        prepare_simulation(app, simulated_threads, command);
     const bool sweeps = command.mode != BenchmarkMode::Case;
     command.options.peers = peers_named(!peers.empty() ? peers : sweeps ? "none" : "all");
     if (sweeps && command.options.peers.empty() && reference->count() == 0)

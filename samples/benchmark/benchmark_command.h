@@ -19,6 +19,8 @@ enum class BenchmarkMode {
     Scaling,
     /// One mesh, ours, with 1, 2, … threads.
     ThreadsSweep,
+    /// One mesh, ours, its tasks replayed with numbers of threads that this machine need not have.
+    SimulateThreads,
 };
 
 /// The command line of `benchmark`.
@@ -41,6 +43,10 @@ struct BenchmarkCommand {
 /// amg, cgal), each one once, in that order.
 /// @throws OptionError for another word.
 std::vector<Method> peers_named(std::string_view word);
+
+/// The numbers of threads that a word stands for: "all" (1, 2, 4, … 1024), or numbers with commas between them.
+/// @throws OptionError for another word.
+std::vector<int> threads_named(std::string_view word);
 
 /// Parses the command line, makes the folder of --export, and checks that the results can be written.
 /// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.

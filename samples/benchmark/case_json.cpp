@@ -32,6 +32,17 @@ Json row_json(const Row& row)
     return json;
 }
 
+Json simulation_json(const Simulation& simulation)
+{
+    return {{"threads", simulation.workers},
+            {"makespan_s", simulation.makespan},
+            {"work_s", simulation.work},
+            {"speed_up", simulation.speed_up()},
+            {"efficiency", simulation.efficiency()},
+            {"critical_path_s", simulation.critical_path_seconds},
+            {"critical_path_tasks", simulation.critical_path.size()}};
+}
+
 }  // namespace
 
 Json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options, const CaseResult& result)
@@ -56,6 +67,11 @@ Json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& op
         json["ratios"][peer.name] = ratio(result, peer);
         if (const auto one_thread = ratio_one_thread(result, peer))
             json["ratios_one_thread"][peer.name] = *one_thread;
+    }
+    if (!result.ours.result.simulations.empty()) {
+        Json& list = json["simulated_threads"] = Json::array();
+        for (const Simulation& simulation : result.ours.result.simulations)
+            list.push_back(simulation_json(simulation));
     }
     return json;
 }

@@ -1,5 +1,6 @@
 #include "samples/benchmark/case_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <ostream>
 
@@ -26,7 +27,7 @@ void print_cells(std::ostream& out, const std::string& name, std::initializer_li
 
 std::string named(const Row& row)
 {
-    const bool equal = row.name.ends_with("-equal-accuracy");
+    const bool equal = row.name.ends_with("-equal-accuracy") || row.name.ends_with("-equal-both");
     return equal && row.succeeded() ? row.name + " " + short_number(row.task.tolerance, 1) : row.name;
 }
 
@@ -54,7 +55,8 @@ CaseTable::CaseTable(std::ostream& out, const std::string& mesh, Index vertices,
          << " squared mean edge lengths, " << flow.steps << (flow.steps == 1 ? " step, " : " steps, ") << flow.threads
          << (flow.threads == 1 ? " thread\n" : " threads\n");
     print_cells(out_, "seconds",
-                {"setup", "assemble", "prepare", "solve", "step", "all", "MB", "V_mean", "V_max", "ratio", "1 thread"});
+                {"setup", "assemble", "prepare", "solve", "step", "all", "MB", "iter.", "V_mean", "V_max", "ratio",
+                 "1 thread"});
 }
 
 void CaseTable::print(const Row& row)
@@ -74,6 +76,7 @@ void CaseTable::print(const Row& row)
                 {seconds(row.result.setup_seconds), phase(phases.assemble), phase(phases.prepare), phase(phases.solve),
                  seconds(step), seconds(row.result.total_seconds()),
                  short_number(static_cast<double>(row.result.peak_memory_bytes) / 1e6, 4),
+                 is_iterative(row.task.method) ? std::to_string(row.result.iterations) : "",
                  row.v_mean ? short_number(*row.v_mean, 2) : "", row.v_max ? short_number(*row.v_max, 2) : "",
                  short_number(step / ours_), one_thread ? short_number(step / ours_one_thread_) : ""});
 }
@@ -85,6 +88,13 @@ void CaseTable::finish(const CaseResult& result) const
     if (!result.reference.empty())
         out_ << "V_mean, V_max: distance to the undecomposed flow by " << result.reference
              << " after the last step, in mean edge lengths\n";
+    const auto is_iterative_row = [](const Row& row) { return is_iterative(row.task.method) && row.succeeded(); };
+    if (std::any_of(result.peers.begin(), result.peers.end(), is_iterative_row)) {
+        out_ << "iter.: of all steps and coordinates";
+        if (!result.reference.empty())
+            out_ << "; equal accuracy: the loosest tolerance with a V_max no larger than ours, equal both: V_mean too";
+        out_ << '\n';
+    }
     for (const std::string& remark : result.ours.result.remarks)
         out_ << "remark: " << remark << '\n';
     for (const Row& peer : result.peers)

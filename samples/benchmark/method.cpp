@@ -42,7 +42,7 @@ std::string_view title_of(Method method, Laplacian laplacian)
 
 double MethodResult::step_seconds() const
 {
-    return steps.empty() ? 0.0 : median_step(steps).total;
+    return steps.empty() ? 0.0 : steps[median_step(steps)].total;
 }
 
 double MethodResult::total_seconds() const
@@ -58,12 +58,14 @@ MethodResult failed(std::string error)
     return result;
 }
 
-StepSeconds median_step(std::vector<StepSeconds> steps)
+std::size_t median_step(const std::vector<StepSeconds>& steps)
 {
-    const auto first = steps.size() > 1 ? steps.begin() + 1 : steps.begin();
-    const auto middle = first + (steps.end() - first) / 2;
-    std::nth_element(first, middle, steps.end(),
-                     [](const StepSeconds& a, const StepSeconds& b) { return a.total < b.total; });
+    std::vector<std::size_t> numbers(steps.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    const auto first = steps.size() > 1 ? numbers.begin() + 1 : numbers.begin();
+    const auto middle = first + (numbers.end() - first) / 2;
+    std::nth_element(first, middle, numbers.end(),
+                     [&](std::size_t a, std::size_t b) { return steps[a].total < steps[b].total; });
     return *middle;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/flow_options.h"
+#include "engine/schedule_simulation.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -42,8 +44,11 @@ struct MethodTask {
     Method method = Method::Ours;
     /// Laplacian, time step, number of steps, threads (at least 1). Sub-meshes and conditions are for Ours.
     FlowOptions options;
-    /// Of an iterative method: the largest residual, in the length of the right-hand side.
+    /// Of an iterative method: the largest residual of a coordinate, in the length of its right-hand side, as libraries
+    /// measure it; with coordinates from the centroid of the mesh, so that it does not matter where that lies.
     double tolerance = 0.0;
+    /// Of Ours: numbers of threads to replay the median step with (see simulate).
+    std::vector<int> simulated_threads;
 };
 
 /// Wall-clock time of one step, and where it goes.
@@ -69,6 +74,8 @@ struct MethodResult {
     int iterations = 0;
     /// Number of sub-meshes.
     Index subdomains = 1;
+    /// One for each of MethodTask::simulated_threads.
+    std::vector<Simulation> simulations;
     /// Of the process that took the steps, the mesh included.
     std::int64_t peak_memory_bytes = 0;
     std::vector<std::string> remarks;
@@ -84,8 +91,8 @@ struct MethodResult {
 /// The result of a method that did not.
 MethodResult failed(std::string error);
 
-/// The step whose time is the median of those after the first.
+/// The step, numbered from 0, whose time is the median of those after the first.
 /// @pre there is a step.
-StepSeconds median_step(std::vector<StepSeconds> steps);
+std::size_t median_step(const std::vector<StepSeconds>& steps);
 
 }  // namespace seamflow

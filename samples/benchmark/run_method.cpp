@@ -13,7 +13,9 @@ namespace {
 
 MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
 {
-    const FlowReport report = mean_curvature_flow(mesh, task.options);
+    FlowOptions options = task.options;
+    options.record_schedule = !task.simulated_threads.empty();
+    const FlowReport report = mean_curvature_flow(mesh, options);
     MethodResult result;
     result.setup_seconds = report.seconds.cut + report.seconds.analyse;
     for (const StepReport& step : report.steps)
@@ -23,6 +25,9 @@ MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
     result.phases.prepare = report.seconds.factorise / n_steps;
     result.phases.solve = (report.seconds.solve + report.seconds.correct) / n_steps;
     result.phases.total = result.step_seconds();
+    for (const int threads : task.simulated_threads)
+        result.simulations.push_back(
+            simulate(*report.schedule, static_cast<int>(median_step(result.steps)) + 1, threads));
     result.subdomains = report.subdomains;
     result.remarks = report.remarks;
     result.positions = std::move(mesh.vertices);
@@ -39,7 +44,8 @@ MethodResult run_peer(const PolygonMesh& mesh, const MethodTask& task)
     solver->analyse(system);
     result.setup_seconds = watch.lap();
 
-    result.positions = mesh.vertices;
+    const Point centroid = mesh.vertices.colwise().mean();
+    result.positions = mesh.vertices.rowwise() - centroid;
     for (int step = 0; step < task.options.steps; ++step) {
         StepSeconds& seconds = result.steps.emplace_back();
         watch.lap();
@@ -53,7 +59,8 @@ MethodResult run_peer(const PolygonMesh& mesh, const MethodTask& task)
         seconds.solve = watch.lap();
         seconds.total = seconds.assemble + seconds.prepare + seconds.solve;
     }
-    result.phases = median_step(result.steps);
+    result.positions.rowwise() += centroid;
+    result.phases = result.steps[median_step(result.steps)];
     return result;
 }
 

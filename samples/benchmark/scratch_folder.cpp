@@ -1,11 +1,15 @@
 #include "samples/benchmark/scratch_folder.h"
 
+#include <algorithm>
+#include <array>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <string>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "partition/errors.h"
 #include "samples/benchmark/method_json.h"
@@ -21,6 +25,46 @@ constexpr const char* mesh_file = "mesh.bin";
 constexpr const char* task_file = "task.json";
 constexpr const char* result_file = "result.json";
 constexpr const char* positions_file = "positions.bin";
+constexpr std::array all_files{mesh_file, task_file, result_file, positions_file};
+
+/// What to remove when the program is told to stop. A signal handler can do no more than hand over text that is there.
+struct Remains {
+    std::array<std::string, 4> files;
+    std::string folder;
+};
+
+Remains& remains()
+{
+    static Remains remains;
+    return remains;
+}
+
+void remove_and_stop(int signal)
+{
+    for (const std::string& file : remains().files)
+        unlink(file.c_str());
+    rmdir(remains().folder.c_str());
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+}
+
+/// @param folder empty: none any more.
+void remove_when_stopped(const fs::path& folder)
+{
+    constexpr std::array signals{SIGHUP, SIGINT, SIGTERM};
+    if (folder.empty()) {
+        for (const int signal : signals)
+            if (std::signal(signal, SIG_DFL) == SIG_IGN)
+                std::signal(signal, SIG_IGN);
+        return;
+    }
+    std::transform(all_files.begin(), all_files.end(), remains().files.begin(),
+                   [&](const char* file) { return (folder / file).string(); });
+    remains().folder = folder.string();
+    for (const int signal : signals)
+        if (std::signal(signal, remove_and_stop) == SIG_IGN)
+            std::signal(signal, SIG_IGN);
+}
 
 /// Arrays of numbers in one file, each after its length.
 class ArrayWriter {
@@ -115,10 +159,12 @@ ScratchFolder::ScratchFolder()
     if (error || mkdtemp(name.data()) == nullptr)
         throw OutputError(name + ": no folder for temporary files can be made; set TMPDIR");
     path_ = name;
+    remove_when_stopped(path_);
 }
 
 ScratchFolder::~ScratchFolder()
 {
+    remove_when_stopped({});
     std::error_code ignored;
     fs::remove_all(path_, ignored);
 }

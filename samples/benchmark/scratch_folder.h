@@ -6,8 +6,8 @@
 
 namespace seamflow {
 
-/// A folder for temporary files that goes away with this object, and what the processes of a benchmark hand to each
-/// other in it.
+/// A folder for temporary files that goes away with this object, or when the program is stopped by SIGHUP, SIGINT or
+/// SIGTERM, and what the processes of a benchmark hand to each other in it. One at a time.
 class ScratchFolder {
   public:
     /// @throws OutputError if no folder can be made where temporary files belong (TMPDIR).

@@ -12,6 +12,7 @@
 #include "samples/benchmark/case_text.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/common/meshes.h"
+#include "samples/common/simulation_text.h"
 #include "solvers/degenerate.h"
 
 namespace seamflow {
@@ -102,6 +103,17 @@ Json run_scaling(const BenchmarkCommand& command, std::ostream& out)
     return {{"scaling", list}};
 }
 
+Json run_simulation(const BenchmarkCommand& command, std::ostream& out)
+{
+    const PolygonMesh mesh = load(command, command.vertices);
+    const CaseOptions options = options_for(command, mesh);
+    const CaseResult result = run_table(command, mesh, options, out);
+    out << "the tasks of the median step as they were recorded, replayed with other numbers of threads:\n";
+    print_simulations(out, result.ours.result.simulations);
+    out << std::flush;
+    return case_json(name_of_mesh(command), command.time_step_edges, options, result);
+}
+
 Json run_threads_sweep(const BenchmarkCommand& command, std::ostream& out)
 {
     const PolygonMesh mesh = load(command, command.vertices);
@@ -131,6 +143,8 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_scaling(command, out);
     case BenchmarkMode::ThreadsSweep:
         return run_threads_sweep(command, out);
+    case BenchmarkMode::SimulateThreads:
+        return run_simulation(command, out);
     case BenchmarkMode::Case:
         break;
     }

@@ -37,6 +37,19 @@ std::string described(const RealLimits& limits)
     return text.str();
 }
 
+/// What a suffix multiplies by; nothing for one that is none.
+std::optional<double> unit_of(std::string_view suffix)
+{
+    constexpr std::string_view letters = "KMGT";
+    if (suffix.empty())
+        return 1.0;
+    const auto power = letters.find(suffix.front());
+    const std::string_view rest = suffix.substr(1);
+    if (power == std::string_view::npos || !(rest.empty() || rest == "B" || rest == "iB"))
+        return std::nullopt;
+    return std::pow(rest == "iB" ? 1024.0 : 1000.0, static_cast<double>(power + 1));
+}
+
 }  // namespace
 
 RealLimits positive()
@@ -66,6 +79,23 @@ long long parse_integer(std::string_view text, long long least, long long most)
                       std::to_string(most));
 }
 
+std::size_t parse_bytes(std::string_view text)
+{
+    constexpr double most = 0x1p60;
+    const std::size_t n_digits = text.find_last_of("0123456789.") + 1;
+    double value = 0.0;
+    const char* const end = text.data() + n_digits;
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const std::optional<double> unit = unit_of(text.substr(n_digits));
+    const bool number = error == std::errc() && rest == end && unit;
+    const double bytes = number ? value * *unit : 0.0;
+    if (!(bytes >= 1.0 && bytes <= most))
+        throw OptionError("\"" + std::string(text) +
+                          "\" is not a number of bytes from 1 to 2^60: give one, alone or with K, M, G, T (powers of "
+                          "1000) or KiB, MiB, GiB, TiB (of 1024)");
+    return static_cast<std::size_t>(bytes);
+}
+
 CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
                       const std::string& description)
 {
@@ -87,6 +117,12 @@ CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, i
         return static_cast<int>(parse_integer(text, least, std::numeric_limits<int>::max()));
     };
     return add_parsed(app, names, target, parse, "INTEGER", description);
+}
+
+CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,
+                       const std::string& description)
+{
+    return add_parsed(app, names, target, parse_bytes, "SIZE", description);
 }
 
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)

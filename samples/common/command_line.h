@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,11 @@ double parse_real(std::string_view text, const RealLimits& limits);
 /// As above, for a whole number.
 long long parse_integer(std::string_view text, long long least, long long most);
 
+/// Reads a number of bytes, at least 1: a number, then nothing, K, M, G or T (powers of 1000; KB and so on are the
+/// same) or KiB, MiB, GiB or TiB (powers of 1024): "500000000", "500M", "1.5GiB". Fractions of a byte are cut off.
+/// @throws OptionError saying what was expected.
+std::size_t parse_bytes(std::string_view text);
+
 /// Adds an option that takes one number and stores it in `target`.
 CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
                       const std::string& description);
@@ -41,6 +47,10 @@ CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<dou
 /// As above, for a whole number from `least` to the largest that fits the target.
 CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
                          const std::string& description);
+
+/// As above, for a number of bytes (see parse_bytes).
+CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,
+                       const std::string& description);
 
 /// Adds an option that takes one of several words and stores what the word stands for in `target`.
 template <class Value>

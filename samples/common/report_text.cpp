@@ -52,6 +52,17 @@ void print_times(std::ostream& out, const RunRecord& run, const PhaseSeconds& ph
         << ", solve " << seconds(phases.solve) << ", correct " << seconds(phases.correct) << " (summed over threads)\n";
 }
 
+/// Explicit Euler steps factorise nothing. Only Cholesky's method has its memory set aside.
+void print_factors(std::ostream& out, const FlowReport& report)
+{
+    if (report.live_factors == 0)
+        return;
+    out << "factors    at most " << report.live_factors << " at once";
+    if (report.factor_memory_bytes > 0)
+        out << ", " << digits(static_cast<double>(report.factor_memory_bytes) / 1e6, 4) << " MB";
+    out << '\n';
+}
+
 /// One line: mean, RMS and largest in units of `unit`.
 void print_lengths(std::ostream& out, const char* name, const LengthStatistics& lengths, double unit)
 {
@@ -111,6 +122,7 @@ void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& re
 {
     out << "flow       " << run.laplacian << ", time step " << digits(report.time_step, 10) << '\n';
     print_cut(out, report);
+    print_factors(out, report);
     print_times(out, run, report.seconds);
     print_total(out, report.displacement, run.mean_edge);
     out << "threads    " << report.threads << '\n';

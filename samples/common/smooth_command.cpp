@@ -6,6 +6,7 @@
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
 #include "samples/common/command_line.h"
+#include "samples/common/flow_choices.h"
 #include "samples/common/output_files.h"
 
 namespace seamflow {
@@ -46,11 +47,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     // Options take effect in the order in which they are added here: --plain first, so that the others refine it.
     app.add_flag_callback(
         "--plain", [&options] { options = FlowOptions::plain(); }, "the paper to the letter, without improvements");
-    add_choice<Laplacian>(app, "--laplacian", options.laplacian,
-                          {{"fujiwara", Laplacian::Fujiwara},
-                           {"alexa-wardetzky", Laplacian::AlexaWardetzky},
-                           {"ptackova-velho", Laplacian::PtackovaVelho}},
-                          "discrete Laplacian [fujiwara]");
+    add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     auto* time_step = app.add_option_group("Time step", "one of");
     add_real(*time_step, "--time-step", options.time_step, positive(), "in length²");
     add_real(*time_step, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths");
@@ -68,13 +65,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice<Coloring>(app, "--coloring", options.coloring,
                          {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
                          "order of the sub-meshes in a step [greedy]");
-    add_choice<Conditions>(app, "--conditions", options.conditions,
-                           {{"adapted-robin", Conditions::AdaptedRobin},
-                            {"adapted-ventcell", Conditions::AdaptedVentcell},
-                            {"robin", Conditions::Robin},
-                            {"ventcell", Conditions::Ventcell},
-                            {"schwarz", Conditions::Schwarz}},
-                           "what holds between sub-meshes [adapted-robin]");
+    add_choice(app, "--conditions", options.conditions, conditions_choices(),
+               "what holds between sub-meshes [adapted-robin]");
     add_choice<Transmission>(app, "--transmission", options.transmission,
                              {{"predicted", Transmission::Predicted}, {"derivative", Transmission::Derivative}},
                              "how the first sub-mesh at the interface learns of the others [predicted]");
@@ -91,6 +83,9 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
              "the undecomposed step itself, to this relative residual on the interface");
     add_integer(app, "--converge-iterations", options.converge_iterations, 0, "most iterations for that [1000]");
     add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
+    add_bytes(app, "--memory-limit", options.memory_limit,
+              "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, KiB, MiB, GiB; "
+              "changes nothing else [as little as keeps all threads busy]");
     app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
 }
 
@@ -124,6 +119,8 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
     if (!command.trace.empty() && command.options.scheme == Scheme::ExplicitEuler)
         throw OptionError("--trace shows the tasks of the sub-meshes; --scheme explicit has none");
+    if (command.options.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
     kind_for_writing(command.output, FileKind{});
     if (command.every_step)
         kind_for_writing(command.every_step->path(1), FileKind{});

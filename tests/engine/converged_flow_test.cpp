@@ -118,4 +118,9 @@ TEST_CASE("what cannot be converged is refused")
     options = converged(Laplacian::Fujiwara, 2);
     options.converge_iterations = -1;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = converged(Laplacian::Fujiwara, 2);
+    options.memory_limit = 100;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options.memory_limit = 100'000'000;
+    CHECK_NOTHROW(mean_curvature_flow(mesh, options));
 }

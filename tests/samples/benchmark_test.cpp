@@ -1,5 +1,6 @@
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -27,7 +28,7 @@ constexpr std::array laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, 
 
 MethodTask task_of(Method method, const PolygonMesh& mesh, Laplacian laplacian, double tolerance = 0.0)
 {
-    MethodTask task{method, {}, tolerance};
+    MethodTask task{method, {}, tolerance, {}};
     task.options.laplacian = laplacian;
     const double edge = mean_edge_length(mesh);
     task.options.time_step = 5.0 * edge * edge;
@@ -194,24 +195,100 @@ TEST_CASE("what processes hand to each other arrives as it was")
     CHECK(read.face_vertices == mesh.face_vertices);
 
     MethodTask task = task_of(Method::Amg, mesh, Laplacian::AlexaWardetzky, 1e-4);
-    task.options.conditions = Conditions::Schwarz;
+    task.options.conditions = Conditions::Ventcell;
+    task.options.q = 0.25;
+    task.options.memory_limit = std::size_t{1} << 40;
+    task.simulated_threads = {1, 1024};
     write_task(folder.path(), task);
     const MethodTask task_read = read_task(folder.path());
     CHECK(task_read.method == task.method);
     CHECK(task_read.tolerance == task.tolerance);
     CHECK(task_read.options.laplacian == task.options.laplacian);
     CHECK(task_read.options.conditions == task.options.conditions);
+    CHECK(task_read.options.q == task.options.q);
+    CHECK(task_read.options.memory_limit == task.options.memory_limit);
+    CHECK(task_read.simulated_threads == task.simulated_threads);
     CHECK(task_read.options.time_step == task.options.time_step);
     CHECK(task_read.options.steps == task.options.steps);
 
     MethodResult result = run_method(mesh, task_of(Method::Cholmod, mesh, Laplacian::Fujiwara));
     result.remarks = {"a remark"};
+    result.simulations = {
+        {.workers = 3, .work = 2.0, .makespan = 1.0, .critical_path_seconds = 0.1, .critical_path = {4, 2}}};
     write_result(folder.path(), result);
     const MethodResult result_read = read_result(folder.path());
     CHECK(result_read.positions == result.positions);
     CHECK(result_read.step_seconds() == result.step_seconds());
     CHECK(result_read.total_seconds() == result.total_seconds());
     CHECK(result_read.remarks == result.remarks);
+    REQUIRE(result_read.simulations.size() == 1);
+    CHECK(result_read.simulations[0].workers == 3);
+    CHECK(result_read.simulations[0].speed_up() == 2.0);
+    CHECK(result_read.simulations[0].critical_path == std::vector<Index>{4, 2});
+    task.options.q.reset();
+    task.options.memory_limit.reset();
+    write_task(folder.path(), task);
+    CHECK_FALSE(read_task(folder.path()).options.q);
+    CHECK_FALSE(read_task(folder.path()).options.memory_limit);
+}
+
+TEST_CASE("iterations and their accuracy do not depend on where the mesh lies")
+{
+    const PolygonMesh here = make_mesh("mixed", 1'000);
+    PolygonMesh far = here;
+    far.vertices.rowwise() += Point(1024.0, -512.0, 2048.0);
+    const MethodTask task = task_of(Method::Krylov, here, Laplacian::Fujiwara, 1e-4);
+    const MethodResult near_result = run_method(here, task);
+    const MethodResult far_result = run_method(far, task);
+    CHECK(near_result.iterations > 6);
+    CHECK(far_result.iterations == near_result.iterations);
+    const Points back = far_result.positions.rowwise() - Point(1024.0, -512.0, 2048.0);
+    CHECK((back - near_result.positions).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("a step of ours is replayed with each number of threads that is asked for")
+{
+    const PolygonMesh mesh = make_mesh("mixed", 3'000);
+    MethodTask task = task_of(Method::Ours, mesh, Laplacian::Fujiwara);
+    task.options.subdomains = 20;
+    task.simulated_threads = {1, 4, 1024};
+    const MethodResult result = run_method(mesh, task);
+    REQUIRE(result.simulations.size() == 3);
+    CHECK(result.simulations[0].speed_up() == doctest::Approx(1.0));
+    CHECK(result.simulations[1].speed_up() > 1.0);
+    CHECK(result.simulations[2].makespan <= result.simulations[1].makespan);
+    CHECK(result.simulations[2].workers == 1024);
+    task.simulated_threads.clear();
+    CHECK(run_method(mesh, task).simulations.empty());
+}
+
+TEST_CASE("numbers of threads go by lists")
+{
+    CHECK(threads_named("all") == std::vector{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024});
+    CHECK(threads_named("3") == std::vector{3});
+    CHECK(threads_named("8,1,8") == std::vector{8, 1, 8});
+    for (const char* word : {"", "0", "1,", ",1", "1025", "-1", "1.5", "1 2", "all,1", "many"})
+        CHECK_THROWS_AS(threads_named(word), OptionError);
+}
+
+TEST_CASE("a simulation records with one thread and without a limit, where nothing else is said")
+{
+    BenchmarkCommand command;
+    REQUIRE_FALSE(parse({"--simulate-threads", "1,16"}, command));
+    CHECK(command.mode == BenchmarkMode::SimulateThreads);
+    CHECK(command.options.simulated_threads == std::vector{1, 16});
+    CHECK(command.options.flow.threads == 1);
+    CHECK(command.options.flow.memory_limit == std::numeric_limits<std::size_t>::max());
+    CHECK(command.options.peers.empty());
+    CHECK(command.options.reference == Reference::None);
+    BenchmarkCommand refined;
+    REQUIRE_FALSE(parse({"--simulate-threads", "all", "--threads", "2", "--memory-limit", "2G", "--conditions",
+                         "ventcell", "--q", "0.1"},
+                        refined));
+    CHECK(refined.options.flow.threads == 2);
+    CHECK(refined.options.flow.memory_limit == 2'000'000'000);
+    CHECK(refined.options.flow.conditions == Conditions::Ventcell);
+    CHECK(refined.options.flow.q == 0.1);
 }
 
 TEST_CASE("the time of a step is the median of those after the first")

@@ -23,3 +23,17 @@ TEST_CASE("whole numbers are read strictly")
     for (const char* text : {"", "1.5", "1e2", "-1", "101", "12a", "99999999999999999999"})
         CHECK_THROWS_AS(parse_integer(text, 0, 100), OptionError);
 }
+
+TEST_CASE("numbers of bytes are read strictly, with units")
+{
+    CHECK(parse_bytes("1") == 1);
+    CHECK(parse_bytes("123456789012") == 123'456'789'012);
+    CHECK(parse_bytes("1e9") == 1'000'000'000);
+    CHECK(parse_bytes("2K") == 2'000);
+    CHECK(parse_bytes("1.5MB") == 1'500'000);
+    CHECK(parse_bytes("3GiB") == std::size_t{3} << 30);
+    CHECK(parse_bytes("1TiB") == std::size_t{1} << 40);
+    for (const char* text : {"", "0", "-1", "0.5", "K", "MiB", "1 M", "1m", "1MiBB", "1i", "1Ki", "1B", "1KMB", "0x10",
+                             "nan", "inf", "1e30", "9999999999T", "1M5"})
+        CHECK_THROWS_AS(parse_bytes(text), OptionError);
+}

@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -102,6 +103,10 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step 1 --trace mesh.obj",
              "mesh.obj out.obj --time-step 1 --trace a.json --report a.json",
              "mesh.obj out.obj --time-step 1e-7 --scheme explicit --trace trace.json",
+             "mesh.obj out.obj --time-step 1e-7 --scheme explicit --memory-limit 1G",
+             "mesh.obj out.obj --time-step 1 --memory-limit 0",
+             "mesh.obj out.obj --time-step 1 --memory-limit 1",
+             "mesh.obj out.obj --time-step 1 --memory-limit lots",
              "mesh.obj out.xyz --time-step 1",
              "mesh.obj out.obj more.obj --time-step 1",
              "mesh.obj out.obj --time-step 1 --speed 3",
@@ -190,6 +195,24 @@ TEST_CASE("the report of smooth has its keys")
     CHECK(report["time_step"].get<double>() == doctest::Approx(2.0 * edge * edge));
     CHECK(w.count_lines("said", "step ") == 3);
     CHECK(w.said().find("V_mean") != std::string::npos);
+}
+
+TEST_CASE("--memory-limit bounds the factors, which the summary tells, and changes nothing else")
+{
+    const Workshop w;
+    const std::string flow = " --time-step-edges 2 --subdomains 12 --steps 2 --threads 1 --report report.json";
+    REQUIRE(w.smooth("mesh.obj free.obj" + flow + " --memory-limit 1GiB") == 0);
+    CHECK(w.json("report.json")["live_factors"] == 12);
+    CHECK(w.count_lines("said", "factors    at most 12 at once, ") == 1);
+    CHECK(w.smooth("mesh.obj tight.obj" + flow + " --memory-limit 1K") == 2);
+    const std::string complaint = w.said();
+    const std::string least = complaint.substr(complaint.find(" take ") + 6);
+    REQUIRE(w.smooth("mesh.obj tight.obj" + flow + " --memory-limit " + least.substr(0, least.find(':'))) == 0);
+    CHECK(w.json("report.json")["live_factors"] < 12);
+    CHECK(w.json("report.json")["factor_memory_bytes"].get<std::size_t>() <= std::stoul(least));
+    CHECK(test::content_of(w.directory / "tight.obj") == test::content_of(w.directory / "free.obj"));
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-7 --scheme explicit") == 0);
+    CHECK(w.count_lines("said", "factors") == 0);
 }
 
 TEST_CASE("--trace writes which task ran when, and changes nothing else")
@@ -365,6 +388,10 @@ TEST_CASE("benchmark holds every peer beside ours, each in a process of its own"
     }
     CHECK(json["peers"]["umfpack"]["v_max"].get<double>() < 1e-9);
     CHECK(json["peers"]["cg-equal-accuracy"]["v_max"] <= json["ours"]["v_max"]);
+    for (const char* key : {"v_mean", "v_max"})
+        CHECK(json["peers"]["cg-equal-both"][key] <= json["ours"][key]);
+    CHECK(json["peers"]["cg-equal-both"]["tolerance"] <= json["peers"]["cg-equal-accuracy"]["tolerance"]);
+    CHECK(json["peers"]["cg-equal-both"]["iterations"] > 0);
     CHECK_FALSE(json["peers"]["cgal"].contains("v_max"));
     CHECK(w.count_lines("said", "cg-ic-equal-accuracy") == 1);
     for (const char* name : {"system", "system_rhs", "symmetric", "symmetric_rhs", "symmetric_vertices", "positions"})
@@ -410,15 +437,89 @@ TEST_CASE("benchmark sweeps over sizes and over threads")
     CHECK(threads[1]["threads"] == 2);
 }
 
+TEST_CASE("benchmark replays its tasks with more threads than there are")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --vertices 5000 --subdomains 30 --steps 3 --simulate-threads 1,2,1024 "
+                            "--json simulated.json") == 0);
+    const Json json = w.json("simulated.json");
+    CHECK(json["threads"] == 1);
+    REQUIRE(json["simulated_threads"].size() == 3);
+    CHECK(json["simulated_threads"][2]["threads"] == 1024);
+    CHECK(json["simulated_threads"][0]["efficiency"].get<double>() == doctest::Approx(1.0));
+    CHECK(json["simulated_threads"][2]["speed_up"] >= json["simulated_threads"][1]["speed_up"]);
+    CHECK(json["simulated_threads"][2]["makespan_s"] >= json["simulated_threads"][2]["critical_path_s"]);
+    CHECK(w.count_lines("said", "   1024 ") == 1);
+}
+
+TEST_CASE("benchmark takes all conditions, and a limit of memory")
+{
+    const Workshop w;
+    const std::string ours = BENCHMARK " --mesh mesh.obj --steps 1 --subdomains 12 --peers none --json case.json ";
+    std::vector<double> distances;
+    for (const char* conditions :
+         {"robin", "ventcell --q 0.1", "adapted-ventcell --q 0.1", "adapted-robin", "schwarz"}) {
+        REQUIRE(w.run(ours + "--conditions " + conditions) == 0);
+        distances.push_back(w.json("case.json")["ours"]["v_max"].get<double>());
+        CHECK(std::count(distances.begin(), distances.end(), distances.back()) == 1);
+    }
+    REQUIRE(w.run(ours + "--memory-limit 1GiB") == 0);
+    CHECK(w.json("case.json")["ours"]["v_max"] == distances[3]);
+    CHECK(w.run(ours + "--memory-limit 1K") != 0);
+    CHECK(w.said().find("memory_limit is 1000 bytes") != std::string::npos);
+}
+
+TEST_CASE("benchmark that is stopped leaves nothing behind")
+{
+    const Workshop w;
+    // The shell waits until the mesh is there before it stops the program.
+    CHECK(w.run("{ mkdir scratch; TMPDIR=scratch " BENCHMARK " --vertices 300000 --steps 1000 --peers none & "
+                "for i in $(seq 100); do ls scratch/*/mesh.bin && break; sleep 0.1; done; kill $!; wait $!; "
+                "test $? -eq 143; }") == 0);
+    CHECK(w.count_lines("said", "scratch/benchmark-") == 1);
+    CHECK(std::filesystem::is_empty(w.directory / "scratch"));
+}
+
+// Sanitizers reserve more than that for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("benchmark with little memory to address says which peers do without, and ends")
+{
+    const Workshop w;
+    REQUIRE(w.run("ulimit -v 760000; timeout 60 " BENCHMARK " --vertices 400000 --steps 1 --threads 1 --reference none "
+                  "--peers umfpack --json case.json") == 0);
+    CHECK(w.json("case.json")["peers"]["umfpack"].contains("error"));
+}
+#endif
+
 TEST_CASE("benchmark refuses wrong usage and unusable files")
 {
     const Workshop w;
-    for (const char* arguments :
-         {"--vertices 10", "--vertices 1e5", "--kind dodecahedra", "--laplacian cotan", "--time-step-edges 0",
-          "--steps 0", "--subdomains -1", "--threads 1025", "--conditions none", "--peers everybody",
-          "--reference nobody", "--mesh mesh.obj --vertices 1000", "--mesh mesh.obj --kind quads",
-          "--scaling --threads-sweep", "--scaling --mesh mesh.obj", "--scaling --export exported",
-          "--scaling --vertices 1000", "--threads-sweep --peers cg", "mesh.obj"}) {
+    for (const char* arguments : {"--vertices 10",
+                                  "--vertices 1e5",
+                                  "--kind dodecahedra",
+                                  "--laplacian cotan",
+                                  "--time-step-edges 0",
+                                  "--steps 0",
+                                  "--subdomains -1",
+                                  "--threads 1025",
+                                  "--conditions none",
+                                  "--peers everybody",
+                                  "--reference nobody",
+                                  "--mesh mesh.obj --vertices 1000",
+                                  "--mesh mesh.obj --kind quads",
+                                  "--scaling --threads-sweep",
+                                  "--scaling --mesh mesh.obj",
+                                  "--scaling --export exported",
+                                  "--scaling --vertices 1000",
+                                  "--threads-sweep --peers cg",
+                                  "--simulate-threads 0",
+                                  "--simulate-threads 1 --peers cg",
+                                  "--simulate-threads 1 --scaling",
+                                  "--simulate-threads 1 --threads-sweep",
+                                  "--conditions ventcell",
+                                  "--q 0.1",
+                                  "--memory-limit 0",
+                                  "mesh.obj"}) {
         CAPTURE(arguments);
         CHECK(w.run(std::string(BENCHMARK " --json case.json ") + arguments) == 2);
         CHECK_FALSE(w.said().empty());

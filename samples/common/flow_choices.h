@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/flow_options.h"
+
+/// The words by which programs know the values of FlowOptions (see add_choice).
+namespace seamflow {
+
+/// "fujiwara", "alexa-wardetzky", "ptackova-velho".
+const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices();
+
+/// "adapted-robin", "adapted-ventcell", "robin", "ventcell", "schwarz".
+const std::vector<std::pair<std::string, Conditions>>& conditions_choices();
+
+}  // namespace seamflow

@@ -1,0 +1,127 @@
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <regex>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+bool same_bits(const Points& a, const Points& b)
+{
+    return a.rows() == b.rows() &&
+           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+FlowOptions options_for(Conditions conditions, int threads = 1)
+{
+    FlowOptions options;
+    options.conditions = conditions;
+    options.time_step = 0.001;
+    options.steps = 3;
+    options.subdomains = 40;
+    options.threads = threads;
+    return options;
+}
+
+/// The message with which a flow refuses this limit; empty if it does not.
+std::string complaint_about(PolygonMesh mesh, FlowOptions options, std::size_t memory_limit)
+{
+    options.memory_limit = memory_limit;
+    try {
+        mean_curvature_flow(mesh, options);
+        return {};
+    } catch (const OptionError& error) {
+        return error.what();
+    }
+}
+
+/// The least limit that a flow takes, by what it says about a lower one.
+std::size_t least_limit(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    const std::string complaint = complaint_about(mesh, options, 1);
+    std::smatch match;
+    REQUIRE(std::regex_search(complaint, match, std::regex("memory_limit is 1 bytes.* take ([0-9]+)")));
+    return std::stoul(match[1]);
+}
+
+}  // namespace
+
+TEST_CASE("no limit changes a bit of the result, nor do threads")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Schwarz, Conditions::Robin}) {
+        CAPTURE(static_cast<int>(conditions));
+        const Points expected = test::flowed(mesh, options_for(conditions));
+        const std::size_t least = least_limit(mesh, options_for(conditions));
+        for (const int threads : {1, 4})
+            for (const std::optional<std::size_t> limit :
+                 {std::optional(least), std::optional(2 * least), std::optional<std::size_t>(),
+                  std::optional(std::numeric_limits<std::size_t>::max())}) {
+                FlowOptions options = options_for(conditions, threads);
+                options.memory_limit = limit;
+                CHECK(same_bits(test::flowed(mesh, options), expected));
+            }
+    }
+}
+
+TEST_CASE("factors keep to the limit, and there are as many at once as it lets be")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Schwarz, Conditions::Robin})
+        for (const int threads : {1, 4}) {
+            FlowOptions options = options_for(conditions, threads);
+            const std::size_t least = least_limit(mesh, options);
+            PolygonMesh narrow = mesh;
+            options.memory_limit = least;
+            const FlowReport at_least = mean_curvature_flow(narrow, options);
+            CHECK(at_least.live_factors < at_least.subdomains);
+            CHECK(at_least.factor_memory_bytes <= least);
+            PolygonMesh wide = mesh;
+            options.memory_limit = 2 * least;
+            const FlowReport twice = mean_curvature_flow(wide, options);
+            CHECK(twice.live_factors == std::min(2 * at_least.live_factors, twice.subdomains));
+            CHECK(twice.factor_memory_bytes <= 2 * least);
+            PolygonMesh boundless = mesh;
+            options.memory_limit = std::numeric_limits<std::size_t>::max();
+            CHECK(mean_curvature_flow(boundless, options).live_factors == twice.subdomains);
+        }
+}
+
+TEST_CASE("the report knows the memory that factors by Cholesky's method had")
+{
+    PolygonMesh mesh = make_mixed_polygons(3000);
+    const FlowReport report = mean_curvature_flow(mesh, options_for(Conditions::AdaptedRobin));
+    CHECK(report.factor_memory_bytes > 0);
+    CHECK(report.live_factors >= 1);
+    CHECK(report.live_factors <= report.subdomains);
+}
+
+TEST_CASE("a limit below what a step needs at once is refused with both numbers")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    const FlowOptions options = options_for(Conditions::AdaptedRobin);
+    const std::size_t least = least_limit(mesh, options);
+    CHECK(complaint_about(mesh, options, least).empty());
+    const std::string complaint = complaint_about(mesh, options, least - 1);
+    CHECK(complaint.find("memory_limit is " + std::to_string(least - 1) + " bytes") != std::string::npos);
+    CHECK(complaint.find("take " + std::to_string(least)) != std::string::npos);
+    CHECK(complaint_about(mesh, options, 0).find("memory_limit is 0, but must be at least 1") != std::string::npos);
+}
+
+TEST_CASE("the limit is for the sub-meshes, not for the undecomposed flow that they are held beside")
+{
+    PolygonMesh mesh = make_mixed_polygons(3000);
+    FlowOptions options = options_for(Conditions::AdaptedRobin);
+    options.memory_limit = least_limit(mesh, options);
+    options.reference = true;
+    CHECK(mean_curvature_flow(mesh, options).steps.back().distance->mean > 0.0);
+}
