@@ -6,7 +6,7 @@
 #include "partition/cut/compact.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
-#include "partition/cut/loose_nodes.h"
+#include "partition/cut/refine.h"
 #include "partition/cut/repair.h"
 #include "partition/cut/seams.h"
 #include "partition/errors.h"
@@ -24,9 +24,8 @@ std::string counted(Index n, const std::string& thing)
 /// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
 /// seams; of others clusters are.
 constexpr double min_weight_for_clusters = 500'000;
-/// How many clusters METIS gets for a part, about: enough to shape it well. What they are too coarse to balance,
-/// shorten_seams does.
-constexpr double clusters_per_part = 30;
+/// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
+constexpr double clusters_per_part = 80;
 /// Larger clusters save no time and leave longer seams.
 constexpr double max_cluster_weight = 64;
 /// Where clusters would be smaller, METIS gets every face.
@@ -102,10 +101,10 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const FaceClusters clusters = grow_clusters(mesh, topology, weight);
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
     const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
-    auto part = divide(graph, clusters.component_of, clusters.n_components, n_parts);
-    // A loose piece may be large: it has to be joined before the seams move, which balances the parts.
+    const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
+    auto part = divide(graph, clusters.component_of, clusters.n_components, n_parts, afterwards);
     if (weight > 1)
-        join_loose_nodes(graph, count_parts(part), part);
+        refine(graph, count_parts(part), part);
 
     Cut cut = uncut(mesh);
     for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(clusters.cluster_of[at(f)])]; });

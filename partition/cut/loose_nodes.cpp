@@ -65,7 +65,7 @@ std::vector<bool> find_heaviest(const Pieces& pieces, Index n_labels, const std:
 
 }  // namespace
 
-void join_loose_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
+bool join_loose_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
 {
     const Pieces pieces = find_pieces(graph, labels);
     std::vector<bool> settled = find_heaviest(pieces, n_labels, labels);
@@ -89,8 +89,10 @@ void join_loose_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>
         settled[at(piece)] = true;
         return true;
     };
+    const bool any = !loose.empty();
     while (!loose.empty())
         std::erase_if(loose, join);
+    return any;
 }
 
 }  // namespace seamflow

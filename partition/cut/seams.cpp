@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "partition/cut/clusters.h"
+#include "partition/cut/refine.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -38,8 +39,8 @@ class SeamShortener {
             total += face_weight(mesh, f);
         }
         const double mean = static_cast<double>(total) / n_labels;
-        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + seam_tolerance));
-        lightest_ = static_cast<std::int64_t>(mean / (1.0 + seam_tolerance));
+        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
+        lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
     }
 
     [[nodiscard]] bool is_beside_seam(Index f) const
