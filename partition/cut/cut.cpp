@@ -28,8 +28,10 @@ constexpr double min_weight_for_clusters = 500'000;
 constexpr double clusters_per_part = 80;
 /// Larger clusters save no time and leave longer seams.
 constexpr double max_cluster_weight = 64;
-/// Where clusters would be smaller, METIS gets every face.
+/// Smaller clusters save little against single faces.
 constexpr double min_cluster_weight = 8;
+/// Where a part would have fewer clusters than this, METIS gets every face.
+constexpr double min_clusters_per_part = 30;
 
 /// How much a cluster should weigh when a mesh is cut into k parts.
 Index cluster_weight(const PolygonMesh& mesh, Index k)
@@ -37,8 +39,9 @@ Index cluster_weight(const PolygonMesh& mesh, Index k)
     const double total = static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces();
     if (total < min_weight_for_clusters)
         return 1;
-    const double weight = std::min(total / k / clusters_per_part, max_cluster_weight);
-    return weight < min_cluster_weight ? 1 : static_cast<Index>(weight);
+    if (total / k < min_clusters_per_part * min_cluster_weight)
+        return 1;
+    return static_cast<Index>(std::clamp(total / k / clusters_per_part, min_cluster_weight, max_cluster_weight));
 }
 
 /// The largest sensible number of parts of a mesh, k at most.
