@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/parallel_loop.h"
 #include "partition/decomposition/overlap.h"
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/adapted_ventcell.h"
@@ -76,7 +77,8 @@ SweepPlan make_plan(const Decomposition& decomposition, const FlowOptions& optio
 {
     if (options.conditions == Conditions::Schwarz)
         return plan_overlapping_sweep(decomposition, rank);
-    return is_classical(options.conditions) ? plan_mutual_sweep(decomposition, rank) : plan_sweep(decomposition, rank);
+    return is_classical(options.conditions) ? plan_mutual_sweep(decomposition, rank, run_in_parallel)
+                                            : plan_sweep(decomposition, rank, run_in_parallel);
 }
 
 }  // namespace seamflow

@@ -145,6 +145,18 @@ Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
     return topology;
 }
 
+std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,
+                                    std::span<const Index> labels)
+{
+    const Index v = mesh.face_vertices[at(start)];
+    const auto belongs = [&](Index f) { return labels[at(f)] == labels[at(topology.face_of[at(start)])]; };
+    const auto end_across = [&](Index spoke) {
+        return other_end(mesh, topology, walk(mesh, topology, v, start, spoke, belongs, [](Index) {}), v);
+    };
+    const auto spokes = spokes_of(mesh, topology, start);
+    return {end_across(spokes[1]), end_across(spokes[0])};
+}
+
 std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Index v, std::span<const Index> labels,
                          Index label)
 {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "partition/loop.h"
@@ -71,6 +72,12 @@ struct Fan {
     Index last = -1;
     bool closed = false;
 };
+
+/// The neighbours of v along the first and last edge of the fan that its corner `start` lies in, made of faces whose
+/// label is that of its own: Fan::first and Fan::last without the list.
+/// @param start the lowest corner of the fan. @param labels #F.
+std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,
+                                    std::span<const Index> labels);
 
 /// The fans that those faces at vertex v form whose label is `label`, in order of their lowest corner.
 /// @param labels #F; empty: all faces have the label 0.

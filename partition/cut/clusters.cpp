@@ -1,5 +1,6 @@
 #include "partition/cut/clusters.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -24,11 +25,11 @@ class ClusterGrower {
     /// Fills the component of face f with clusters.
     void grow_component(Index f)
     {
-        std::size_t front = faces().size();
+        outer_.clear();
         grow_cluster(f);
         // Each next cluster begins beside the earliest face that has a free neighbour, so that few gaps remain.
-        for (; front < faces().size(); ++front)
-            for_each_free_neighbour(faces()[front], [&](Index g) {
+        for (std::size_t front = 0; front < outer_.size(); ++front)
+            for_each_free_neighbour(outer_[front], [&](Index g) {
                 grow_cluster(g);
                 return true;
             });
@@ -64,13 +65,16 @@ class ClusterGrower {
         std::size_t next = faces().size();
         for (add(seed); left > 0 && next < faces().size(); ++next)
             for_each_free_neighbour(faces()[next], add);
-        // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer.
-        for (next = at(clusters_.faces.offsets.back()); next < faces().size(); ++next)
+        // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer. All faces
+        // that the growth has gone past but the last have no free neighbours any more.
+        for (next = std::max(next, at(clusters_.faces.offsets.back()) + 1) - 1; next < faces().size(); ++next) {
             for_each_free_neighbour(faces()[next], [&](Index g) {
                 if (belongs_to_last(g))
                     add(g);
                 return true;
             });
+            outer_.push_back(faces()[next]);
+        }
         clusters_.faces.close();
         clusters_.component_of.push_back(clusters_.n_components);
     }
@@ -97,6 +101,8 @@ class ClusterGrower {
     const Topology& topology_;
     Index weight_;
     FaceClusters clusters_;
+    /// Of the component in hand: the faces of clusters that may have free neighbours, in order.
+    std::vector<Index> outer_;
 };
 
 /// Face f is cluster f.

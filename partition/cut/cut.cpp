@@ -6,6 +6,7 @@
 #include "partition/cut/compact.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
+#include "partition/cut/refine.h"
 #include "partition/cut/repair.h"
 #include "partition/cut/seams.h"
 #include "partition/errors.h"
@@ -27,8 +28,10 @@ constexpr double min_weight_for_clusters = 500'000;
 constexpr double clusters_per_part = 80;
 /// Larger clusters save no time and leave longer seams.
 constexpr double max_cluster_weight = 64;
-/// Where clusters would be smaller, METIS gets every face.
+/// Smaller clusters save little against single faces.
 constexpr double min_cluster_weight = 8;
+/// Where a part would have fewer clusters than this, METIS gets every face.
+constexpr double min_clusters_per_part = 30;
 
 /// How much a cluster should weigh when a mesh is cut into k parts.
 Index cluster_weight(const PolygonMesh& mesh, Index k)
@@ -36,8 +39,9 @@ Index cluster_weight(const PolygonMesh& mesh, Index k)
     const double total = static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces();
     if (total < min_weight_for_clusters)
         return 1;
-    const double weight = std::min(total / k / clusters_per_part, max_cluster_weight);
-    return weight < min_cluster_weight ? 1 : static_cast<Index>(weight);
+    if (total / k < min_clusters_per_part * min_cluster_weight)
+        return 1;
+    return static_cast<Index>(std::clamp(total / k / clusters_per_part, min_cluster_weight, max_cluster_weight));
 }
 
 /// The largest sensible number of parts of a mesh, k at most.
@@ -99,8 +103,11 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const Index weight = cluster_weight(mesh, n_parts);
     const FaceClusters clusters = grow_clusters(mesh, topology, weight);
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
-    const auto part = divide(make_face_graph(mesh, topology, clusters, measure, loop), clusters.component_of,
-                             clusters.n_components, n_parts);
+    const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
+    const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
+    auto part = divide(graph, clusters.component_of, clusters.n_components, n_parts, afterwards);
+    if (weight > 1)
+        refine(graph, count_parts(part), part);
 
     Cut cut = uncut(mesh);
     for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(clusters.cluster_of[at(f)])]; });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "partition/cut/metis.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -39,18 +38,19 @@ std::vector<Index> share_out(std::vector<double> due, Index k)
     return share;
 }
 
-std::vector<Index> divide_connected(const FaceGraph& graph, Index k);
+std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards afterwards);
 
 /// Divides the part of the graph that each label names further, into the number of parts that it counts for.
 /// @returns the new labels, those of the first part before those of the second.
-std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index> labels, std::span<const Index> shares)
+std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index> labels, std::span<const Index> shares,
+                                  Afterwards afterwards)
 {
     const auto graphs = take_apart(graph, labels, static_cast<Index>(shares.size()));
     std::vector<Index> result(labels.size());
     std::vector<std::vector<Index>> of_part(graphs.size());
     std::vector<Index> first_label(graphs.size(), 0);
     for (std::size_t i = 0; i < graphs.size(); ++i) {
-        of_part[i] = divide_connected(graphs[i], shares[i]);
+        of_part[i] = divide_connected(graphs[i], shares[i], afterwards);
         if (i > 0)
             first_label[i] = first_label[i - 1] + shares[i - 1];
     }
@@ -62,26 +62,27 @@ std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index>
     return result;
 }
 
-std::vector<Index> divide_connected(const FaceGraph& graph, Index k)
+std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards afterwards)
 {
     if (k <= max_parts_at_once)
-        return metis_k_way(graph, std::vector<Index>(at(k), 1));
+        return metis_k_way(graph, std::vector<Index>(at(k), 1), afterwards);
     std::vector<Index> shares(at(n_groups));
     for (Index i = 0; i < n_groups; ++i)
         shares[at(i)] = k / n_groups + (i < k % n_groups ? 1 : 0);
-    return divide_further(graph, metis_k_way(graph, shares), shares);
+    return divide_further(graph, metis_k_way(graph, shares, afterwards), shares, afterwards);
 }
 
 }  // namespace
 
-std::vector<Index> divide(const FaceGraph& graph, std::span<const Index> component_of, Index n_components, Index k)
+std::vector<Index> divide(const FaceGraph& graph, std::span<const Index> component_of, Index n_components, Index k,
+                          Afterwards afterwards)
 {
     if (n_components == 1)
-        return divide_connected(graph, k);
+        return divide_connected(graph, k, afterwards);
     std::vector<double> weight(at(n_components), 0.0);
     for (std::size_t node = 0; node < component_of.size(); ++node)
         weight[at(component_of[node])] += graph.node_weights[node];
-    return divide_further(graph, component_of, share_out(std::move(weight), k));
+    return divide_further(graph, component_of, share_out(std::move(weight), k), afterwards);
 }
 
 }  // namespace seamflow

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "partition/cut/face_graph.h"
+#include "partition/cut/metis.h"
 
 namespace seamflow {
 
@@ -14,6 +15,7 @@ namespace seamflow {
 /// @returns one label per node; every part lies within one component, so that there are at least as many as
 ///          components. As with metis_k_way labels may be missing, and parts need not be connected.
 /// @throws ComputationError if METIS fails.
-std::vector<Index> divide(const FaceGraph& graph, std::span<const Index> component_of, Index n_components, Index k);
+std::vector<Index> divide(const FaceGraph& graph, std::span<const Index> component_of, Index n_components, Index k,
+                          Afterwards afterwards = Afterwards::Nothing);
 
 }  // namespace seamflow

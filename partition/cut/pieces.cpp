@@ -32,7 +32,7 @@ class LoosePieces {
   private:
     template <class Visit>
     void for_each_neighbour(Index f, Visit&& visit) const;
-    IndexLists collect_pieces(std::span<const Index> faces);
+    void collect_piece(Index f, IndexLists& pieces);
     void keep_loose_pieces(const IndexLists& pieces);
     void enqueue_loose_neighbours(Index f);
     Index best_neighbour(Index piece);
@@ -59,26 +59,21 @@ void LoosePieces::for_each_neighbour(Index f, Visit&& visit) const
             visit(h, topology_.face_of[at(twin)]);
 }
 
-/// The pieces of one part, given by its faces, which become settled. Looks at `piece_of_` for faces of this part alone.
-IndexLists LoosePieces::collect_pieces(std::span<const Index> faces)
+/// Appends the piece of its part that face f lies in, whose faces become settled. Looks at `piece_of_` for faces of
+/// this part alone.
+void LoosePieces::collect_piece(Index f, IndexLists& pieces)
 {
-    IndexLists pieces;
     const auto collect = [&](Index, Index g) {
-        if (labels_[at(g)] != labels_[at(faces.front())] || piece_of_[at(g)] != unvisited)
+        if (labels_[at(g)] != labels_[at(f)] || piece_of_[at(g)] != unvisited)
             return;
         piece_of_[at(g)] = settled;
         pieces.values.push_back(g);
     };
-    for (const Index f : faces) {
-        if (piece_of_[at(f)] != unvisited)
-            continue;
-        piece_of_[at(f)] = settled;
-        pieces.values.push_back(f);
-        for (std::size_t i = at(pieces.offsets.back()); i < pieces.values.size(); ++i)
-            for_each_neighbour(pieces.values[i], collect);
-        pieces.close();
-    }
-    return pieces;
+    piece_of_[at(f)] = settled;
+    pieces.values.push_back(f);
+    for (std::size_t i = at(pieces.offsets.back()); i < pieces.values.size(); ++i)
+        for_each_neighbour(pieces.values[i], collect);
+    pieces.close();
 }
 
 /// All of a part but the largest one.
@@ -102,20 +97,30 @@ void LoosePieces::keep_loose_pieces(const IndexLists& pieces)
 void LoosePieces::find(const std::vector<bool>& suspects, const Loop& loop)
 {
     piece_of_.assign(labels_.size(), settled);
-    std::vector<std::vector<Index>> faces(suspects.size());
+    std::vector<Index> lowest(suspects.size(), -1);
+    std::vector<std::size_t> n_faces(suspects.size(), 0);
     for (Index f = 0; f < mesh_.n_faces(); ++f)
-        if (suspects[at(labels_[at(f)])]) {
+        if (const auto label = at(labels_[at(f)]); suspects[label]) {
             piece_of_[at(f)] = unvisited;
-            faces[at(labels_[at(f)])].push_back(f);
+            if (n_faces[label]++ == 0)
+                lowest[label] = f;
         }
+    // The piece with the lowest face is all there is of most parts.
     std::vector<IndexLists> found(suspects.size());
-    for_each(loop, static_cast<Index>(faces.size()), [&](Index label) {
-        found[at(label)] = collect_pieces(std::exchange(faces[at(label)], {}));
-        if (found[at(label)].size() < 2)
+    for_each(loop, static_cast<Index>(found.size()), [&](Index label) {
+        if (n_faces[at(label)] == 0)
+            return;
+        collect_piece(lowest[at(label)], found[at(label)]);
+        if (found[at(label)].values.size() == n_faces[at(label)])
             found[at(label)] = {};
     });
+    const auto is_left = [&](Index f) { return piece_of_[at(f)] == unvisited; };
+    for (const Index f : select(loop, mesh_.n_faces(), is_left))
+        if (is_left(f))
+            collect_piece(f, found[at(labels_[at(f)])]);
     for (const IndexLists& pieces : found)
-        keep_loose_pieces(pieces);
+        if (pieces.size() > 0)
+            keep_loose_pieces(pieces);
     queued_.assign(at(pieces_.size()), false);
 }
 

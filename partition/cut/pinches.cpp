@@ -7,6 +7,26 @@
 
 namespace seamflow {
 
+bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v)
+{
+    if (!is_mixed(topology, labels, v))
+        return false;
+    if (topology.kind[at(v)] != VertexKind::Interior)
+        return true;
+    const auto label_of = [&](Index halfedge) { return labels[at(topology.face_of[at(halfedge)])]; };
+    std::vector<Index> around;
+    std::size_t n_half_joints = 0;
+    for (const Index corner : topology.corners_at(v)) {
+        around.push_back(label_of(corner));
+        for (const Index spoke : {corner, topology.previous(mesh, corner)})
+            n_half_joints += label_of(topology.twin[at(spoke)]) == around.back() ? 1 : 0;
+    }
+    // Each fan has one face more than edges between two of its faces.
+    const std::size_t n_fans = around.size() - n_half_joints / 2;
+    std::sort(around.begin(), around.end());
+    return n_fans > static_cast<std::size_t>(std::unique(around.begin(), around.end()) - around.begin());
+}
+
 PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels)
     : mesh_(mesh)
     , topology_(topology)

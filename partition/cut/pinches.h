@@ -10,6 +10,10 @@
 
 namespace seamflow {
 
+/// Whether v may be pinched (see PinchMender), found without walking around it; at interior vertices it is if so.
+/// @param labels #F.
+bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v);
+
 /// Finds and mends pinched vertices: those at which the faces of one part form several fans within one umbrella.
 class PinchMender {
   public:

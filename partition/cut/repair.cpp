@@ -6,7 +6,6 @@
 #include "partition/cut/merge.h"
 #include "partition/cut/pieces.h"
 #include "partition/cut/pinches.h"
-#include "partition/cut/seams.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -56,7 +55,9 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_l
                     const Loop& loop)
 {
     PinchMender mender(mesh, topology, labels, n_labels);
-    VertexQueue queue(mesh.n_vertices(), mixed_vertices(topology, labels, loop));
+    const auto candidates =
+        select(loop, mesh.n_vertices(), [&](Index v) { return may_be_pinched(mesh, topology, labels, v); });
+    VertexQueue queue(mesh.n_vertices(), candidates);
     std::vector<bool> suspects(at(n_labels), true);
     for (int round = 0;; ++round) {
         queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));

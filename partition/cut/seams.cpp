@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "partition/cut/clusters.h"
+#include "partition/cut/refine.h"
 #include "partition/index.h"
 
 namespace seamflow {
@@ -38,8 +39,8 @@ class SeamShortener {
             total += face_weight(mesh, f);
         }
         const double mean = static_cast<double>(total) / n_labels;
-        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + seam_tolerance));
-        lightest_ = static_cast<std::int64_t>(mean / (1.0 + seam_tolerance));
+        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
+        lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
     }
 
     [[nodiscard]] bool is_beside_seam(Index f) const
@@ -75,12 +76,37 @@ class SeamShortener {
     [[nodiscard]] bool may_move(Index f, Index from, Index to) const
     {
         const Index weight = face_weight(mesh_, f);
-        return weight_[at(to)] + weight <= heaviest_ && weight_[at(from)] - weight >= lightest_;
+        return relieves(f, from, to) ||
+               (weight_[at(to)] + weight <= heaviest_ && weight_[at(from)] - weight >= lightest_);
+    }
+
+    /// Whether a part that is too heavy would give a face to a lighter one, or one that is too light get it.
+    [[nodiscard]] bool relieves(Index f, Index from, Index to) const
+    {
+        return (weight_[at(from)] > heaviest_ || weight_[at(to)] < lightest_) &&
+               weight_[at(to)] + face_weight(mesh_, f) < weight_[at(from)];
+    }
+
+    /// Whether those vertices of f that no edge to a face of the part lies at have faces of f's own part alone, so that
+    /// this is not divided or pinched when f leaves.
+    [[nodiscard]] bool is_outermost(Index f, Index label) const
+    {
+        const auto leads_to_label = [&](Index h) {
+            const Index twin = topology_.twin[at(h)];
+            return twin >= 0 && labels_[at(topology_.face_of[at(twin)])] == label;
+        };
+        for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h)
+            if (!leads_to_label(h) && !leads_to_label(topology_.previous(mesh_, h)) &&
+                is_mixed(topology_, labels_, mesh_.face_vertices[at(h)]))
+                return false;
+        return true;
     }
 
     /// Than to stay with, or go to, `other`.
     [[nodiscard]] bool is_better(Index f, Index label, Index other) const
     {
+        if (other == labels_[at(f)] && shared_[at(label)] + 1 == shared_[at(other)] && relieves(f, other, label))
+            return is_outermost(f, label);
         if (shared_[at(label)] != shared_[at(other)])
             return shared_[at(label)] > shared_[at(other)];
         const Index weight = other == labels_[at(f)] ? face_weight(mesh_, f) : 0;

@@ -15,13 +15,11 @@ bool is_mixed(const Topology& topology, const std::vector<Index>& labels, Index 
 std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<Index>& labels,
                                   const Loop& loop = run_serially);
 
-/// How much heavier than the mean of all parts a part may become when seams are shortened.
-inline constexpr double seam_tolerance = 0.04;
-
 /// Shortens the seams between parts, which at first follow the outlines of clusters: face by face, each goes to the
 /// part across most of its edges if fewer edges are cut then, or as many and the two parts differ less in weight (see
-/// face_weight). No part becomes too heavy (see seam_tolerance) or as much too light by this. Parts may come out
-/// pinched or in pieces (see repair).
+/// face_weight). No part becomes too heavy (see balance_tolerance) or as much too light by this; a part that is either
+/// exchanges faces with its neighbours even where one edge more is cut. Parts may come out pinched or in pieces (see
+/// repair).
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
 void shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
                    const Loop& loop = run_serially);

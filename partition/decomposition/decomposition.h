@@ -4,20 +4,12 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
+#include "partition/decomposition/transfers.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
 namespace seamflow {
-
-/// What one sub-mesh sends to another: the rows `source` of the sender's positions become the rows `target` of the
-/// receiver's. Both are local indices; entries correspond.
-struct Transfer {
-    Index from = -1;
-    Index to = -1;
-    std::vector<Index> source;
-    std::vector<Index> target;
-};
 
 /// A mesh cut into sub-meshes, and everything that has to pass between them between two steps.
 struct Decomposition {

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/decomposition/position_table.h"
 #include "partition/decomposition/sub_mesh.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -19,27 +20,29 @@ Index position_in(std::span<const Index> ascending, Index value);
 /// Whether vertex v may move and has faces of several labels: whether it lies on Γ.
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v);
 
-/// The labels of the faces around a vertex, ascending.
-std::vector<Index> labels_at(const Topology& topology, std::span<const Index> labels, Index v);
+/// Lists the labels of the faces around a vertex, ascending.
+void labels_at(const Topology& topology, std::span<const Index> labels, Index v, std::vector<Index>& found);
 
-/// The vertices at the other ends of the edges at v, in ascending order.
-std::vector<Index> edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v);
+/// Lists the vertices at the other ends of the edges at v, in ascending order.
+void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours);
+
+/// A sub-mesh in the making, and where things are in it.
+struct SubMeshDraft {
+    SubMesh sub_mesh;
+    /// Local indices, those of the halo included.
+    PositionTable vertices;
+    PositionTable faces;
+};
 
 /// A sub-mesh of the given faces with its vertices, their fixedness, and its half-edges; nothing of other sub-meshes
 /// yet, and nothing owned.
 /// @param faces in ascending order.
-SubMesh copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces);
+SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces);
 
-/// Appends those of the given vertices that the sub-mesh does not have yet as its halo.
-void append_halo(std::vector<Index> vertices, SubMesh& sub_mesh);
+/// Appends those of the given vertices that the sub-mesh does not have as its halo.
+void append_halo(std::span<const Index> vertices, SubMeshDraft& draft);
 
-/// The local index of a vertex of the sub-mesh or of its halo.
-Index local_or_halo_index(const SubMesh& sub_mesh, Index v);
-
-/// Notes a vertex of Γ and its edge neighbours, all of them in the sub-mesh or its halo, to be corrected after a step.
-void append_to_seam(const PolygonMesh& mesh, const Topology& topology, Index v, SubMesh& sub_mesh);
-
-/// Marks the vertices for which a sub-mesh speaks: those that may move and whose lowest label is its own.
-void mark_owned(const Topology& topology, std::span<const Index> labels, Index own, SubMesh& sub_mesh);
+/// Notes a vertex of Γ, to be corrected after a step, and its edge neighbours, all of them in the sub-mesh or its halo.
+void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& draft);
 
 }  // namespace seamflow

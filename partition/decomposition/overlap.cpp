@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 #include "partition/decomposition/local_mesh.h"
 
@@ -65,9 +64,11 @@ void list_sharing(const Topology& topology, const Overlap& overlap, std::span<co
                   SubMesh& sub_mesh)
 {
     auto& interface = sub_mesh.interface;
+    std::vector<Index> parts;
     for (const Index i : interface.vertices) {
         const Index v = sub_mesh.local_to_global[at(i)];
-        for (const Index part : labels_at(topology, overlap.labels, v)) {
+        labels_at(topology, overlap.labels, v, parts);
+        for (const Index part : parts) {
             interface.sharing.values.push_back(part);
             interface.index_in_sharing.values.push_back(local_index(sub_meshes[at(part)], v));
         }
@@ -76,15 +77,17 @@ void list_sharing(const Topology& topology, const Overlap& overlap, std::span<co
     }
 }
 
-std::vector<Transfer> transfers_to(Index s, std::map<Index, Transfer>&& by_sender)
+/// Marks the vertices for which a sub-mesh speaks: those that may move and whose lowest label is its own.
+void mark_owned(const Topology& topology, std::span<const Index> labels, Index own, SubMesh& sub_mesh)
 {
-    std::vector<Transfer> transfers;
-    for (auto& [sender, transfer] : by_sender) {
-        transfer.from = sender;
-        transfer.to = s;
-        transfers.push_back(std::move(transfer));
+    sub_mesh.owned.resize(at(sub_mesh.n_vertices));
+    for (Index i = 0; i < sub_mesh.n_vertices; ++i) {
+        const auto corners = topology.corners_at(sub_mesh.local_to_global[at(i)]);
+        Index lowest = labels[at(topology.face_of[at(corners.front())])];
+        for (const Index corner : corners)
+            lowest = std::min(lowest, labels[at(topology.face_of[at(corner)])]);
+        sub_mesh.owned[at(i)] = sub_mesh.fixed[at(i)] == 0 && lowest == own ? 1 : 0;
     }
-    return transfers;
 }
 
 /// For every vertex that is not of part s, the lowest part that has it; these are the ones that send it.
@@ -92,16 +95,15 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, const Overla
                                           std::span<const SubMesh> sub_meshes)
 {
     const auto& local_to_global = sub_meshes[at(s)].local_to_global;
-    std::map<Index, Transfer> by_sender;
+    std::vector<TransferRow> rows;
+    std::vector<Index> parts;
     for (std::size_t i = 0; i < local_to_global.size(); ++i) {
-        const auto parts = labels_at(topology, overlap.labels, local_to_global[i]);
-        if (std::binary_search(parts.begin(), parts.end(), s))
-            continue;
-        Transfer& transfer = by_sender[parts.front()];
-        transfer.source.push_back(local_index(sub_meshes[at(parts.front())], local_to_global[i]));
-        transfer.target.push_back(static_cast<Index>(i));
+        labels_at(topology, overlap.labels, local_to_global[i], parts);
+        if (!std::binary_search(parts.begin(), parts.end(), s))
+            rows.push_back(
+                {parts.front(), local_index(sub_meshes[at(parts.front())], local_to_global[i]), static_cast<Index>(i)});
     }
-    return transfers_to(s, std::move(by_sender));
+    return transfers_to(s, rows);
 }
 
 void list_adjacent(Decomposition& decomposition)
@@ -135,17 +137,21 @@ SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topol
                                   std::vector<Index> faces)
 {
     const std::vector<Index> seam = list_seam(mesh, topology, overlap, faces);
-    SubMesh sub_mesh = copy_faces(mesh, topology, grow(mesh, topology, overlap, s, std::move(faces)));
-    mark_owned(topology, overlap.labels, s, sub_mesh);
-    list_artificial_boundary(topology, sub_mesh);
+    SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, overlap, s, std::move(faces)));
+    mark_owned(topology, overlap.labels, s, draft.sub_mesh);
+    list_artificial_boundary(topology, draft.sub_mesh);
     std::vector<Index> around_seam;
-    for (const Index v : seam)
-        for (const Index neighbour : edge_neighbours(mesh, topology, v))
-            around_seam.push_back(neighbour);
-    append_halo(std::move(around_seam), sub_mesh);
-    for (const Index v : seam)
-        append_to_seam(mesh, topology, v, sub_mesh);
-    return sub_mesh;
+    std::vector<Index> neighbours;
+    for (const Index v : seam) {
+        edge_neighbours(mesh, topology, v, neighbours);
+        around_seam.insert(around_seam.end(), neighbours.begin(), neighbours.end());
+    }
+    append_halo(around_seam, draft);
+    for (const Index v : seam) {
+        edge_neighbours(mesh, topology, v, neighbours);
+        append_to_seam(v, neighbours, draft);
+    }
+    return std::move(draft.sub_mesh);
 }
 
 Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topology& topology, const Overlap& overlap)
@@ -169,18 +175,17 @@ SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<c
     for (Index s = 0; s < static_cast<Index>(rank.size()); ++s) {
         const auto& interface = decomposition.sub_meshes[at(s)].interface;
         plan.roles[at(s)].assign(interface.vertices.size(), InterfaceRole::Follows);
-        std::map<Index, Transfer> by_sender;
+        std::vector<TransferRow> rows;
         for (Index i = 0; i < interface.size(); ++i) {
             const auto parts = interface.sharing[i];
             const auto first = std::min_element(parts.begin(), parts.end(),
                                                 [&](Index a, Index b) { return rank[at(a)] < rank[at(b)]; });
             if (rank[at(*first)] >= rank[at(s)])
                 continue;
-            by_sender[*first].source.push_back(
-                interface.index_in_sharing[i][at(static_cast<Index>(first - parts.begin()))]);
-            by_sender[*first].target.push_back(interface.vertices[at(i)]);
+            rows.push_back({*first, interface.index_in_sharing[i][at(static_cast<Index>(first - parts.begin()))],
+                            interface.vertices[at(i)]});
         }
-        plan.traces[at(s)] = transfers_to(s, std::move(by_sender));
+        plan.traces[at(s)] = transfers_to(s, rows);
     }
     return plan;
 }

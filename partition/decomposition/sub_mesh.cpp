@@ -1,6 +1,8 @@
 #include "partition/decomposition/sub_mesh.h"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "partition/decomposition/local_mesh.h"
 
@@ -8,56 +10,97 @@ namespace seamflow {
 
 namespace {
 
-/// The faces of other sub-meshes that touch Γ, as indices into the whole mesh.
-std::vector<Index> list_halo_faces(const Topology& topology, std::span<const Index> labels, const SubMesh& sub_mesh)
+/// What one sub-mesh is cut out of.
+struct Whole {
+    const PolygonMesh& mesh;
+    const Topology& topology;
+    std::span<const Index> labels;
+    /// The label of the sub-mesh.
+    Index own;
+
+    [[nodiscard]] Index label_of(Index corner) const { return labels[at(topology.face_of[at(corner)])]; }
+};
+
+/// The local vertices that have faces of other sub-meshes too.
+std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh)
 {
-    const Index label = labels[at(sub_mesh.faces.front())];
+    std::vector<Index> n_others(at(sub_mesh.n_vertices));
+    for (std::size_t i = 0; i < n_others.size(); ++i)
+        n_others[i] = static_cast<Index>(topology.corners_at(sub_mesh.local_to_global[i]).size());
+    for (const Index i : sub_mesh.face_vertices.values)
+        --n_others[at(i)];
+    std::vector<Index> shared;
+    for (Index i = 0; i < sub_mesh.n_vertices; ++i)
+        if (n_others[at(i)] > 0)
+            shared.push_back(i);
+    return shared;
+}
+
+/// The sub-mesh of the lowest label speaks for a vertex.
+void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_mesh)
+{
+    sub_mesh.owned.resize(at(sub_mesh.n_vertices));
+    for (std::size_t i = 0; i < sub_mesh.owned.size(); ++i)
+        sub_mesh.owned[i] = sub_mesh.fixed[i] == 0 ? 1 : 0;
+    for (const Index i : shared) {
+        const auto corners = whole.topology.corners_at(sub_mesh.local_to_global[at(i)]);
+        if (std::any_of(corners.begin(), corners.end(), [&](Index c) { return whole.label_of(c) < whole.own; }))
+            sub_mesh.owned[at(i)] = 0;
+    }
+}
+
+/// The faces of other sub-meshes that touch Γ, as indices into the whole mesh, and where they are in this list.
+std::vector<Index> list_halo_faces(const Whole& whole, const SubMesh& sub_mesh, PositionTable& positions)
+{
     std::vector<Index> faces;
     for (const Index i : sub_mesh.interface.vertices)
-        for (const Index corner : topology.corners_at(sub_mesh.local_to_global[at(i)]))
-            if (const Index f = topology.face_of[at(corner)]; labels[at(f)] != label)
+        for (const Index corner : whole.topology.corners_at(sub_mesh.local_to_global[at(i)]))
+            if (const Index f = whole.topology.face_of[at(corner)];
+                whole.labels[at(f)] != whole.own && positions.insert(f))
                 faces.push_back(f);
-    sort_unique(faces);
+    std::sort(faces.begin(), faces.end());
+    positions.set_positions(faces);
     return faces;
 }
 
-std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> faces)
+void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_faces, SubMeshDraft& draft)
 {
+    auto& lists = draft.sub_mesh.interface.halo_faces;
     std::vector<Index> vertices;
-    for (const Index f : faces)
+    for (const Index f : halo_faces)
         vertices.insert(vertices.end(), mesh.face(f).begin(), mesh.face(f).end());
-    return vertices;
-}
-
-void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_faces, SubMesh& sub_mesh)
-{
-    auto& lists = sub_mesh.interface.halo_faces;
+    append_halo(vertices, draft);
     for (const Index f : halo_faces) {
         for (const Index v : mesh.face(f))
-            lists.values.push_back(local_or_halo_index(sub_mesh, v));
+            lists.values.push_back(draft.vertices[v]);
         lists.close();
     }
 }
 
 /// Fans and neighbours at one vertex of Γ.
-void describe_interface_vertex(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
-                               std::span<const Index> halo_faces, Index v, SubMesh& sub_mesh)
+void describe_interface_vertex(const Whole& whole, const PositionTable& halo_faces, Index v,
+                               std::vector<Index>& neighbours, SubMeshDraft& draft)
 {
-    auto& interface = sub_mesh.interface;
-    const auto fans = fans_at(mesh, topology, v, labels, labels[at(sub_mesh.faces.front())]);
-    assert(fans.size() == 1 && !fans.front().closed && "a repaired cut has one fan of each part around each vertex");
-    interface.before.push_back(local_index(sub_mesh, fans.front().first));
-    interface.after.push_back(local_index(sub_mesh, fans.front().last));
-    for (const Index corner : topology.corners_at(v)) {
-        const Index f = topology.face_of[at(corner)];
-        if (const Index own = position_in(sub_mesh.faces, f); own >= 0)
-            interface.own_faces.values.push_back(own);
+    auto& interface = draft.sub_mesh.interface;
+    const auto corners = whole.topology.corners_at(v);
+    const auto lowest =
+        std::find_if(corners.begin(), corners.end(), [&](Index c) { return whole.label_of(c) == whole.own; });
+    assert(fans_at(whole.mesh, whole.topology, v, whole.labels, whole.own).size() == 1 &&
+           "a repaired cut has one fan of each part around each vertex");
+    const auto [first, last] = ends_of_fan(whole.mesh, whole.topology, *lowest, whole.labels);
+    interface.before.push_back(draft.vertices[first]);
+    interface.after.push_back(draft.vertices[last]);
+    for (const Index corner : corners) {
+        const Index f = whole.topology.face_of[at(corner)];
+        if (whole.labels[at(f)] == whole.own)
+            interface.own_faces.values.push_back(draft.faces[f]);
         else
-            interface.complement_faces.values.push_back(position_in(halo_faces, f));
+            interface.complement_faces.values.push_back(halo_faces[f]);
     }
     interface.own_faces.close();
     interface.complement_faces.close();
-    append_to_seam(mesh, topology, v, sub_mesh);
+    edge_neighbours(whole.mesh, whole.topology, v, neighbours);
+    append_to_seam(v, neighbours, draft);
 }
 
 }  // namespace
@@ -70,18 +113,19 @@ Index local_index(const SubMesh& sub_mesh, Index global_vertex)
 SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
                       std::vector<Index> faces)
 {
-    const Index own = labels[at(faces.front())];
-    SubMesh sub_mesh = copy_faces(mesh, topology, std::move(faces));
-    mark_owned(topology, labels, own, sub_mesh);
-    for (Index i = 0; i < sub_mesh.n_vertices; ++i)
-        if (is_on_interface(topology, labels, sub_mesh.local_to_global[at(i)]))
-            sub_mesh.interface.vertices.push_back(i);
-    const auto halo_faces = list_halo_faces(topology, labels, sub_mesh);
-    append_halo(vertices_of(mesh, halo_faces), sub_mesh);
-    localise_halo_faces(mesh, halo_faces, sub_mesh);
+    const Whole whole{mesh, topology, labels, labels[at(faces.front())]};
+    SubMeshDraft draft = copy_faces(mesh, topology, std::move(faces));
+    SubMesh& sub_mesh = draft.sub_mesh;
+    const auto shared = list_shared(topology, sub_mesh);
+    mark_owned(whole, shared, sub_mesh);
+    std::copy_if(shared.begin(), shared.end(), std::back_inserter(sub_mesh.interface.vertices),
+                 [&](Index i) { return sub_mesh.fixed[at(i)] == 0; });
+    PositionTable halo_positions(2 * sub_mesh.interface.vertices.size());
+    localise_halo_faces(mesh, list_halo_faces(whole, sub_mesh, halo_positions), draft);
+    std::vector<Index> neighbours;
     for (const Index i : sub_mesh.interface.vertices)
-        describe_interface_vertex(mesh, topology, labels, halo_faces, sub_mesh.local_to_global[at(i)], sub_mesh);
-    return sub_mesh;
+        describe_interface_vertex(whole, halo_positions, sub_mesh.local_to_global[at(i)], neighbours, draft);
+    return std::move(draft.sub_mesh);
 }
 
 }  // namespace seamflow

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <map>
 #include <utility>
 
 namespace seamflow {
@@ -20,22 +19,17 @@ std::size_t leader_among(std::span<const Index> sharing, const std::vector<Index
 void plan_sub_mesh(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
     const auto& interface = decomposition.sub_meshes[at(s)].interface;
-    std::map<Index, Transfer> by_leader;
+    std::vector<TransferRow> rows;
+    plan.roles[at(s)].reserve(at(interface.size()));
     for (Index i = 0; i < interface.size(); ++i) {
         const std::size_t first = leader_among(interface.sharing[i], plan.rank);
         const Index leader = interface.sharing[i][first];
         plan.roles[at(s)].push_back(leader == s ? InterfaceRole::Leads : InterfaceRole::Follows);
-        if (leader == s)
-            continue;
-        by_leader[leader].source.push_back(interface.index_in_sharing[i][first]);
-        by_leader[leader].target.push_back(interface.vertices[at(i)]);
+        assert((leader == s || plan.rank[at(leader)] < plan.rank[at(s)]) && "adjacent sub-meshes have different ranks");
+        if (leader != s)
+            rows.push_back({leader, interface.index_in_sharing[i][first], interface.vertices[at(i)]});
     }
-    for (auto& [leader, transfer] : by_leader) {
-        assert(plan.rank[at(leader)] < plan.rank[at(s)] && "adjacent sub-meshes have different ranks");
-        transfer.from = leader;
-        transfer.to = s;
-        plan.traces[at(s)].push_back(std::move(transfer));
-    }
+    plan.traces[at(s)] = transfers_to(s, rows);
 }
 
 /// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ.
@@ -54,7 +48,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
     const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
     const auto& interface = sub_mesh.interface;
     std::vector<bool> planned(at(sub_mesh.n_halo), false);
-    std::map<Index, Transfer> by_sender;
+    std::vector<TransferRow> rows;
     for (Index i = 0; i < interface.size(); ++i) {
         if (plan.roles[at(s)][at(i)] == InterfaceRole::Follows)
             continue;
@@ -65,34 +59,21 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                 planned[at(v - sub_mesh.n_vertices)] = true;
                 const auto [sender, local] =
                     sender_of(decomposition, interface.sharing[i], s, sub_mesh.local_to_global[at(v)]);
-                by_sender[sender].source.push_back(local);
-                by_sender[sender].target.push_back(v);
+                rows.push_back({sender, local, v});
             }
     }
-    for (auto& [sender, transfer] : by_sender) {
-        transfer.from = sender;
-        transfer.to = s;
-        plan.predictions[at(s)].push_back(std::move(transfer));
-    }
+    plan.predictions[at(s)] = transfers_to(s, rows);
 }
 
 std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
 {
     const auto& interface = decomposition.sub_meshes[at(s)].interface;
-    std::map<Index, Transfer> by_sender;
+    std::vector<TransferRow> rows;
     for (Index i = 0; i < interface.size(); ++i)
         for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
-            if (const Index t = interface.sharing[i][k]; t != s) {
-                by_sender[t].source.push_back(interface.index_in_sharing[i][k]);
-                by_sender[t].target.push_back(interface.vertices[at(i)]);
-            }
-    std::vector<Transfer> copies;
-    for (auto& [sender, transfer] : by_sender) {
-        transfer.from = sender;
-        transfer.to = s;
-        copies.push_back(std::move(transfer));
-    }
-    return copies;
+            if (const Index t = interface.sharing[i][k]; t != s)
+                rows.push_back({t, interface.index_in_sharing[i][k], interface.vertices[at(i)]});
+    return transfers_to(s, rows);
 }
 
 }  // namespace
@@ -109,23 +90,23 @@ SweepPlan empty_plan(std::vector<Index> rank)
     return plan;
 }
 
-SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank)
+SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank, const Loop& loop)
 {
     SweepPlan plan = empty_plan(std::move(rank));
-    for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
-        plan.roles[s].assign(at(decomposition.sub_meshes[s].interface.size()), InterfaceRole::Leads);
-        plan.copies[s] = list_copies(decomposition, static_cast<Index>(s));
-    }
+    for_each(loop, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
+        plan.roles[at(s)].assign(at(decomposition.sub_meshes[at(s)].interface.size()), InterfaceRole::Leads);
+        plan.copies[at(s)] = list_copies(decomposition, s);
+    });
     return plan;
 }
 
-SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank)
+SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank, const Loop& loop)
 {
     SweepPlan plan = empty_plan(std::move(rank));
-    for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s)
+    for_each(loop, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
         plan_sub_mesh(decomposition, s, plan);
-    for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s)
         plan_predictions(decomposition, s, plan);
+    });
     return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
+#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -41,11 +42,12 @@ SweepPlan empty_plan(std::vector<Index> rank);
 
 /// Plans the sweep in which sub-meshes solve in ascending order of `rank`.
 /// @param rank #sub-meshes, different for adjacent sub-meshes.
-SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank);
+SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank, const Loop& loop = run_serially);
 
 /// Plans a sweep in which everyone leads everywhere, so that each sub-mesh keeps a copy of Γ of its own (the classical
 /// conditions). There are no traces and no predictions.
 /// @param rank #sub-meshes, different for adjacent sub-meshes.
-SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank);
+SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank,
+                            const Loop& loop = run_serially);
 
 }  // namespace seamflow

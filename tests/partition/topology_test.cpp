@@ -93,6 +93,23 @@ void check_fans(const PolygonMesh& mesh, const Topology& topology, std::span<con
 
 }  // namespace
 
+TEST_CASE("the ends of a fan are found without listing it")
+{
+    for (const NamedMesh& m : assorted_meshes()) {
+        CAPTURE(m.name);
+        std::vector<Index> labels(at(m.mesh.n_faces()));
+        for (Index f = 0; f < m.mesh.n_faces(); ++f)
+            labels[at(f)] = f * 7 % 5 % 2;
+        for (Index v = 0; v < m.mesh.n_vertices(); ++v)
+            for (const Index label : {0, 1})
+                for (const Fan& fan : fans_at(m.mesh, m.topology, v, labels, label)) {
+                    const Index lowest = *std::min_element(fan.corners.begin(), fan.corners.end());
+                    if (!fan.closed)
+                        CHECK(ends_of_fan(m.mesh, m.topology, lowest, labels) == std::pair(fan.first, fan.last));
+                }
+    }
+}
+
 TEST_CASE("twins are mutual and join the two faces of an edge, whichever way the faces run")
 {
     for (const NamedMesh& m : assorted_meshes()) {

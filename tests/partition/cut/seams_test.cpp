@@ -5,6 +5,8 @@
 
 #include "partition/cut/clusters.h"
 #include "partition/cut/components.h"
+#include "partition/cut/defects.h"
+#include "partition/cut/refine.h"
 #include "partition/cut/seams.h"
 #include "tests/support/test_meshes.h"
 
@@ -75,8 +77,8 @@ TEST_CASE("parts in balance remain so, and the result does not depend on how loo
     CHECK(cut_edges(m, labels) < cut_before * 2 / 3);
     const auto after = weights(m.mesh, labels, 4);
     for (std::size_t i = 0; i < 4; ++i) {
-        CHECK(after[i] <= std::max(before[i], 800 * (1.0 + seam_tolerance)));
-        CHECK(after[i] >= std::min(before[i], 800 / (1.0 + seam_tolerance) - 1.0));
+        CHECK(after[i] <= std::max(before[i], 800 * (1.0 + balance_tolerance)));
+        CHECK(after[i] >= std::min(before[i], 800 / (1.0 + balance_tolerance) - 1.0));
     }
     shorten_seams(m.mesh, m.topology, 4, other, [](Index n, const LoopBody& body) {
         for (Index i = n; i > 0; --i)
@@ -98,6 +100,20 @@ TEST_CASE("a spike is cut off, a straight seam stays")
         labels[at(f)] = 0;
     shorten_seams(grid.mesh, grid.topology, 2, labels);
     CHECK(labels == straight);
+}
+
+TEST_CASE("a part that is too heavy gives faces to its neighbours until it is not, and stays whole")
+{
+    const NamedMesh m = named(triangle_torus(40, 40));
+    std::vector<Index> labels(at(m.mesh.n_faces()));
+    for (Index f = 0; f < m.mesh.n_faces(); ++f)
+        labels[at(f)] = f < m.mesh.n_faces() * 55 / 100 ? 0 : 1;
+    const Index before = cut_edges(m, labels);
+    shorten_seams(m.mesh, m.topology, 2, labels);
+    for (const double weight : weights(m.mesh, labels, 2))
+        CHECK(weight <= 0.5 * m.mesh.n_faces() * (1.0 + balance_tolerance));
+    CHECK(cut_edges(m, labels) < before * 5 / 4);
+    CHECK(!first_defect(m.mesh, m.topology, labels));
 }
 
 TEST_CASE("mixed vertices are those whose faces differ")

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/cut/pinches.h"
+#include "partition/cut/seams.h"
 #include "partition/cut/umbrellas.h"
 #include "tests/support/test_meshes.h"
 
@@ -90,6 +92,22 @@ TEST_CASE("umbrellas are the fans of the whole mesh")
                 CHECK(umbrellas.front().closed ==
                       (m.topology.kind[static_cast<std::size_t>(v)] == VertexKind::Interior));
             }
+        }
+    }
+}
+
+TEST_CASE("an interior vertex may be pinched if it is, any other may be as soon as it is mixed")
+{
+    for (const NamedMesh& m : assorted_meshes()) {
+        CAPTURE(m.name);
+        auto labels = random_labels(m.mesh.n_faces(), 3, 5);
+        PinchMender mender(m.mesh, m.topology, labels, 3);
+        for (Index v = 0; v < m.mesh.n_vertices(); ++v) {
+            const bool may_be = may_be_pinched(m.mesh, m.topology, labels, v);
+            if (m.topology.kind[static_cast<std::size_t>(v)] == VertexKind::Interior)
+                CHECK(may_be == (mender.pinches_at(v) > 0));
+            else
+                CHECK(may_be == is_mixed(m.topology, labels, v));
         }
     }
 }

@@ -1,0 +1,108 @@
+#include "partition/cut/refine.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include "partition/cut/loose_nodes.h"
+#include "partition/index.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Hardly anything moves in later rounds.
+constexpr int max_rounds = 8;
+constexpr int max_passes = 3;
+
+class Refiner {
+  public:
+    Refiner(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
+        : graph_(graph)
+        , labels_(labels)
+        , weight_(at(n_labels), 0)
+        , shared_(at(n_labels), 0)
+    {
+        for (std::size_t node = 0; node < labels.size(); ++node)
+            weight_[at(labels[node])] += graph.node_weights[node];
+        const double mean =
+            static_cast<double>(std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0})) / n_labels;
+        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
+        lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
+    }
+
+    /// @returns whether the node changed its label.
+    bool improve(Index node)
+    {
+        const Index own = labels_[at(node)];
+        candidates_.assign(1, own);
+        for (Index arc = graph_.offsets[at(node)]; arc < graph_.offsets[at(node) + 1]; ++arc) {
+            const Index label = labels_[at(graph_.targets[at(arc)])];
+            if (shared_[at(label)] == 0 && label != own)
+                candidates_.push_back(label);
+            shared_[at(label)] += graph_.arc_weights[at(arc)];
+        }
+        Index best = own;
+        if (shared_[at(own)] > 0)
+            for (const Index label : candidates_)
+                if (is_better(node, label, best))
+                    best = label;
+        for (const Index label : candidates_)
+            shared_[at(label)] = 0;
+        weight_[at(own)] -= graph_.node_weights[at(node)];
+        weight_[at(best)] += graph_.node_weights[at(node)];
+        labels_[at(node)] = best;
+        return best != own;
+    }
+
+  private:
+    [[nodiscard]] bool is_better(Index node, Index label, Index other) const
+    {
+        const Index own = labels_[at(node)];
+        if (label == own)
+            return false;
+        const Index weight = graph_.node_weights[at(node)];
+        if (weight_[at(label)] + weight < weight_[at(own)] &&
+            (weight_[at(own)] > heaviest_ || weight_[at(label)] < lightest_))
+            return other == own || shared_[at(label)] > shared_[at(other)];
+        return weight_[at(label)] + weight <= heaviest_ && weight_[at(own)] - weight >= lightest_ &&
+               shared_[at(label)] > shared_[at(other)];
+    }
+
+    const FaceGraph& graph_;
+    std::vector<Index>& labels_;
+    /// One entry per label.
+    std::vector<std::int64_t> weight_;
+    std::int64_t heaviest_ = 0;
+    std::int64_t lightest_ = 0;
+    /// One entry per label, 0 between nodes: the weight of the arcs from the node in hand to the part.
+    std::vector<std::int64_t> shared_;
+    std::vector<Index> candidates_;
+};
+
+void move_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
+{
+    Refiner refiner(graph, n_labels, labels);
+    for (int round = 0; round < max_rounds; ++round) {
+        bool moved = false;
+        for (Index node = 0; node < graph.n_nodes(); ++node)
+            moved = refiner.improve(node) || moved;
+        if (!moved)
+            return;
+    }
+}
+
+}  // namespace
+
+void refine(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
+{
+    join_loose_nodes(graph, n_labels, labels);
+    // What moves may leave pieces behind, and joining those may spoil the balance.
+    for (int pass = 0; pass < max_passes; ++pass) {
+        move_nodes(graph, n_labels, labels);
+        if (!join_loose_nodes(graph, n_labels, labels))
+            return;
+    }
+}
+
+}  // namespace seamflow

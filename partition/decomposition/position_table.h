@@ -1,0 +1,82 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// Where indices stand in a list, found in constant time.
+class PositionTable {
+  public:
+    /// @param expected about how many there will be; it grows if there are more.
+    explicit PositionTable(std::size_t expected = 0)
+        : mask_(std::bit_ceil(2 * expected + 2) - 1)
+        , slots_(mask_ + 1, Slot{-1, -1})
+    {
+    }
+
+    /// Takes in an index whose position is set later.
+    /// @param value at least 0. @returns whether it was not in the table.
+    bool insert(Index value)
+    {
+        if (slots_[slot_of(value)].value >= 0)
+            return false;
+        if (2 * (n_values_ + 1) > slots_.size())
+            grow();
+        slots_[slot_of(value)].value = value;
+        ++n_values_;
+        return true;
+    }
+
+    /// Of indices that are in the table, in the order given.
+    void set_positions(std::span<const Index> values, Index first = 0)
+    {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            slots_[slot_of(values[i])].position = first + static_cast<Index>(i);
+    }
+
+    /// Takes in a list.
+    void insert_list(std::span<const Index> values)
+    {
+        for (const Index value : values)
+            insert(value);
+        set_positions(values);
+    }
+
+    /// -1 for what is not in the table.
+    [[nodiscard]] Index operator[](Index value) const { return slots_[slot_of(value)].position; }
+
+  private:
+    struct Slot {
+        Index value;
+        Index position;
+    };
+
+    /// Where `value` is, or the free slot for it.
+    [[nodiscard]] std::size_t slot_of(Index value) const
+    {
+        std::size_t slot = static_cast<std::size_t>(static_cast<std::uint32_t>(value) * 2654435769U) & mask_;
+        while (slots_[slot].value != value && slots_[slot].value >= 0)
+            slot = (slot + 1) & mask_;
+        return slot;
+    }
+
+    void grow()
+    {
+        mask_ = 2 * mask_ + 1;
+        for (const Slot& slot : std::exchange(slots_, std::vector<Slot>(mask_ + 1, Slot{-1, -1})))
+            if (slot.value >= 0)
+                slots_[slot_of(slot.value)] = slot;
+    }
+
+    std::size_t mask_;
+    std::vector<Slot> slots_;
+    std::size_t n_values_ = 0;
+};
+
+}  // namespace seamflow
