@@ -79,7 +79,7 @@ inline void update_columns(const LdlPanel& earlier, Index place, Index n_columns
     const std::size_t width = at(later.width);
     std::array<Index, at(group)> columns{};
     std::copy_n(target_rows, n_columns, columns.begin());
-    if (columns[at(n_columns - 1)] - columns[0] == lanes<Vector> - 1)
+    if (n_columns == lanes<Vector> && columns[at(n_columns - 1)] - columns[0] == n_columns - 1)
         multiply_all<Vector>(earlier, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
             subtract(sums, lanes<Vector>, later.values + at(target_rows[i]) * width + at(columns[0]));
         });

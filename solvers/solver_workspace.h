@@ -24,6 +24,7 @@ struct SolverWorkspace {
     std::vector<double> diagonal;
     std::vector<double> mass;
     Columns right_hand_side;
+    Columns solution;
     /// #own by 3.
     Points positions;
 };
