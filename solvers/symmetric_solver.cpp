@@ -5,7 +5,7 @@ namespace seamflow {
 namespace {
 
 /// Above this number of unknowns CHOLMOD is faster (measured on triangle meshes).
-constexpr Index most_unknowns_for_ldl = 50'000;
+constexpr Index most_unknowns_for_ldl = 500'000;
 
 }  // namespace
 

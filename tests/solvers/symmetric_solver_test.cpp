@@ -27,7 +27,7 @@ TEST_CASE("so are large ones")
 {
     RandomNumbers random(4);
     SolverWorkspace workspace;
-    const Index n = 60'000;
+    const Index n = 600'000;
     std::vector<MatrixEntry> entries;
     for (Index u = 0; u < n; ++u) {
         entries.push_back({u, u});
