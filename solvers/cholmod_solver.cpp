@@ -54,7 +54,6 @@ namespace {
 /// CHOLMOD with 32-bit integers: faster, for systems whose factors have less than 2³¹ entries.
 struct IntInterface {
     using Integer = int;
-    static constexpr int itype = CHOLMOD_INT;
     static constexpr auto analyze = cholmod_analyze;
     static constexpr auto factorize = cholmod_factorize;
     static constexpr auto solve = cholmod_solve2;
@@ -66,7 +65,6 @@ struct IntInterface {
 /// CHOLMOD with 64-bit integers, for whole meshes.
 struct LongInterface {
     using Integer = SuiteSparse_long;
-    static constexpr int itype = CHOLMOD_LONG;
     static constexpr auto analyze = cholmod_l_analyze;
     static constexpr auto factorize = cholmod_l_factorize;
     static constexpr auto solve = cholmod_l_solve2;
@@ -205,7 +203,8 @@ class BlockFactor final : public CholmodSolver::Factor {
   public:
     BlockFactor(const SparsePattern& upper, CholmodWorkspace& workspace)
         : matrix_(upper)
-        , factor_(analyse<Interface>(matrix_.pattern(), CHOLMOD_NATURAL, CHOLMOD_SUPERNODAL, Interface::common(workspace)))
+        , factor_(
+              analyse<Interface>(matrix_.pattern(), CHOLMOD_NATURAL, CHOLMOD_SUPERNODAL, Interface::common(workspace)))
     {
     }
     ~BlockFactor() override

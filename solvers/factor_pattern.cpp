@@ -54,8 +54,8 @@ bool belong_together(const Tree& tree, Index column)
     return tree.parent[at(column)] == column + 1 && tree.count[at(column)] == tree.count[at(column) + 1] + 1;
 }
 
-/// Fills in the blocks, and calls visit(row, block, place) for each row that a block has outside itself, rows ascending;
-/// `place` is where the row stands among those of the block.
+/// Fills in the blocks, and calls visit(row, block, place) for each row that a block has outside itself, rows
+/// ascending; `place` is where the row stands among those of the block.
 template <class Visit>
 void list_blocks(const SparsePattern& upper, Index n_last, FactorPattern& factor, Visit visit)
 {

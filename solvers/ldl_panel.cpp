@@ -132,14 +132,14 @@ inline bool factorise_columns(const LdlPanel& panel, Index first)
 inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
 {
     switch (n) {
-        case 1:
-            return factorise_columns<1>(panel, first);
-        case 2:
-            return factorise_columns<2>(panel, first);
-        case 3:
-            return factorise_columns<3>(panel, first);
-        default:
-            return factorise_columns<4>(panel, first);
+    case 1:
+        return factorise_columns<1>(panel, first);
+    case 2:
+        return factorise_columns<2>(panel, first);
+    case 3:
+        return factorise_columns<3>(panel, first);
+    default:
+        return factorise_columns<4>(panel, first);
     }
 }
 

@@ -127,9 +127,9 @@ TEST_CASE("a matrix that is not positive definite is found out, and the solver g
         LdlSolver solver(matrix.upper, n_last);
         const Columns expected = solved(solver, matrix.values, right, workspace);
         for (const Index unknown : {0, 30, 63})
-            for (const double pivot : {-1.0, -std::numeric_limits<double>::infinity(),
-                                       std::numeric_limits<double>::infinity(),
-                                       std::numeric_limits<double>::quiet_NaN()}) {
+            for (const double pivot :
+                 {-1.0, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                  std::numeric_limits<double>::quiet_NaN()}) {
                 auto unfit = matrix.values;
                 unfit[at(matrix.upper.slot({unknown, unknown}))] = pivot;
                 CHECK_FALSE(solver.factorise(unfit, heap_memory(), workspace));
