@@ -11,18 +11,18 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
     RandomNumbers random(3);
     for (const Index n : {1, 2, 7, 40}) {
         Eigen::MatrixXd L = Eigen::MatrixXd::Identity(n, n);
-        Eigen::VectorXd D(n);
+        Eigen::VectorXd diagonal(n);
         for (Index i = 0; i < n; ++i) {
-            D[i] = 1.5 + random.symmetric();
+            diagonal[i] = 1.5 + random.symmetric();
             for (Index k = 0; k < i; ++k)
                 L(i, k) = random.below(4) == 0 ? 0.0 : 0.3 * random.symmetric();
         }
         Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> stored = L;
-        stored.diagonal() = D;
+        stored.diagonal() = diagonal;
         stored.triangularView<Eigen::StrictlyUpper>().setConstant(99.0);
         DenseFactor factor;
         factor.take(DenseLdl(stored.data(), n, n));
-        const Eigen::MatrixXd S = L * D.asDiagonal() * L.transpose();
+        const Eigen::MatrixXd S = L * diagonal.asDiagonal() * L.transpose();
         Eigen::Matrix<float, Eigen::Dynamic, 3> v(n, 3);
         for (float& value : v.reshaped())
             value = static_cast<float>(random.symmetric());
