@@ -1,10 +1,8 @@
 #include "solvers/cholmod_solver.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <type_traits>
-#include <utility>
 
 #include <cholmod.h>
 
@@ -27,9 +25,7 @@ struct CholmodWorkspace::State {
         for (cholmod_common* of : {&common, &long_common}) {
             of->nmethods = 1;
             of->print = 0;
-            // LDLᵀ row by row, where it is put; dense blocks are always LLᵀ.
             of->final_asis = 1;
-            of->final_ll = 0;
             of->quick_return_if_not_posdef = 1;
         }
     }
@@ -58,7 +54,6 @@ namespace {
 /// CHOLMOD with 32-bit integers: faster, for systems whose factors have less than 2³¹ entries.
 struct IntInterface {
     using Integer = int;
-    static constexpr int itype = CHOLMOD_INT;
     static constexpr auto analyze = cholmod_analyze;
     static constexpr auto factorize = cholmod_factorize;
     static constexpr auto solve = cholmod_solve2;
@@ -70,7 +65,6 @@ struct IntInterface {
 /// CHOLMOD with 64-bit integers, for whole meshes.
 struct LongInterface {
     using Integer = SuiteSparse_long;
-    static constexpr int itype = CHOLMOD_LONG;
     static constexpr auto analyze = cholmod_l_analyze;
     static constexpr auto factorize = cholmod_l_factorize;
     static constexpr auto solve = cholmod_l_solve2;
@@ -81,9 +75,6 @@ struct LongInterface {
 
 /// Above this number of unknowns a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_int = 1'000'000;
-
-/// Up to this number of unknowns factorising row by row is faster than by dense blocks (measured on triangle meshes).
-constexpr Index most_unknowns_for_rows = 50'000;
 
 void require_ok(const cholmod_common& common, const char* task)
 {
@@ -137,12 +128,11 @@ class MatrixView {
 };
 
 template <class Interface>
-cholmod_factor* analyse(cholmod_sparse* pattern, int ordering, cholmod_common& common)
+cholmod_factor* analyse(cholmod_sparse* pattern, int ordering, int supernodal, cholmod_common& common)
 {
     common.method[0].ordering = ordering;
     common.postorder = ordering == CHOLMOD_NATURAL ? 0 : 1;
-    common.supernodal =
-        static_cast<Index>(pattern->nrow) > most_unknowns_for_rows ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
+    common.supernodal = supernodal;
     cholmod_factor* factor = Interface::analyze(pattern, &common);
     require_ok(common, "analysis");
     return factor;
@@ -153,7 +143,7 @@ std::vector<Index> order_by(const SparsePattern& upper, CholmodWorkspace& worksp
 {
     cholmod_common& common = Interface::common(workspace);
     MatrixView<typename Interface::Integer> matrix(upper);
-    cholmod_factor* factor = analyse<Interface>(matrix.pattern(), CHOLMOD_AMD, common);
+    cholmod_factor* factor = analyse<Interface>(matrix.pattern(), CHOLMOD_AMD, CHOLMOD_SIMPLICIAL, common);
     const auto* order = static_cast<const typename Interface::Integer*>(factor->Perm);
     std::vector<Index> result(at(upper.n()));
     std::transform(order, order + upper.n(), result.begin(), [](auto i) { return static_cast<Index>(i); });
@@ -189,11 +179,10 @@ std::vector<Index> elimination_order(const SparsePattern& upper, const std::vect
 class CholmodSolver::Factor {
   public:
     virtual ~Factor() = default;
-    [[nodiscard]] virtual TriangularFactor view() const = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;
-    virtual bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) = 0;
+    virtual bool factorise(std::span<const double> values, CholmodWorkspace& workspace) = 0;
     virtual void solve(cholmod_dense& right_hand_side, CholmodWorkspace& workspace) = 0;
-    virtual void free(FactorMemory& memory) = 0;
+    virtual void free() = 0;
 };
 
 namespace {
@@ -208,137 +197,14 @@ void solve_by(cholmod_factor* factor, cholmod_dense& right_hand_side, CholmodWor
     require_ok(common, "solution");
 }
 
-/// LDLᵀ row by row. CHOLMOD's numeric factor is made here, of arrays that stay and of two that the factor's memory is
-/// for: how many entries each column has is known beforehand.
-class RowFactor final : public CholmodSolver::Factor {
-  public:
-    RowFactor(const SparsePattern& upper, CholmodWorkspace& workspace)
-        : matrix_(upper)
-        , n_entries_(at(upper.n()))
-        , next_(at(upper.n()) + 2)
-        , previous_(at(upper.n()) + 2)
-    {
-        cholmod_common& common = workspace.state().common;
-        cholmod_factor* analysed = analyse<IntInterface>(matrix_.pattern(), CHOLMOD_NATURAL, common);
-        const auto* counts = static_cast<const int*>(analysed->ColCount);
-        counts_.assign(counts, counts + upper.n());
-        cholmod_free_factor(&analysed, &common);
-        offsets_.push_back(0);
-        for (const int count : counts_)
-            offsets_.push_back(offsets_.back() + count);
-        link_columns();
-        describe(at(upper.n()));
-    }
-
-    [[nodiscard]] TriangularFactor view() const override
-    {
-        return {std::span(offsets_).first(counts_.size()), n_entries_, static_cast<const int*>(factor_.i),
-                static_cast<const double*>(factor_.x)};
-    }
-
-    [[nodiscard]] std::size_t bytes() const override { return at(offsets_.back()) * (sizeof(double) + sizeof(int)); }
-
-    bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) override
-    {
-        if (memory_.empty())
-            memory_ = memory.take(bytes());
-        begin_columns();
-        cholmod_common& common = workspace.state().common;
-        cholmod_sparse matrix = matrix_.with(values);
-        cholmod_factorize(&matrix, &factor_, &common);
-        require_ok(common, "factorisation");
-        const auto* entries = static_cast<const double*>(factor_.x);
-        if (common.status == CHOLMOD_OK &&
-            std::all_of(offsets_.begin(), offsets_.end() - 1, [&](int first) { return entries[first] > 0.0; }))
-            return true;
-        free(memory);
-        return false;
-    }
-
-    void solve(cholmod_dense& right_hand_side, CholmodWorkspace& workspace) override
-    {
-        solve_by<IntInterface>(&factor_, right_hand_side, workspace);
-    }
-
-    void free(FactorMemory& memory) override
-    {
-        if (!memory_.empty())
-            memory.give_back(std::exchange(memory_, {}));
-    }
-
-  private:
-    /// The columns' places in memory, in their order, as a list with head n + 1 and tail n.
-    void link_columns()
-    {
-        const auto n = static_cast<int>(counts_.size());
-        for (int column = 0; column < n; ++column) {
-            next_[at(column)] = column + 1;
-            previous_[at(column)] = column - 1;
-        }
-        next_[at(n + 1)] = 0;
-        previous_[0] = n + 1;
-        next_[at(n)] = -1;
-        previous_[at(n)] = n - 1;
-        previous_[at(n + 1)] = -1;
-        if (n == 0) {
-            next_[1] = 0;
-            previous_[0] = 1;
-        }
-        order_.resize(counts_.size());
-        std::iota(order_.begin(), order_.end(), 0);
-    }
-
-    void describe(std::size_t n)
-    {
-        factor_.n = factor_.minor = n;
-        factor_.Perm = order_.data();
-        factor_.ColCount = counts_.data();
-        factor_.nzmax = at(offsets_.back());
-        factor_.p = offsets_.data();
-        factor_.nz = n_entries_.data();
-        factor_.next = next_.data();
-        factor_.prev = previous_.data();
-        factor_.ordering = CHOLMOD_NATURAL;
-        factor_.is_monotonic = 1;
-        factor_.itype = CHOLMOD_INT;
-        factor_.xtype = CHOLMOD_REAL;
-        factor_.dtype = CHOLMOD_DOUBLE;
-    }
-
-    /// Each column has its diagonal alone, as CHOLMOD expects it of a factor of the unit matrix.
-    void begin_columns()
-    {
-        auto* entries = reinterpret_cast<double*>(memory_.data());
-        auto* rows = reinterpret_cast<int*>(entries + offsets_.back());
-        factor_.x = entries;
-        factor_.i = rows;
-        factor_.minor = factor_.n;
-        for (std::size_t column = 0; column < counts_.size(); ++column) {
-            entries[offsets_[column]] = 1.0;
-            rows[offsets_[column]] = static_cast<int>(column);
-            n_entries_[column] = 1;
-        }
-    }
-
-    MatrixView<int> matrix_;
-    cholmod_factor factor_{};
-    /// Per column: number of entries to come, of entries there are, and where the first is.
-    std::vector<int> counts_;
-    std::vector<int> n_entries_;
-    std::vector<int> offsets_;
-    std::vector<int> next_;
-    std::vector<int> previous_;
-    std::vector<int> order_;
-    std::span<std::byte> memory_;
-};
-
 /// LLᵀ by dense blocks, in CHOLMOD's own memory.
 template <class Interface>
 class BlockFactor final : public CholmodSolver::Factor {
   public:
     BlockFactor(const SparsePattern& upper, CholmodWorkspace& workspace)
         : matrix_(upper)
-        , factor_(analyse<Interface>(matrix_.pattern(), CHOLMOD_NATURAL, Interface::common(workspace)))
+        , factor_(
+              analyse<Interface>(matrix_.pattern(), CHOLMOD_NATURAL, CHOLMOD_SUPERNODAL, Interface::common(workspace)))
     {
     }
     ~BlockFactor() override
@@ -347,10 +213,9 @@ class BlockFactor final : public CholmodSolver::Factor {
         Interface::free_factor(&factor_, &Interface::common(workspace));
     }
 
-    [[nodiscard]] TriangularFactor view() const override { return {}; }
     [[nodiscard]] std::size_t bytes() const override { return factor_->xsize * sizeof(double); }
 
-    bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace) override
+    bool factorise(std::span<const double> values, CholmodWorkspace& workspace) override
     {
         cholmod_common& common = Interface::common(workspace);
         cholmod_sparse matrix = matrix_.with(values);
@@ -358,7 +223,7 @@ class BlockFactor final : public CholmodSolver::Factor {
         require_ok(common, "factorisation");
         if (common.status == CHOLMOD_OK)
             return true;
-        free(memory);
+        free();
         return false;
     }
 
@@ -367,7 +232,7 @@ class BlockFactor final : public CholmodSolver::Factor {
         solve_by<Interface>(factor_, right_hand_side, workspace);
     }
 
-    void free(FactorMemory&) override
+    void free() override
     {
         CholmodWorkspace workspace;
         Interface::change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor_, &Interface::common(workspace));
@@ -380,11 +245,9 @@ class BlockFactor final : public CholmodSolver::Factor {
 
 }  // namespace
 
-CholmodSolver::CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace, FactorKind kind)
+CholmodSolver::CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace)
 {
-    if (kind == FactorKind::Rows || upper.n() <= most_unknowns_for_rows)
-        factor_ = std::make_unique<RowFactor>(upper, workspace);
-    else if (needs_long(upper))
+    if (needs_long(upper))
         factor_ = std::make_unique<BlockFactor<LongInterface>>(upper, workspace);
     else
         factor_ = std::make_unique<BlockFactor<IntInterface>>(upper, workspace);
@@ -399,9 +262,9 @@ std::size_t CholmodSolver::factor_bytes() const
     return factor_->bytes();
 }
 
-bool CholmodSolver::factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace)
+bool CholmodSolver::factorise(std::span<const double> values, CholmodWorkspace& workspace)
 {
-    return factor_->factorise(values, memory, workspace);
+    return factor_->factorise(values, workspace);
 }
 
 Eigen::Map<const Columns> CholmodSolver::solve(Columns& right_hand_side, CholmodWorkspace& workspace) const
@@ -418,14 +281,9 @@ Eigen::Map<const Columns> CholmodSolver::solve(Columns& right_hand_side, Cholmod
     return {static_cast<const double*>(workspace.state().solution->x), right_hand_side.rows(), 3};
 }
 
-TriangularFactor CholmodSolver::factor() const
+void CholmodSolver::free_factor()
 {
-    return factor_->view();
-}
-
-void CholmodSolver::free_factor(FactorMemory& memory)
-{
-    factor_->free(memory);
+    factor_->free();
 }
 
 }  // namespace seamflow

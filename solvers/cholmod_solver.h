@@ -7,7 +7,6 @@
 
 #include "solvers/cholmod_workspace.h"
 #include "solvers/columns.h"
-#include "solvers/factor_memory.h"
 #include "solvers/sparse_pattern.h"
 
 namespace seamflow {
@@ -23,43 +22,25 @@ std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspac
 std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last,
                                      CholmodWorkspace& workspace);
 
-/// How a CholmodSolver factorises.
-enum class FactorKind {
-    /// Row by row or by dense blocks, whichever is faster for the size.
-    Fastest,
-    /// Row by row, so that the factor can be looked at.
-    Rows,
-};
-
-/// L and D of a factorisation LDLᵀ by columns, in the solver's memory.
-struct TriangularFactor {
-    /// n: where each column begins, and its number of entries: D, then those of L below the diagonal, rows ascending.
-    std::span<const int> offsets;
-    std::span<const int> counts;
-    const int* rows = nullptr;
-    const double* values = nullptr;
-};
-
-/// LDLᵀ factorisation of symmetric sparse matrices of one pattern by CHOLMOD, in the order in which the unknowns are:
-/// analysed once, factorised for each set of values, a factor used for any number of right-hand sides, three at a time.
-/// Small matrices are factorised row by row, large ones by dense blocks.
+/// LLᵀ factorisation of symmetric sparse matrices of one pattern by dense blocks, by CHOLMOD, in the order in which the
+/// unknowns are: analysed once, factorised for each set of values, a factor used for any number of right-hand sides,
+/// three at a time.
 class CholmodSolver {
   public:
     /// @param upper the entries on and above the diagonal, the whole diagonal among them; must outlive the solver.
     /// @throws ComputationError if CHOLMOD fails (memory).
-    CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace, FactorKind kind = FactorKind::Fastest);
+    CholmodSolver(const SparsePattern& upper, CholmodWorkspace& workspace);
     ~CholmodSolver();
     CholmodSolver(CholmodSolver&&) noexcept;
     CholmodSolver& operator=(CholmodSolver&&) noexcept;
 
-    /// What a factor takes of a FactorMemory, in bytes. Large factors use CHOLMOD's own memory, of which this is most.
+    /// What a factor takes in CHOLMOD's own memory, in bytes: most of what it needs.
     [[nodiscard]] std::size_t factor_bytes() const;
 
     /// @param values one per entry of the pattern.
-    /// @param memory must outlive the factor.
     /// @returns whether the matrix is positive definite. If not, there is no factor.
     /// @throws ComputationError if CHOLMOD fails (memory).
-    [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, CholmodWorkspace& workspace);
+    [[nodiscard]] bool factorise(std::span<const double> values, CholmodWorkspace& workspace);
 
     /// Solves for three right-hand sides.
     /// @pre there is a factor.
@@ -67,11 +48,7 @@ class CholmodSolver {
     /// @throws ComputationError if CHOLMOD fails.
     [[nodiscard]] Eigen::Map<const Columns> solve(Columns& right_hand_side, CholmodWorkspace& workspace) const;
 
-    /// @pre there is a factor, and the solver is one of FactorKind::Rows.
-    [[nodiscard]] TriangularFactor factor() const;
-
-    /// Gives the factor's memory back to where it was taken from.
-    void free_factor(FactorMemory& memory);
+    void free_factor();
 
     /// For the file that calls CHOLMOD.
     class Factor;

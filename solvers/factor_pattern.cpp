@@ -31,9 +31,7 @@ struct Tree {
     std::vector<Index> count;
 };
 
-/// Calls visit(row, column) for each entry of L below the diagonal, rows ascending, and makes the tree on the way.
-template <class Visit>
-Tree for_each_entry(const SparsePattern& upper, Visit visit)
+Tree make_tree(const SparsePattern& upper)
 {
     Tree tree{std::vector<Index>(at(upper.n()), -1), std::vector<Index>(at(upper.n()), 0)};
     std::vector<Index> visited(at(upper.n()), -1);
@@ -45,7 +43,6 @@ Tree for_each_entry(const SparsePattern& upper, Visit visit)
                 ++tree.count[at(column)];
                 if (tree.parent[at(column)] < 0)
                     tree.parent[at(column)] = row;
-                visit(row, column);
             }
     }
     return tree;
@@ -55,6 +52,43 @@ Tree for_each_entry(const SparsePattern& upper, Visit visit)
 bool belong_together(const Tree& tree, Index column)
 {
     return tree.parent[at(column)] == column + 1 && tree.count[at(column)] == tree.count[at(column) + 1] + 1;
+}
+
+/// Fills in the blocks, and calls visit(row, block, place) for each row that a block has outside itself, rows
+/// ascending; `place` is where the row stands among those of the block.
+template <class Visit>
+void list_blocks(const SparsePattern& upper, Index n_last, FactorPattern& factor, Visit visit)
+{
+    const Index n = upper.n();
+    const Tree tree = make_tree(upper);
+    std::vector<Index> block_of(at(n));
+    std::vector<Index> parent;
+    for (Index first = 0, last = 0; first < n; first = ++last) {
+        if (first == n - n_last)
+            last = n - 1;
+        while (last + 1 < n && last + 1 != n - n_last && belong_together(tree, last))
+            ++last;
+        std::fill(block_of.begin() + first, block_of.begin() + last + 1, factor.n_blocks());
+        parent.push_back(tree.parent[at(last)]);
+        factor.first.push_back(last + 1);
+        for (Index u = first; u <= last; ++u)
+            factor.rows.values.push_back(u);
+        factor.rows.values.resize(factor.rows.values.size() + at(tree.count[at(last)]));
+        factor.rows.close();
+    }
+    std::vector<Index> next(at(factor.n_blocks()));
+    for (Index b = 0; b < factor.n_blocks(); ++b)
+        next[at(b)] = factor.rows.offsets[at(b)] + factor.width(b);
+    std::vector<Index> visited(at(factor.n_blocks()), -1);
+    for (Index row = 0; row < n; ++row) {
+        visited[at(block_of[at(row)])] = row;
+        for (Index k = upper.column_offsets[at(row)]; k < upper.column_offsets[at(row) + 1]; ++k)
+            for (Index b = block_of[at(upper.rows[at(k)])]; visited[at(b)] != row; b = block_of[at(parent[at(b)])]) {
+                visited[at(b)] = row;
+                factor.rows.values[at(next[at(b)])] = row;
+                visit(row, b, next[at(b)]++ - factor.rows.offsets[at(b)]);
+            }
+    }
 }
 
 }  // namespace
@@ -69,33 +103,21 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern, CholmodWorkspace
     for (Index i = 0; i < n; ++i)
         factor.position[at(order[at(i)])] = i;
 
-    const SparsePattern upper = symmetrised(pattern, factor.position);
-    const Tree tree = for_each_entry(upper, [](Index, Index) {});
-    std::vector<Index> block_of_last(at(n), -1);
-    for (Index first = 0, last = 0; first < n; first = ++last) {
-        while (last + 1 < n && belong_together(tree, last))
-            ++last;
-        block_of_last[at(last)] = factor.n_blocks();
-        factor.first.push_back(last + 1);
-        for (Index u = first; u <= last; ++u)
-            factor.rows.values.push_back(u);
-        factor.rows.values.resize(factor.rows.values.size() + at(tree.count[at(last)]));
-        factor.rows.close();
-    }
-
     factor.update_offsets.assign(at(n) + 1, 0);
-    std::vector<Index> next(at(factor.n_blocks()));
-    for (Index b = 0; b < factor.n_blocks(); ++b)
-        next[at(b)] = factor.width(b);
-    for_each_entry(upper, [&](Index row, Index column) {
-        const Index block = block_of_last[at(column)];
-        if (block < 0)
-            return;
-        factor.rows.values[at(factor.rows.offsets[at(block)] + next[at(block)])] = row;
-        factor.updates.push_back({block, next[at(block)]++});
+    list_blocks(symmetrised(pattern, factor.position), 0, factor, [&](Index row, Index block, Index place) {
+        factor.updates.push_back({block, place});
         ++factor.update_offsets[at(row) + 1];
     });
     std::partial_sum(factor.update_offsets.begin(), factor.update_offsets.end(), factor.update_offsets.begin());
+    return factor;
+}
+
+FactorPattern make_factor_pattern(const SparsePattern& upper, Index n_last)
+{
+    FactorPattern factor;
+    factor.position.resize(at(upper.n()));
+    std::iota(factor.position.begin(), factor.position.end(), 0);
+    list_blocks(upper, n_last, factor, [](Index, Index, Index) {});
     return factor;
 }
 

@@ -38,4 +38,9 @@ struct FactorPattern {
 /// @throws ComputationError if CHOLMOD fails (memory), which finds the order of elimination.
 FactorPattern make_factor_pattern(const SparsePattern& pattern, CholmodWorkspace& workspace);
 
+/// The pattern for a symmetric matrix whose unknowns are in the order of elimination, without `updates`.
+/// @param upper the entries on and above the diagonal, the whole diagonal among them.
+/// @param n_last the last unknowns, which are made one block in any case.
+FactorPattern make_factor_pattern(const SparsePattern& upper, Index n_last);
+
 }  // namespace seamflow

@@ -6,6 +6,7 @@
 #include "solvers/cholmod_workspace.h"
 #include "solvers/columns.h"
 #include "solvers/factor_memory.h"
+#include "solvers/ldl_workspace.h"
 #include "solvers/lu_workspace.h"
 
 namespace seamflow {
@@ -15,6 +16,7 @@ struct SolverWorkspace {
     /// Factors outlive the work: this is not the workspace's own. The same in all workspaces that a system meets.
     FactorMemory* factors = &heap_memory();
     CholmodWorkspace cholmod;
+    LdlWorkspace ldl;
     LuWorkspace lu;
     /// Of a matrix.
     std::vector<double> values;
@@ -22,6 +24,7 @@ struct SolverWorkspace {
     std::vector<double> diagonal;
     std::vector<double> mass;
     Columns right_hand_side;
+    Columns solution;
     /// #own by 3.
     Points positions;
 };

@@ -2,17 +2,11 @@
 
 #include <algorithm>
 
+#include "solvers/wide.h"
+
 namespace seamflow {
 
 namespace {
-
-// The same operations on every machine, in wider registers where it has them.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
-    !defined(__SANITIZE_THREAD__)
-#define SEAMFLOW_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define SEAMFLOW_WIDE
-#endif
 
 /// v[begin …] += factor · column[begin …], for three vectors at once.
 SEAMFLOW_WIDE void add_column(const float* __restrict column, Index begin, Index end, float factor_x, float factor_y,
@@ -36,23 +30,21 @@ void scale(const std::vector<float>& diagonal, FloatColumns v)
 
 }  // namespace
 
-void DenseFactor::take_last(const TriangularFactor& factor, Index n)
+void DenseFactor::take(const DenseLdl& factor)
 {
-    n_ = n;
-    values_.assign(at(n) * at(n), 0.0F);
-    diagonal_.resize(at(n));
-    inverse_.resize(at(n));
-    const Index first = static_cast<Index>(factor.offsets.size()) - n;
-    for (Index column = 0; column < n; ++column) {
-        const int begin = factor.offsets[at(first + column)];
-        const int end = begin + factor.counts[at(first + column)];
-        diagonal_[at(column)] = static_cast<float>(factor.values[begin]);
-        inverse_[at(column)] = static_cast<float>(1.0 / factor.values[begin]);
-        for (int e = begin + 1; e < end; ++e) {
-            const Index row = factor.rows[e] - first;
-            values_[at(column) * at(n) + at(row)] = static_cast<float>(factor.values[e]);
-            values_[at(row) * at(n) + at(column)] = static_cast<float>(factor.values[e]);
+    n_ = static_cast<Index>(factor.rows());
+    values_.resize(at(n_) * at(n_));
+    diagonal_.resize(at(n_));
+    inverse_.resize(at(n_));
+    for (Index row = 0; row < n_; ++row) {
+        for (Index column = 0; column < row; ++column) {
+            const auto value = static_cast<float>(factor(row, column));
+            values_[at(column) * at(n_) + at(row)] = value;
+            values_[at(row) * at(n_) + at(column)] = value;
         }
+        values_[at(row) * at(n_) + at(row)] = 0.0F;
+        diagonal_[at(row)] = static_cast<float>(factor(row, row));
+        inverse_[at(row)] = static_cast<float>(1.0 / factor(row, row));
     }
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "solvers/cholmod_solver.h"
+#include "solvers/ldl_solver.h"
 
 namespace seamflow {
 
@@ -17,8 +17,8 @@ struct FloatColumns {
 /// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹.
 class DenseFactor {
   public:
-    /// Takes the last n columns of a factorisation, which must be the last block of a larger one.
-    void take_last(const TriangularFactor& factor, Index n);
+    /// Takes a factorisation in double precision over.
+    void take(const DenseLdl& factor);
 
     [[nodiscard]] Index n() const { return n_; }
 

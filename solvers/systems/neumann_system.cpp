@@ -4,51 +4,11 @@
 #include <cmath>
 
 #include "partition/errors.h"
+#include "solvers/cholmod_solver.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
-
-namespace {
-
-/// b becomes L⁻¹ b where rows and columns of L both belong to the first n, and b - L_ΓI L_I⁻¹ b_I below.
-void eliminate(const TriangularFactor& factor, Index n, double* b)
-{
-    for (Index column = 0; column < n; ++column) {
-        const double x = b[3 * column];
-        const double y = b[3 * column + 1];
-        const double z = b[3 * column + 2];
-        const int begin = factor.offsets[at(column)];
-        const int end = begin + factor.counts[at(column)];
-        for (int e = begin + 1; e < end; ++e) {
-            double* target = b + 3 * static_cast<std::ptrdiff_t>(factor.rows[e]);
-            target[0] -= factor.values[e] * x;
-            target[1] -= factor.values[e] * y;
-            target[2] -= factor.values[e] * z;
-        }
-    }
-}
-
-/// The first n of x become D⁻¹ of themselves minus Lᵀ of all that follow.
-void substitute_back(const TriangularFactor& factor, Index n, double* x)
-{
-    for (Index column = n - 1; column >= 0; --column) {
-        const int begin = factor.offsets[at(column)];
-        const int end = begin + factor.counts[at(column)];
-        double* target = x + 3 * static_cast<std::ptrdiff_t>(column);
-        double sum[3];
-        for (int c = 0; c < 3; ++c)
-            sum[c] = target[c] / factor.values[begin];
-        for (int e = begin + 1; e < end; ++e) {
-            const double* source = x + 3 * static_cast<std::ptrdiff_t>(factor.rows[e]);
-            for (int c = 0; c < 3; ++c)
-                sum[c] -= factor.values[e] * source[c];
-        }
-        std::copy(sum, sum + 3, target);
-    }
-}
-
-}  // namespace
 
 NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian, SolverWorkspace& workspace)
     : sub_mesh_(&sub_mesh)
@@ -60,7 +20,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian, Solve
     number_unknowns(pairs, workspace);
     place_pairs(pairs);
     mass_.resize(vertex_of_.size());
-    solver_ = std::make_unique<CholmodSolver>(upper_, workspace.cholmod, FactorKind::Rows);
+    solver_ = std::make_unique<LdlSolver>(upper_, n_interface());
 }
 
 /// The interior in the order of elimination, then Γ.
@@ -133,9 +93,9 @@ void NeumannSystem::factorise(SolverWorkspace& workspace)
     const auto values = std::span<const double>(workspace.values).first(at(upper_.n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (!solver_->factorise(values, *workspace.factors, workspace.cholmod))
+    if (!solver_->factorise(values, *workspace.factors, workspace.ldl))
         throw ComputationError(system_singular);
-    schur_.take_last(solver_->factor(), n_interface());
+    schur_.take(solver_->last());
 }
 
 void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed) const
@@ -147,29 +107,23 @@ void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen:
     for (const Coupling& coupling : fixed_)
         eliminated.row(coupling.unknown) -= coupling.value * positions.row(coupling.vertex);
     if (n > 0)
-        eliminate(solver_->factor(), n_interior(), eliminated.data());
+        solver_->eliminate(eliminated);
     condensed = eliminated.bottomRows(n_interface());
 }
 
 void NeumannSystem::subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const
 {
-    const TriangularFactor factor = n_interface() > 0 ? solver_->factor() : TriangularFactor{};
-    const Index first = n_interior();
-    Points scaled(n_interface(), 3);
-    for (Index j = 0; j < n_interface(); ++j) {
-        const int begin = factor.offsets[at(first + j)];
-        const int end = begin + factor.counts[at(first + j)];
-        Point sum = x.row(j);
-        for (int e = begin + 1; e < end; ++e)
-            sum += factor.values[e] * x.row(factor.rows[e] - first);
-        scaled.row(j) = factor.values[begin] * sum;
-    }
-    for (Index j = 0; j < n_interface(); ++j) {
-        const int begin = factor.offsets[at(first + j)];
-        const int end = begin + factor.counts[at(first + j)];
-        result.row(j) -= scaled.row(j);
-        for (int e = begin + 1; e < end; ++e)
-            result.row(factor.rows[e] - first) -= factor.values[e] * scaled.row(j);
+    const DenseLdl factor = solver_->last();
+    Points scaled = x;
+    for (Index i = 0; i < n_interface(); ++i)
+        for (Index j = 0; j < i; ++j)
+            scaled.row(j) += factor(i, j) * x.row(i);
+    scaled.array().colwise() *= factor.diagonal().array();
+    for (Index i = 0; i < n_interface(); ++i) {
+        Point sum = scaled.row(i);
+        for (Index j = 0; j < i; ++j)
+            sum += factor(i, j) * scaled.row(j);
+        result.row(i) -= sum;
     }
 }
 
@@ -177,7 +131,7 @@ void NeumannSystem::fill_in(Points& solution, SolverWorkspace& workspace)
 {
     if (vertex_of_.empty())
         return;
-    substitute_back(solver_->factor(), n_interior(), solution.data());
+    solver_->substitute_back(solution);
     solver_->free_factor(*workspace.factors);
     if (!solution.allFinite())
         throw ComputationError(result_not_finite);

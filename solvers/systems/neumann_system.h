@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
-#include "solvers/cholmod_solver.h"
 #include "solvers/interface/dense_factor.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
+#include "solvers/ldl_solver.h"
 #include "solvers/solver_workspace.h"
 
 namespace seamflow {
@@ -75,7 +75,7 @@ class NeumannSystem {
     std::vector<Index> vertex_of_;
     std::vector<Index> unknown_of_;
     SparsePattern upper_;
-    std::unique_ptr<CholmodSolver> solver_;
+    std::unique_ptr<LdlSolver> solver_;
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then one that nobody reads.
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;

@@ -23,7 +23,7 @@ SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, S
     if (rows == SymmetricRows::Yielding)
         list_interface();
     mass_.resize(vertex_of_.size());
-    solver_ = std::make_unique<CholmodSolver>(upper_, workspace.cholmod);
+    solver_ = std::make_unique<SymmetricSolver>(upper_, workspace);
 }
 
 /// In the order of the vertices.
@@ -199,10 +199,10 @@ void SymmetricSystem::factorise(SolverWorkspace& workspace)
     const auto values = std::span<double>(workspace.values).first(at(upper_.n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (vertex_of_.empty() || solver_->factorise(values, *workspace.factors, workspace.cholmod))
+    if (vertex_of_.empty() || solver_->factorise(values, workspace))
         return;
     stop_yielding(values);
-    if (!solver_->factorise(values, *workspace.factors, workspace.cholmod))
+    if (!solver_->factorise(values, workspace))
         throw ComputationError(system_singular);
 }
 
@@ -239,11 +239,11 @@ void SymmetricSystem::solve_with(const Points& positions, Points& solution, Solv
     if (vertex_of_.empty())
         return;
     fill_right_hand_side(positions, solution, workspace.right_hand_side);
-    const auto result = solver_->solve(workspace.right_hand_side, workspace.cholmod);
-    if (!result.allFinite())
+    solver_->solve(workspace.right_hand_side, workspace.solution, workspace);
+    if (!workspace.solution.allFinite())
         throw ComputationError(result_not_finite);
     for (std::size_t u = 0; u < vertex_of_.size(); ++u)
-        solution.row(vertex_of_[u]) = result.row(static_cast<Eigen::Index>(u));
+        solution.row(vertex_of_[u]) = workspace.solution.row(static_cast<Eigen::Index>(u));
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
         const Index v = sub_mesh_->interface.vertices[i];
         if (interface_rows_[i].role == InterfaceRole::Follows)

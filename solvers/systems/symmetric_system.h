@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/cholmod_solver.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sub_mesh_system.h"
+#include "solvers/symmetric_solver.h"
 
 namespace seamflow {
 
@@ -76,7 +76,7 @@ class SymmetricSystem final : public SubMeshSystem {
     std::vector<Index> vertex_of_;
     std::vector<Index> unknown_of_;
     SparsePattern upper_;
-    std::unique_ptr<CholmodSolver> solver_;
+    std::unique_ptr<SymmetricSolver> solver_;
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then of `beyond_`, then one that nobody
     /// reads.
     std::vector<Index> slots_;

@@ -86,3 +86,26 @@ TEST_CASE("a pattern without unknowns has no blocks")
     CholmodWorkspace workspace;
     CHECK(make_factor_pattern(SparsePattern{}, workspace).n_blocks() == 0);
 }
+
+TEST_CASE("in a given order the last unknowns are one block, and the others have the entries that elimination fills in")
+{
+    RandomNumbers random(3);
+    for (const Index n_last : {0, 1, 7, 30}) {
+        std::vector<MatrixEntry> entries;
+        for (Index i = 0; i < 30; ++i) {
+            entries.push_back({i, i});
+            for (int k = 0; k < 2; ++k) {
+                const Index j = random.below(30);
+                entries.push_back({std::max(i, j), std::min(i, j)});
+            }
+        }
+        const SparsePattern upper = make_pattern(30, entries);
+        const FactorPattern factor = make_factor_pattern(upper, n_last);
+        Eigen::MatrixXi expected = eliminated(upper, factor.position);
+        expected.bottomRightCorner(n_last, n_last).triangularView<Eigen::Lower>().setOnes();
+        CHECK(from_blocks(factor) == expected);
+        if (n_last > 0)
+            CHECK(factor.width(factor.n_blocks() - 1) == n_last);
+        CHECK(factor.updates.empty());
+    }
+}

@@ -1,7 +1,3 @@
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <doctest/doctest.h>
 
 #include "solvers/conditions/adapted_robin.h"
@@ -9,6 +5,7 @@
 #include "solvers/conditions/predicted_side.h"
 #include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
+#include "tests/support/allocations.h"
 #include "tests/support/cut_meshes.h"
 
 using namespace seamflow;
@@ -16,39 +13,19 @@ using namespace seamflow::test;
 
 namespace {
 
-std::atomic<long> n_allocations{0};
-
 /// Allocations by one step of a condition: all rows, both sides.
 long allocations_in_step(TransmissionCondition& condition, Index n_rows, const Points& positions, std::span<double> row)
 {
-    const long before = n_allocations;
+    const long before = n_allocations();
     condition.begin_step(positions, positions, 0.01, 3.0);
     for (Index i = 0; i < n_rows; ++i) {
         condition.left_hand_side(i, positions, row.first(condition.columns()[i].size()));
         row[0] += condition.right_hand_side(i, positions, positions).x();
     }
-    return n_allocations - before;
+    return n_allocations() - before;
 }
 
 }  // namespace
-
-void* operator new(std::size_t size)
-{
-    ++n_allocations;
-    if (void* memory = std::malloc(size > 0 ? size : 1))
-        return memory;
-    throw std::bad_alloc();
-}
-
-void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-
-void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
 
 TEST_CASE("from the second step on no condition allocates memory")
 {
@@ -58,7 +35,7 @@ TEST_CASE("from the second step on no condition allocates memory")
         const Decomposition decomposition = test::decompose(cut);
         for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
             const Points positions = localised(sub_mesh, cut.mesh.vertices);
-            const long before = n_allocations;
+            const long before = n_allocations();
             std::vector<std::unique_ptr<TransmissionCondition>> conditions;
             conditions.push_back(make_adapted_robin(sub_mesh));
             conditions.push_back(make_adapted_ventcell(sub_mesh, 0.4));
@@ -66,7 +43,7 @@ TEST_CASE("from the second step on no condition allocates memory")
             conditions.push_back(make_ventcell(sub_mesh, 0.4));
             for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho})
                 conditions.push_back(make_predicted_side(sub_mesh, laplacian));
-            CHECK(n_allocations > before);
+            CHECK(n_allocations() > before);
             for (const auto& condition : conditions) {
                 allocations_in_step(*condition, sub_mesh.interface.size(), positions, row);
                 CHECK(allocations_in_step(*condition, sub_mesh.interface.size(), positions, row) == 0);

@@ -1,0 +1,175 @@
+#include "solvers/ldl_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "solvers/wide.h"
+
+namespace seamflow {
+
+namespace {
+
+// Numbers that one operation serves, or two on machines with narrow registers.
+using Two = double __attribute__((vector_size(16)));
+using Four = double __attribute__((vector_size(32)));
+
+/// Columns that are computed at once, and those of a source that are used in one go.
+constexpr Index group = 4;
+constexpr Index chunk = 64;
+
+template <class Vector>
+constexpr Index lanes = static_cast<Index>(sizeof(Vector) / sizeof(double));
+
+/// Some rows of a panel times D Lᵀ of one to four others.
+/// @param rows the first row's first entry; there are `width` from one row to the next.
+/// @param use(r, sums) takes the sums of row r.
+template <Index Rows, class Vector, class Use>
+inline void multiply(const double* rows, std::size_t width, const Vector* factors, Index n, Use&& use)
+{
+    Vector sums[Rows] = {};
+    for (Index c = 0; c < n; ++c)
+        for (Index r = 0; r < Rows; ++r)
+            sums[r] += rows[at(r) * width + at(c)] * factors[c];
+    for (Index r = 0; r < Rows; ++r)
+        use(r, sums[r]);
+}
+
+/// The rows from `place` on times D Lᵀ of the first n_targets of them, over the panel's columns [0, n).
+/// @param use(i, sums) takes the sums of row place + i; more than one call for each if n is large.
+template <class Vector, class Use>
+inline void multiply_all(const LdlPanel& panel, Index n, Index place, Index n_targets, Use&& use)
+{
+    const std::size_t width = at(panel.width);
+    const double* rows = panel.values + at(place) * width;
+    const Index n_rows = static_cast<Index>(panel.rows.size()) - place;
+    std::array<Vector, at(chunk)> factors;
+    for (Index begin = 0; begin < n; begin += chunk) {
+        const Index size = std::min(chunk, n - begin);
+        for (Index c = 0; c < size; ++c) {
+            const double pivot = panel.values[at(begin + c) * (width + 1)];
+            Vector factor{};
+            for (Index t = 0; t < lanes<Vector>; ++t)
+                factor[t] = t < n_targets ? pivot * rows[at(t) * width + at(begin + c)] : 0.0;
+            factors[at(c)] = factor;
+        }
+        Index i = 0;
+        for (; i + 4 <= n_rows; i += 4)
+            multiply<4>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                        [&](Index r, const Vector& sums) { use(i + r, sums); });
+        for (; i < n_rows; ++i)
+            multiply<1>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                        [&](Index, const Vector& sums) { use(i, sums); });
+    }
+}
+
+/// Takes sums away from neighbouring entries.
+template <class Vector>
+inline void subtract(const Vector& sums, Index n, double* target)
+{
+    for (Index t = 0; t < n; ++t)
+        target[t] -= sums[t];
+}
+
+/// An update of up to four columns.
+template <class Vector>
+inline void update_columns(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+                           const LdlPanel& later)
+{
+    const std::size_t width = at(later.width);
+    std::array<Index, at(group)> columns{};
+    std::copy_n(target_rows, n_columns, columns.begin());
+    if (n_columns == lanes<Vector> && columns[at(n_columns - 1)] - columns[0] == n_columns - 1)
+        multiply_all<Vector>(earlier, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
+            subtract(sums, lanes<Vector>, later.values + at(target_rows[i]) * width + at(columns[0]));
+        });
+    else
+        multiply_all<Vector>(earlier, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
+            double* target = later.values + at(target_rows[i]) * width;
+            for (Index t = 0; t < n_columns; ++t)
+                target[columns[at(t)]] -= sums[t];
+        });
+}
+
+/// Factorises columns that depend on each other alone.
+/// @param Columns 1 to 4.
+template <Index Columns>
+inline bool factorise_columns(const LdlPanel& panel, Index first)
+{
+    const std::size_t width = at(panel.width);
+    double* top = panel.values + at(first) * (width + 1);
+    double inverse[Columns];
+    double factor[Columns][Columns];
+    double* row = top;
+    bool positive = true;
+    for (Index i = 0; i < Columns; ++i, row += width) {
+        for (Index c = 0; c < i; ++c) {
+            for (Index k = 0; k < c; ++k)
+                row[c] -= row[k] * factor[c][k];
+        }
+        for (Index c = 0; c < i; ++c) {
+            factor[i][c] = row[c] * inverse[c];
+            row[i] -= row[c] * factor[i][c];
+            row[c] = factor[i][c];
+        }
+        positive &= row[i] > 0.0 && std::isfinite(row[i]);
+        inverse[i] = 1.0 / row[i];
+    }
+    const auto n_rows = static_cast<Index>(panel.rows.size());
+    for (Index m = first + Columns; m < n_rows; ++m, row += width) {
+        double scaled[Columns];
+        for (Index c = 0; c < Columns; ++c) {
+            scaled[c] = row[c];
+            for (Index k = 0; k < c; ++k)
+                scaled[c] -= scaled[k] * factor[c][k];
+        }
+        for (Index c = 0; c < Columns; ++c)
+            row[c] = scaled[c] * inverse[c];
+    }
+    return positive;
+}
+
+inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
+{
+    switch (n) {
+    case 1:
+        return factorise_columns<1>(panel, first);
+    case 2:
+        return factorise_columns<2>(panel, first);
+    case 3:
+        return factorise_columns<3>(panel, first);
+    default:
+        return factorise_columns<4>(panel, first);
+    }
+}
+
+}  // namespace
+
+SEAMFLOW_WIDE void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+                                   const LdlPanel& later)
+{
+    for (Index t = 0; t < n_columns; t += group) {
+        const Index n = std::min(group, n_columns - t);
+        if (n <= 2)
+            update_columns<Two>(earlier, place + t, n, target_rows + t, later);
+        else
+            update_columns<Four>(earlier, place + t, n, target_rows + t, later);
+    }
+}
+
+SEAMFLOW_WIDE bool factorise_panel(const LdlPanel& panel)
+{
+    const std::size_t width = at(panel.width);
+    for (Index first = 0; first < panel.width; first += group) {
+        const Index n = std::min(group, panel.width - first);
+        if (first > 0)
+            multiply_all<Four>(panel, first, first, n, [&](Index i, const Four& sums) {
+                subtract(sums, n, panel.values + at(first + i) * width + at(first));
+            });
+        if (!factorise_columns(panel, first, n))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include "solvers/ldl_panel.h"
+
+namespace seamflow {
+
+namespace {
+
+using Two = double __attribute__((vector_size(16)));
+
+/// Columns that are solved for at once.
+constexpr Index group = 4;
+
+/// One row of three right-hand sides.
+struct Row {
+    Two xy{};
+    double z = 0.0;
+
+    Row() = default;
+    explicit Row(const double* x)
+        : xy{x[0], x[1]}
+        , z(x[2])
+    {
+    }
+    void subtract(double factor, const Row& row)
+    {
+        xy -= factor * row.xy;
+        z -= factor * row.z;
+    }
+    void divide(double divisor)
+    {
+        xy /= divisor;
+        z /= divisor;
+    }
+    void store(double* x) const
+    {
+        x[0] = xy[0];
+        x[1] = xy[1];
+        x[2] = z;
+    }
+};
+
+double* row_of(double* x, Index unknown)
+{
+    return x + 3 * at(unknown);
+}
+
+/// Solves for columns that depend on each other and on later ones.
+/// @param Columns 1 to 4.
+template <Index Columns>
+void substitute_columns(const LdlPanel& panel, Index first, double* x)
+{
+    const std::size_t width = at(panel.width);
+    const auto n_rows = static_cast<Index>(panel.rows.size());
+    double* own = row_of(x, panel.rows[at(first)]);
+    const double* top = panel.values + at(first) * (width + 1);
+    Row sums[Columns];
+    for (Index c = 0; c < Columns; ++c) {
+        sums[c] = Row(own + 3 * c);
+        sums[c].divide(top[at(c) * (width + 1)]);
+    }
+    const double* row = top + at(Columns) * width;
+    for (Index m = first + Columns; m < n_rows; ++m, row += width) {
+        const Row known(row_of(x, panel.rows[at(m)]));
+        for (Index c = 0; c < Columns; ++c)
+            sums[c].subtract(row[c], known);
+    }
+    for (Index i = Columns; i-- > 0;) {
+        for (Index c = 0; c < i; ++c)
+            sums[c].subtract(top[at(i) * width + at(c)], sums[i]);
+        sums[i].store(own + 3 * i);
+    }
+}
+
+}  // namespace
+
+void eliminate_panel(const LdlPanel& panel, double* x)
+{
+    const auto n_rows = static_cast<Index>(panel.rows.size());
+    const double* own = row_of(x, panel.rows[0]);
+    const double* entries = panel.values + panel.width;
+    for (Index m = 1; m < n_rows; ++m, entries += panel.width) {
+        double* target = row_of(x, panel.rows[at(m)]);
+        Row sum(target);
+        const Index n = std::min(m, panel.width);
+        for (Index c = 0; c < n; ++c)
+            sum.subtract(entries[c], Row(own + 3 * c));
+        sum.store(target);
+    }
+}
+
+void substitute_panel(const LdlPanel& panel, double* x)
+{
+    for (Index end = panel.width; end > 0;) {
+        const Index n = std::min(group, end);
+        end -= n;
+        if (n == 1)
+            substitute_columns<1>(panel, end, x);
+        else if (n == 2)
+            substitute_columns<2>(panel, end, x);
+        else if (n == 3)
+            substitute_columns<3>(panel, end, x);
+        else
+            substitute_columns<4>(panel, end, x);
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,149 @@
+#include "solvers/ldl_solver.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Per unknown, its block.
+std::vector<Index> blocks_of_unknowns(const FactorPattern& pattern)
+{
+    std::vector<Index> block_of(at(pattern.n()));
+    for (Index b = 0; b < pattern.n_blocks(); ++b)
+        std::fill_n(block_of.begin() + pattern.first[at(b)], pattern.width(b), b);
+    return block_of;
+}
+
+}  // namespace
+
+LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last)
+    : n_last_(n_last)
+    , pattern_(make_factor_pattern(upper, n_last))
+{
+    for (Index b = 0; b < pattern_.n_blocks(); ++b) {
+        const std::size_t end = at(panels_.back()) + at(pattern_.width(b)) * pattern_.rows[b].size();
+        if (end > at(std::numeric_limits<Index>::max()))
+            throw ComputationError("the system's factor is too large: use more sub-meshes");
+        panels_.push_back(static_cast<Index>(end));
+    }
+    list_updates();
+    list_places(upper);
+}
+
+void LdlSolver::list_updates()
+{
+    const std::vector<Index> block_of = blocks_of_unknowns(pattern_);
+    const auto for_each_update = [&](auto use) {
+        for (Index earlier = 0; earlier < pattern_.n_blocks(); ++earlier) {
+            const auto rows = pattern_.rows[earlier];
+            const auto n_rows = static_cast<Index>(rows.size());
+            for (Index place = pattern_.width(earlier), end = place; place < n_rows; place = end) {
+                const Index later = block_of[at(rows[at(place)])];
+                while (end < n_rows && block_of[at(rows[at(end)])] == later)
+                    ++end;
+                use(later, Update{earlier, place, end - place});
+            }
+        }
+    };
+    update_offsets_.assign(at(pattern_.n_blocks()) + 1, 0);
+    for_each_update([&](Index later, const Update&) { ++update_offsets_[at(later) + 1]; });
+    std::partial_sum(update_offsets_.begin(), update_offsets_.end(), update_offsets_.begin());
+    updates_.resize(at(update_offsets_.back()));
+    std::vector<Index> next = update_offsets_;
+    for_each_update([&](Index later, const Update& update) { updates_[at(next[at(later)]++)] = update; });
+}
+
+/// An entry of column j belongs to the block of its row, which is eliminated first.
+void LdlSolver::list_places(const SparsePattern& upper)
+{
+    const std::vector<Index> block_of = blocks_of_unknowns(pattern_);
+    places_.reserve(upper.rows.size());
+    for (Index column = 0; column < upper.n(); ++column)
+        for (Index k = upper.column_offsets[at(column)]; k < upper.column_offsets[at(column) + 1]; ++k) {
+            const Index row = upper.rows[at(k)];
+            const Index block = block_of[at(row)];
+            const auto rows = pattern_.rows[block];
+            const auto place = std::lower_bound(rows.begin(), rows.end(), column) - rows.begin();
+            places_.push_back(panels_[at(block)] + static_cast<Index>(place) * pattern_.width(block) + row -
+                              pattern_.first[at(block)]);
+        }
+}
+
+bool LdlSolver::factorise(std::span<const double> values, FactorMemory& memory, LdlWorkspace& workspace)
+{
+    if (memory_.empty() && n() > 0)
+        memory_ = memory.take(factor_bytes());
+    if (workspace.row_of.size() < at(n())) {
+        workspace.row_of.resize(at(n()));
+        workspace.target_rows.resize(at(n()));
+    }
+    double* factor = this->values();
+    std::fill_n(factor, panels_.back(), 0.0);
+    for (std::size_t k = 0; k < places_.size(); ++k)
+        factor[places_[k]] = values[k];
+    for (Index b = 0; b < pattern_.n_blocks(); ++b) {
+        subtract_updates(b, workspace);
+        if (!factorise_panel(panel(b))) {
+            free_factor(memory);
+            return false;
+        }
+    }
+    return true;
+}
+
+void LdlSolver::subtract_updates(Index block, LdlWorkspace& workspace) const
+{
+    const LdlPanel later = panel(block);
+    for (std::size_t i = 0; i < later.rows.size(); ++i)
+        workspace.row_of[at(later.rows[i])] = static_cast<Index>(i);
+    for (Index u = update_offsets_[at(block)]; u < update_offsets_[at(block) + 1]; ++u) {
+        const Update& update = updates_[at(u)];
+        const LdlPanel earlier = panel(update.earlier);
+        const auto rows = earlier.rows.subspan(at(update.place));
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            workspace.target_rows[i] = workspace.row_of[at(rows[i])];
+        subtract_update(earlier, update.place, update.n_columns, workspace.target_rows.data(), later);
+    }
+}
+
+void LdlSolver::free_factor(FactorMemory& memory)
+{
+    if (!memory_.empty())
+        memory.give_back(std::exchange(memory_, {}));
+}
+
+DenseLdl LdlSolver::last() const
+{
+    return {n_last_ > 0 ? values() + panels_[at(pattern_.n_blocks() - 1)] : nullptr, n_last_, n_last_};
+}
+
+void LdlSolver::solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const
+{
+    workspace.solution.resize(3 * at(n()));
+    Eigen::Map<Points> x(workspace.solution.data(), n(), 3);
+    x = right_hand_side;
+    eliminate(x.data(), n());
+    substitute_back(x.data(), n());
+    solution = x;
+}
+
+void LdlSolver::eliminate(double* x, Index n) const
+{
+    for (Index b = 0; b < pattern_.n_blocks() && pattern_.first[at(b)] < n; ++b)
+        eliminate_panel(panel(b), x);
+}
+
+void LdlSolver::substitute_back(double* x, Index n) const
+{
+    for (Index b = pattern_.n_blocks(); b-- > 0;)
+        if (pattern_.first[at(b)] < n)
+            substitute_panel(panel(b), x);
+}
+
+}  // namespace seamflow
