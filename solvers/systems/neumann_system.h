@@ -9,6 +9,7 @@
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/ldl_solver.h"
 #include "solvers/solver_workspace.h"
+#include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
 
@@ -58,13 +59,6 @@ class NeumannSystem {
     [[nodiscard]] std::size_t factor_bytes() const { return solver_->factor_bytes(); }
 
   private:
-    /// A coefficient of an unknown's row at a vertex that is fixed.
-    struct Coupling {
-        Index unknown;
-        Index vertex;
-        double value;
-    };
-
     void number_unknowns(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace);
     void place_pairs(const std::vector<VertexPair>& pairs);
     [[nodiscard]] Index n_interior() const { return static_cast<Index>(vertex_of_.size()) - n_interface(); }

@@ -7,6 +7,7 @@
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sub_mesh_system.h"
 #include "solvers/symmetric_solver.h"
+#include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
 
@@ -37,12 +38,6 @@ class SymmetricSystem final : public SubMeshSystem {
     void solve(const Points& positions, Points& solution, SolverWorkspace& workspace) override;
 
   private:
-    /// A coefficient of an unknown's row at a vertex that is known.
-    struct Coupling {
-        Index unknown;
-        Index vertex;
-        double value;
-    };
     /// One entry of the matrix off the diagonal, seen from a vertex of Γ.
     struct InterfaceEntry {
         Index slot;

@@ -8,6 +8,13 @@
 
 namespace seamflow {
 
+/// A coefficient of an unknown's row at a vertex that is known.
+struct Coupling {
+    Index unknown = 0;
+    Index vertex = 0;
+    double value = 0.0;
+};
+
 /// The entry of two unknowns on or above the diagonal.
 inline MatrixEntry upper_entry(Index a, Index b)
 {

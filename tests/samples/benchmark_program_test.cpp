@@ -1,0 +1,182 @@
+#include <string>
+#include <vector>
+
+#include "tests/samples/workshop.h"
+
+using namespace seamflow;
+using test::Json;
+using test::Workshop;
+
+TEST_CASE("benchmark holds every peer beside ours, each in a process of its own")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " triangles grid.obj --vertices 2000") == 0);
+    REQUIRE(w.run(BENCHMARK " --mesh grid.obj --subdomains 4 --steps 3 --threads 2 --json case.json --export exported "
+                            "--peers cholmod,umfpack,cg,cg-ic,cgal") == 0);
+    const Json json = w.json("case.json");
+    for (const char* key : {"vertices", "dt_over_h2", "laplacian", "threads", "ours", "peers", "ratios", "reference"})
+        CHECK_MESSAGE(json.contains(key), key);
+    for (const char* key : {"subdomains", "setup_s", "step_s", "phases", "peak_memory_bytes", "v_mean", "v_max"})
+        CHECK_MESSAGE(json["ours"].contains(key), key);
+    CHECK(json["reference"] == "cholmod");
+    CHECK(json["ours"]["subdomains"] == 4);
+    CHECK(json["ours"]["v_max"].get<double>() > 1e-6);
+    for (const char* name : {"cholmod", "umfpack", "cg-1e-8", "cg-1e-4", "cg-equal-accuracy", "cg-ic-1e-8",
+                             "cg-ic-1e-4", "cg-ic-equal-accuracy", "cgal"}) {
+        CAPTURE(name);
+        REQUIRE(json["peers"].contains(name));
+        const Json peer = json["peers"][name];
+        CHECK(peer["setup_s"].get<double>() > 0.0);
+        CHECK(peer["step_s"].get<double>() > 0.0);
+        CHECK(peer["peak_memory_bytes"].get<double>() > 1e6);
+        CHECK(json["ratios"][name].get<double>() ==
+              doctest::Approx(peer["step_s"].get<double>() / json["ours"]["step_s"].get<double>()));
+    }
+    CHECK(json["peers"]["umfpack"]["v_max"].get<double>() < 1e-9);
+    CHECK(json["peers"]["cg-equal-accuracy"]["v_max"] <= json["ours"]["v_max"]);
+    for (const char* key : {"v_mean", "v_max"})
+        CHECK(json["peers"]["cg-equal-both"][key] <= json["ours"][key]);
+    CHECK(json["peers"]["cg-equal-both"]["tolerance"] <= json["peers"]["cg-equal-accuracy"]["tolerance"]);
+    CHECK(json["peers"]["cg-equal-both"]["iterations"] > 0);
+    CHECK_FALSE(json["peers"]["cgal"].contains("v_max"));
+    CHECK(w.count_lines("said", "cg-ic-equal-accuracy") == 1);
+    for (const char* name : {"system", "system_rhs", "symmetric", "symmetric_rhs", "symmetric_vertices", "positions"})
+        CHECK(w.has(std::string("exported/") + name + ".mtx"));
+}
+
+TEST_CASE("benchmark says which peers cannot take part, and goes on")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --mesh mesh.obj --laplacian ptackova-velho --steps 2 --json case.json") == 0);
+    const Json json = w.json("case.json");
+    CHECK(json["reference"] == "umfpack");
+    CHECK(json["peers"]["cholmod"]["error"] == "left out: Ptáčková-Velho is not symmetric");
+    CHECK(json["peers"]["cgal"]["error"] == "left out: smooth_shape takes triangles only");
+    CHECK(json["peers"]["bicgstab-1e-8"]["step_s"].get<double>() > 0.0);
+    CHECK_FALSE(json["ratios"].contains("cholmod"));
+}
+
+TEST_CASE("benchmark without peers knows its distance to the undecomposed flow, or does without")
+{
+    const Workshop w;
+    const std::string ours = BENCHMARK " --vertices 2000 --steps 1 --subdomains 4 --peers none --json case.json";
+    REQUIRE(w.run(ours) == 0);
+    const double direct = w.json("case.json")["ours"]["v_max"].get<double>();
+    REQUIRE(w.run(ours + " --reference iterative") == 0);
+    CHECK(w.json("case.json")["reference"] == "cg-1e-12");
+    CHECK(w.json("case.json")["ours"]["v_max"].get<double>() == doctest::Approx(direct).epsilon(1e-6));
+    REQUIRE(w.run(ours + " --reference none") == 0);
+    CHECK_FALSE(w.json("case.json")["ours"].contains("v_max"));
+}
+
+TEST_CASE("benchmark sweeps over sizes and over threads")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --scaling --vertices 15000 --steps 1 --json scaling.json") == 0);
+    const Json sizes = w.json("scaling.json")["scaling"];
+    REQUIRE(sizes.size() == 2);
+    CHECK(sizes[0]["vertices"].get<double>() == doctest::Approx(10'000).epsilon(0.1));
+    CHECK(sizes[1]["vertices"].get<double>() == doctest::Approx(15'000).epsilon(0.1));
+    REQUIRE(w.run(BENCHMARK " --threads-sweep --vertices 1000 --threads 2 --steps 2 --json sweep.json") == 0);
+    const Json threads = w.json("sweep.json")["threads_sweep"];
+    REQUIRE(threads.size() == 2);
+    CHECK(threads[1]["threads"] == 2);
+}
+
+TEST_CASE("benchmark replays its tasks with more threads than there are")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --vertices 5000 --subdomains 30 --steps 3 --simulate-threads 1,2,1024 "
+                            "--json simulated.json") == 0);
+    const Json json = w.json("simulated.json");
+    CHECK(json["threads"] == 1);
+    REQUIRE(json["simulated_threads"].size() == 3);
+    CHECK(json["simulated_threads"][2]["threads"] == 1024);
+    CHECK(json["simulated_threads"][0]["efficiency"].get<double>() == doctest::Approx(1.0));
+    CHECK(json["simulated_threads"][2]["speed_up"] >= json["simulated_threads"][1]["speed_up"]);
+    CHECK(json["simulated_threads"][2]["makespan_s"] >= json["simulated_threads"][2]["critical_path_s"]);
+    CHECK(w.count_lines("said", "   1024 ") == 1);
+}
+
+TEST_CASE("benchmark takes all conditions, and a limit of memory")
+{
+    const Workshop w;
+    const std::string ours = BENCHMARK " --mesh mesh.obj --steps 1 --subdomains 12 --peers none --json case.json ";
+    std::vector<double> distances;
+    for (const char* conditions :
+         {"robin", "ventcell --q 0.1", "adapted-ventcell --q 0.1", "adapted-robin", "schwarz"}) {
+        REQUIRE(w.run(ours + "--conditions " + conditions) == 0);
+        distances.push_back(w.json("case.json")["ours"]["v_max"].get<double>());
+        CHECK(std::count(distances.begin(), distances.end(), distances.back()) == 1);
+    }
+    REQUIRE(w.run(ours + "--memory-limit 1GiB") == 0);
+    CHECK(w.json("case.json")["ours"]["v_max"] == distances[3]);
+    CHECK(w.run(ours + "--memory-limit 1K") != 0);
+    CHECK(w.said().find("memory_limit is 1000 bytes") != std::string::npos);
+}
+
+TEST_CASE("benchmark that is stopped leaves nothing behind")
+{
+    const Workshop w;
+    // The shell waits until the mesh is there before it stops the program.
+    CHECK(w.run("{ mkdir scratch; TMPDIR=scratch " BENCHMARK " --vertices 300000 --steps 1000 --peers none & "
+                "for i in $(seq 100); do ls scratch/*/mesh.bin && break; sleep 0.1; done; kill $!; wait $!; "
+                "test $? -eq 143; }") == 0);
+    CHECK(w.count_lines("said", "scratch/benchmark-") == 1);
+    CHECK(std::filesystem::is_empty(w.directory / "scratch"));
+}
+
+// Sanitizers reserve more than that for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("benchmark with little memory to address says which peers do without, and ends")
+{
+    const Workshop w;
+    REQUIRE(w.run("ulimit -v 760000; timeout 60 " BENCHMARK " --vertices 400000 --steps 1 --threads 1 --reference none "
+                  "--peers umfpack --json case.json") == 0);
+    CHECK(w.json("case.json")["peers"]["umfpack"].contains("error"));
+}
+#endif
+
+TEST_CASE("benchmark refuses wrong usage and unusable files")
+{
+    const Workshop w;
+    for (const char* arguments : {"--vertices 10",
+                                  "--vertices 1e5",
+                                  "--kind dodecahedra",
+                                  "--laplacian cotan",
+                                  "--time-step-edges 0",
+                                  "--steps 0",
+                                  "--subdomains -1",
+                                  "--threads 1025",
+                                  "--conditions none",
+                                  "--peers everybody",
+                                  "--reference nobody",
+                                  "--mesh mesh.obj --vertices 1000",
+                                  "--mesh mesh.obj --kind quads",
+                                  "--scaling --threads-sweep",
+                                  "--scaling --mesh mesh.obj",
+                                  "--scaling --export exported",
+                                  "--scaling --vertices 1000",
+                                  "--threads-sweep --peers cg",
+                                  "--simulate-threads 0",
+                                  "--simulate-threads 1 --peers cg",
+                                  "--simulate-threads 1 --scaling",
+                                  "--simulate-threads 1 --threads-sweep",
+                                  "--conditions ventcell",
+                                  "--q 0.1",
+                                  "--memory-limit 0",
+                                  "mesh.obj"}) {
+        CAPTURE(arguments);
+        CHECK(w.run(std::string(BENCHMARK " --json case.json ") + arguments) == 2);
+        CHECK_FALSE(w.said().empty());
+    }
+    CHECK_FALSE(w.has("case.json"));
+    CHECK(w.run(BENCHMARK " --mesh nothing.obj") == 3);
+    (void)w.directory.with("sliver.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nv 0 0 0\n"
+                                         "f 1 2 5\nf 5 2 3\nf 1 5 3\nf 3 4 1\n");
+    CHECK(w.run(BENCHMARK " --mesh sliver.obj --peers none") == 3);
+    CHECK(w.said().find("sliver.obj") != std::string::npos);
+    CHECK(w.run(BENCHMARK " --json nowhere/case.json") == 5);
+    (void)w.directory.with("file", "");
+    CHECK(w.run(BENCHMARK " --export file/below") == 5);
+}
