@@ -36,9 +36,8 @@ void ConvergedFlow::make_systems(const FlowOptions& options)
 {
     oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(systems_.size()), [&](Index s) {
         const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
-        on_behalf_of(sub_mesh, s, [&] {
-            systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian, workspaces_.local());
-        });
+        on_behalf_of(sub_mesh, s,
+                     [&] { systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian); });
     });
     std::size_t largest = 1;
     for (const auto& system : systems_) {

@@ -138,43 +138,12 @@ cholmod_factor* analyse(cholmod_sparse* pattern, int ordering, int supernodal, c
     return factor;
 }
 
-template <class Interface>
-std::vector<Index> order_by(const SparsePattern& upper, CholmodWorkspace& workspace)
-{
-    cholmod_common& common = Interface::common(workspace);
-    MatrixView<typename Interface::Integer> matrix(upper);
-    cholmod_factor* factor = analyse<Interface>(matrix.pattern(), CHOLMOD_AMD, CHOLMOD_SIMPLICIAL, common);
-    const auto* order = static_cast<const typename Interface::Integer*>(factor->Perm);
-    std::vector<Index> result(at(upper.n()));
-    std::transform(order, order + upper.n(), result.begin(), [](auto i) { return static_cast<Index>(i); });
-    Interface::free_factor(&factor, &common);
-    return result;
-}
-
 bool needs_long(const SparsePattern& upper)
 {
     return upper.n() > most_unknowns_for_int;
 }
 
 }  // namespace
-
-std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspace& workspace)
-{
-    return needs_long(upper) ? order_by<LongInterface>(upper, workspace) : order_by<IntInterface>(upper, workspace);
-}
-
-std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last,
-                                     CholmodWorkspace& workspace)
-{
-    cholmod_common& common = workspace.state().common;
-    MatrixView<int> matrix(upper);
-    std::vector<int> groups(is_last.begin(), is_last.end());
-    std::vector<Index> order(is_last.size());
-    if (!order.empty())
-        cholmod_camd(matrix.pattern(), nullptr, 0, groups.data(), order.data(), &common);
-    require_ok(common, "analysis");
-    return order;
-}
 
 class CholmodSolver::Factor {
   public:

@@ -11,17 +11,6 @@
 
 namespace seamflow {
 
-/// An order of elimination with little fill-in for symmetric matrices of this pattern (approximate minimum degree,
-/// postordered): entry i is the i-th unknown to be eliminated.
-/// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @throws ComputationError if CHOLMOD fails (memory).
-std::vector<Index> elimination_order(const SparsePattern& upper, CholmodWorkspace& workspace);
-
-/// The same with some unknowns last.
-/// @param is_last one per unknown.
-std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last,
-                                     CholmodWorkspace& workspace);
-
 /// LLᵀ factorisation of symmetric sparse matrices of one pattern by dense blocks, by CHOLMOD, in the order in which the
 /// unknowns are: analysed once, factorised for each set of values, a factor used for any number of right-hand sides,
 /// three at a time.

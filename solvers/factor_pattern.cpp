@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "solvers/cholmod_solver.h"
+#include "solvers/elimination_order.h"
 
 namespace seamflow {
 
@@ -54,10 +54,11 @@ bool belong_together(const Tree& tree, Index column)
     return tree.parent[at(column)] == column + 1 && tree.count[at(column)] == tree.count[at(column) + 1] + 1;
 }
 
-/// Fills in the blocks, and calls visit(row, block, place) for each row that a block has outside itself, rows
-/// ascending; `place` is where the row stands among those of the block.
-template <class Visit>
-void list_blocks(const SparsePattern& upper, Index n_last, FactorPattern& factor, Visit visit)
+/// Fills in the blocks. Calls on_row(row, block, place) for each row that a block has outside itself, rows ascending;
+/// `place` is where the row stands among those of the block. Calls on_entry(slot, place) for each entry of the matrix
+/// in order; there `place` is where its column stands among the rows of the block of its row.
+template <class OnRow, class OnEntry>
+void list_blocks(const SparsePattern& upper, Index n_last, FactorPattern& factor, OnRow on_row, OnEntry on_entry)
 {
     const Index n = upper.n();
     const Tree tree = make_tree(upper);
@@ -81,43 +82,54 @@ void list_blocks(const SparsePattern& upper, Index n_last, FactorPattern& factor
         next[at(b)] = factor.rows.offsets[at(b)] + factor.width(b);
     std::vector<Index> visited(at(factor.n_blocks()), -1);
     for (Index row = 0; row < n; ++row) {
-        visited[at(block_of[at(row)])] = row;
-        for (Index k = upper.column_offsets[at(row)]; k < upper.column_offsets[at(row) + 1]; ++k)
-            for (Index b = block_of[at(upper.rows[at(k)])]; visited[at(b)] != row; b = block_of[at(parent[at(b)])]) {
+        const Index own = block_of[at(row)];
+        visited[at(own)] = row;
+        for (Index k = upper.column_offsets[at(row)]; k < upper.column_offsets[at(row) + 1]; ++k) {
+            const Index block = block_of[at(upper.rows[at(k)])];
+            for (Index b = block; visited[at(b)] != row; b = block_of[at(parent[at(b)])]) {
                 visited[at(b)] = row;
                 factor.rows.values[at(next[at(b)])] = row;
-                visit(row, b, next[at(b)]++ - factor.rows.offsets[at(b)]);
+                on_row(row, b, next[at(b)]++ - factor.rows.offsets[at(b)]);
             }
+            on_entry(k,
+                     block == own ? row - factor.first[at(own)] : next[at(block)] - 1 - factor.rows.offsets[at(block)]);
+        }
     }
 }
 
 }  // namespace
 
-FactorPattern make_factor_pattern(const SparsePattern& pattern, CholmodWorkspace& workspace)
+FactorPattern make_factor_pattern(const SparsePattern& pattern)
 {
     const Index n = pattern.n();
     FactorPattern factor;
     factor.position.resize(at(n));
     std::iota(factor.position.begin(), factor.position.end(), 0);
-    const std::vector<Index> order = elimination_order(symmetrised(pattern, factor.position), workspace);
+    const std::vector<Index> order = elimination_order(symmetrised(pattern, factor.position));
     for (Index i = 0; i < n; ++i)
         factor.position[at(order[at(i)])] = i;
 
     factor.update_offsets.assign(at(n) + 1, 0);
-    list_blocks(symmetrised(pattern, factor.position), 0, factor, [&](Index row, Index block, Index place) {
-        factor.updates.push_back({block, place});
-        ++factor.update_offsets[at(row) + 1];
-    });
+    list_blocks(
+        symmetrised(pattern, factor.position), 0, factor,
+        [&](Index row, Index block, Index place) {
+            factor.updates.push_back({block, place});
+            ++factor.update_offsets[at(row) + 1];
+        },
+        [](Index, Index) {});
     std::partial_sum(factor.update_offsets.begin(), factor.update_offsets.end(), factor.update_offsets.begin());
     return factor;
 }
 
-FactorPattern make_factor_pattern(const SparsePattern& upper, Index n_last)
+FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, std::vector<Index>& places)
 {
     FactorPattern factor;
     factor.position.resize(at(upper.n()));
     std::iota(factor.position.begin(), factor.position.end(), 0);
-    list_blocks(upper, n_last, factor, [](Index, Index, Index) {});
+    places.resize(upper.rows.size());
+    list_blocks(
+        upper, n_last, factor, [](Index, Index, Index) {},
+        [&](Index entry, Index place) { places[at(entry)] = place; });
     return factor;
 }
 

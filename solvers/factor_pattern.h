@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "partition/index_lists.h"
-#include "solvers/cholmod_workspace.h"
 #include "solvers/sparse_pattern.h"
 
 namespace seamflow {
@@ -35,12 +34,14 @@ struct FactorPattern {
     [[nodiscard]] Index width(Index block) const { return first[at(block) + 1] - first[at(block)]; }
 };
 
-/// @throws ComputationError if CHOLMOD fails (memory), which finds the order of elimination.
-FactorPattern make_factor_pattern(const SparsePattern& pattern, CholmodWorkspace& workspace);
+/// For a matrix of any pattern, in an order of elimination of its own.
+/// @throws ComputationError if there is too little memory.
+FactorPattern make_factor_pattern(const SparsePattern& pattern);
 
-/// The pattern for a symmetric matrix whose unknowns are in the order of elimination, without `updates`.
+/// For a symmetric matrix whose unknowns are in the order of elimination, without `updates`.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @param n_last the last unknowns, which are made one block in any case.
-FactorPattern make_factor_pattern(const SparsePattern& upper, Index n_last);
+/// @param places receives, per entry of the matrix, where its column stands among the rows of its row's block.
+FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, std::vector<Index>& places);
 
 }  // namespace seamflow

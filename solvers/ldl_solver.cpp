@@ -24,7 +24,7 @@ std::vector<Index> blocks_of_unknowns(const FactorPattern& pattern)
 
 LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last)
     : n_last_(n_last)
-    , pattern_(make_factor_pattern(upper, n_last))
+    , pattern_(make_symmetric_factor_pattern(upper, n_last, places_))
 {
     for (Index b = 0; b < pattern_.n_blocks(); ++b) {
         const std::size_t end = at(panels_.back()) + at(pattern_.width(b)) * pattern_.rows[b].size();
@@ -32,13 +32,13 @@ LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last)
             throw ComputationError("the system's factor is too large: use more sub-meshes");
         panels_.push_back(static_cast<Index>(end));
     }
-    list_updates();
-    list_places(upper);
+    const std::vector<Index> block_of = blocks_of_unknowns(pattern_);
+    list_updates(block_of);
+    find_places(upper, block_of);
 }
 
-void LdlSolver::list_updates()
+void LdlSolver::list_updates(const std::vector<Index>& block_of)
 {
-    const std::vector<Index> block_of = blocks_of_unknowns(pattern_);
     const auto for_each_update = [&](auto use) {
         for (Index earlier = 0; earlier < pattern_.n_blocks(); ++earlier) {
             const auto rows = pattern_.rows[earlier];
@@ -59,20 +59,15 @@ void LdlSolver::list_updates()
     for_each_update([&](Index later, const Update& update) { updates_[at(next[at(later)]++)] = update; });
 }
 
-/// An entry of column j belongs to the block of its row, which is eliminated first.
-void LdlSolver::list_places(const SparsePattern& upper)
+/// An entry of column j belongs to the block of its row, which is eliminated first; where j stands among the rows of
+/// that block is known.
+void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>& block_of)
 {
-    const std::vector<Index> block_of = blocks_of_unknowns(pattern_);
-    places_.reserve(upper.rows.size());
-    for (Index column = 0; column < upper.n(); ++column)
-        for (Index k = upper.column_offsets[at(column)]; k < upper.column_offsets[at(column) + 1]; ++k) {
-            const Index row = upper.rows[at(k)];
-            const Index block = block_of[at(row)];
-            const auto rows = pattern_.rows[block];
-            const auto place = std::lower_bound(rows.begin(), rows.end(), column) - rows.begin();
-            places_.push_back(panels_[at(block)] + static_cast<Index>(place) * pattern_.width(block) + row -
-                              pattern_.first[at(block)]);
-        }
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        const Index row = upper.rows[k];
+        const Index block = block_of[at(row)];
+        places_[k] = panels_[at(block)] + places_[k] * pattern_.width(block) + row - pattern_.first[at(block)];
+    }
 }
 
 bool LdlSolver::factorise(std::span<const double> values, FactorMemory& memory, LdlWorkspace& workspace)

@@ -70,8 +70,8 @@ class LdlSolver {
         Index n_columns;
     };
 
-    void list_updates();
-    void list_places(const SparsePattern& upper);
+    void list_updates(const std::vector<Index>& block_of);
+    void find_places(const SparsePattern& upper, const std::vector<Index>& block_of);
     void subtract_updates(Index block, LdlWorkspace& workspace) const;
     void eliminate(double* x, Index n) const;
     void substitute_back(double* x, Index n) const;
@@ -82,14 +82,14 @@ class LdlSolver {
     }
 
     Index n_last_;
+    /// Per entry of the matrix: where it stands in the factor's memory.
+    std::vector<Index> places_;
     FactorPattern pattern_;
     /// Per block, where it begins in the factor's memory, and where the last one ends.
     std::vector<Index> panels_{0};
     /// Per block, and one more.
     std::vector<Index> update_offsets_;
     std::vector<Update> updates_;
-    /// Per entry of the matrix: where it stands in the factor's memory.
-    std::vector<Index> places_;
     std::span<std::byte> memory_;
 };
 

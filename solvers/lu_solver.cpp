@@ -50,8 +50,8 @@ void subtract(const Pair* columns, Index n_columns, std::span<const Index> rows,
 
 }  // namespace
 
-LuSolver::LuSolver(const SparsePattern& pattern, CholmodWorkspace& workspace)
-    : pattern_(make_factor_pattern(pattern, workspace))
+LuSolver::LuSolver(const SparsePattern& pattern)
+    : pattern_(make_factor_pattern(pattern))
 {
     for (Index b = 0; b < pattern_.n_blocks(); ++b)
         panels_.push_back(panels_.back() + at(pattern_.width(b)) * pattern_.rows[b].size());

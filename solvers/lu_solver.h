@@ -22,7 +22,7 @@ class LuSolver {
   public:
     /// Analyses the pattern, which is needed only during the call.
     /// @throws ComputationError if CHOLMOD, which finds the order of elimination, fails (memory).
-    LuSolver(const SparsePattern& pattern, CholmodWorkspace& workspace);
+    explicit LuSolver(const SparsePattern& pattern);
 
     /// What a factor takes, in bytes.
     [[nodiscard]] std::size_t factor_bytes() const { return panels_.back() * sizeof(Eigen::Array2d); }

@@ -9,11 +9,11 @@ constexpr Index most_unknowns_for_lu = 20'000;
 
 }  // namespace
 
-UnsymmetricSolver::UnsymmetricSolver(const SparsePattern& pattern, SolverWorkspace& workspace)
+UnsymmetricSolver::UnsymmetricSolver(const SparsePattern& pattern)
     : pattern_(&pattern)
 {
     if (pattern.n() <= most_unknowns_for_lu)
-        lu_ = std::make_unique<LuSolver>(pattern, workspace.cholmod);
+        lu_ = std::make_unique<LuSolver>(pattern);
     else
         umfpack_ = std::make_unique<UmfpackSolver>(pattern);
 }

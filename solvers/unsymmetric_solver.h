@@ -17,7 +17,7 @@ class UnsymmetricSolver {
   public:
     /// @param pattern must outlive the solver.
     /// @throws ComputationError if the analysis fails (memory).
-    UnsymmetricSolver(const SparsePattern& pattern, SolverWorkspace& workspace);
+    explicit UnsymmetricSolver(const SparsePattern& pattern);
 
     /// What a factor takes, in bytes; of UMFPACK's an estimate.
     [[nodiscard]] std::size_t factor_bytes() const;

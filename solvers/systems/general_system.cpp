@@ -19,7 +19,7 @@ FaceView faces_of(const SubMesh& sub_mesh)
 }  // namespace
 
 GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
-                             std::unique_ptr<TransmissionCondition> condition, SolverWorkspace& workspace)
+                             std::unique_ptr<TransmissionCondition> condition)
     : sub_mesh_(&sub_mesh)
     , condition_(std::move(condition))
     , laplacian_(make_assembler(laplacian, faces_of(sub_mesh)))
@@ -51,7 +51,7 @@ GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
         for (const Index column : interface_columns[i])
             interface_slots_.push_back(pattern_->slot({column, sub_mesh.interface.vertices[at(i)]}));
     values_.resize(at(unread) + 1);
-    solver_ = std::make_unique<UnsymmetricSolver>(*pattern_, workspace);
+    solver_ = std::make_unique<UnsymmetricSolver>(*pattern_);
 }
 
 void GeneralSystem::make_rows()

@@ -18,8 +18,7 @@ class GeneralSystem final : public SubMeshSystem {
     /// @param sub_mesh must outlive the system.
     /// @param condition what stands on Γ where the sub-mesh leads.
     /// @throws ComputationError if the analysis fails.
-    GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
-                  SolverWorkspace& workspace);
+    GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition);
 
     void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;

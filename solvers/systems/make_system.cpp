@@ -30,7 +30,7 @@ std::unique_ptr<SubMeshSystem> make_system(const SubMesh& sub_mesh, Laplacian la
 {
     if (sub_mesh.interface.vertices.empty())
         return make_following_system(sub_mesh, laplacian, workspace);
-    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, std::move(condition), workspace);
+    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, std::move(condition));
 }
 
 std::unique_ptr<SubMeshSystem> make_predicted_system(const SubMesh& sub_mesh, Laplacian laplacian,
@@ -46,7 +46,7 @@ std::unique_ptr<SubMeshSystem> make_following_system(const SubMesh& sub_mesh, La
 {
     if (is_symmetric(laplacian))
         return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::None, workspace);
-    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, make_dirichlet(sub_mesh), workspace);
+    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, make_dirichlet(sub_mesh));
 }
 
 }  // namespace seamflow

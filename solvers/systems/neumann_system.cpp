@@ -4,27 +4,27 @@
 #include <cmath>
 
 #include "partition/errors.h"
-#include "solvers/cholmod_solver.h"
+#include "solvers/elimination_order.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
 
-NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian, SolverWorkspace& workspace)
+NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
     : sub_mesh_(&sub_mesh)
     , laplacian_(
           make_symmetric_laplacian(laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces, sub_mesh.twin,
                                                sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces}))
 {
     const std::vector<VertexPair> pairs = laplacian_->pairs();
-    number_unknowns(pairs, workspace);
-    place_pairs(pairs);
+    number_unknowns(pairs);
+    list_couplings(pairs);
     mass_.resize(vertex_of_.size());
     solver_ = std::make_unique<LdlSolver>(upper_, n_interface());
 }
 
 /// The interior in the order of elimination, then Γ.
-void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace)
+void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs)
 {
     std::vector<bool> on_interface(at(sub_mesh_->n_vertices), false);
     for (const Index v : sub_mesh_->interface.vertices)
@@ -39,36 +39,31 @@ void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs, Solver
             is_last.push_back(on_interface[at(v)]);
         }
     const auto n = static_cast<Index>(vertices.size());
-    const auto order = elimination_order(upper_pattern(pairs, unknown_of_, n), is_last, workspace.cholmod);
+    const auto order = elimination_order(upper_pattern(pairs, unknown_of_, n).pattern, is_last);
     for (const Index u : order)
         if (!is_last[at(u)])
             vertex_of_.push_back(vertices[at(u)]);
     vertex_of_.insert(vertex_of_.end(), sub_mesh_->interface.vertices.begin(), sub_mesh_->interface.vertices.end());
     for (Index u = 0; u < n; ++u)
         unknown_of_[at(vertex_of_[at(u)])] = u;
-    upper_ = upper_pattern(pairs, unknown_of_, n);
-    for (Index u = 0; u < n; ++u)
-        diagonal_slots_.push_back(upper_.slot({u, u}));
+    auto [pattern, slots] = upper_pattern(pairs, unknown_of_, n);
+    upper_ = std::move(pattern);
+    slots_ = std::move(slots);
 }
 
-void NeumannSystem::place_pairs(const std::vector<VertexPair>& pairs)
+/// What is no entry of the matrix: at fixed vertices.
+void NeumannSystem::list_couplings(const std::vector<VertexPair>& pairs)
 {
-    constexpr Index unread = -1;
-    slots_.reserve(pairs.size());
-    for (auto [a, b] : pairs) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        auto [a, b] = pairs[i];
         if (unknown_of_[at(a)] < 0)
             std::swap(a, b);
-        const Index unknown = unknown_of_[at(a)];
-        if (unknown < 0) {
-            slots_.push_back(unread);
-        } else if (unknown_of_[at(b)] >= 0) {
-            slots_.push_back(upper_.slot(upper_entry(unknown, unknown_of_[at(b)])));
-        } else {
-            slots_.push_back(upper_.n_entries() + static_cast<Index>(fixed_.size()));
-            fixed_.push_back({unknown, b, 0.0});
-        }
+        if (slots_[i] >= 0 || unknown_of_[at(a)] < 0)
+            continue;
+        slots_[i] = upper_.n_entries() + static_cast<Index>(fixed_.size());
+        fixed_.push_back({unknown_of_[at(a)], b, 0.0});
     }
-    std::replace(slots_.begin(), slots_.end(), unread, upper_.n_entries() + static_cast<Index>(fixed_.size()));
+    std::replace(slots_.begin(), slots_.end(), Index{-1}, upper_.n_entries() + static_cast<Index>(fixed_.size()));
 }
 
 void NeumannSystem::assemble(const Points& positions, double time_step, SolverWorkspace& workspace)
@@ -80,7 +75,8 @@ void NeumannSystem::assemble(const Points& positions, double time_step, SolverWo
     laplacian_->assemble(positions, time_step, slots_, workspace.values, workspace.diagonal, workspace.mass);
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
         mass_[u] = workspace.mass[at(vertex_of_[u])];
-        workspace.values[at(diagonal_slots_[u])] = mass_[u] + workspace.diagonal[at(vertex_of_[u])];
+        workspace.values[at(diagonal_slot(upper_, static_cast<Index>(u)))] =
+            mass_[u] + workspace.diagonal[at(vertex_of_[u])];
     }
     for (std::size_t c = 0; c < fixed_.size(); ++c)
         fixed_[c].value = workspace.values[n_entries + c];

@@ -21,7 +21,7 @@ class NeumannSystem {
   public:
     /// @param sub_mesh must outlive the system; without overlap.
     /// @throws ComputationError if the analysis fails.
-    NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian, SolverWorkspace& workspace);
+    NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian);
 
     /// Number of vertices on Γ.
     [[nodiscard]] Index n_interface() const { return sub_mesh_->interface.size(); }
@@ -59,8 +59,8 @@ class NeumannSystem {
     [[nodiscard]] std::size_t factor_bytes() const { return solver_->factor_bytes(); }
 
   private:
-    void number_unknowns(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace);
-    void place_pairs(const std::vector<VertexPair>& pairs);
+    void number_unknowns(const std::vector<VertexPair>& pairs);
+    void list_couplings(const std::vector<VertexPair>& pairs);
     [[nodiscard]] Index n_interior() const { return static_cast<Index>(vertex_of_.size()) - n_interface(); }
 
     const SubMesh* sub_mesh_;
@@ -72,7 +72,6 @@ class NeumannSystem {
     std::unique_ptr<LdlSolver> solver_;
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then one that nobody reads.
     std::vector<Index> slots_;
-    std::vector<Index> diagonal_slots_;
     std::vector<Coupling> fixed_;
     /// Per unknown.
     std::vector<double> mass_;

@@ -5,6 +5,7 @@
 
 #include "partition/errors.h"
 #include "solvers/conditions/remainder.h"
+#include "solvers/elimination_order.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
 
@@ -18,8 +19,8 @@ SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, S
 {
     number_unknowns(rows);
     const std::vector<VertexPair> pairs = laplacian_->pairs();
-    list_entries(pairs, workspace);
-    place_pairs(pairs);
+    list_entries(pairs);
+    list_couplings(pairs);
     if (rows == SymmetricRows::Yielding)
         list_interface();
     mass_.resize(vertex_of_.size());
@@ -44,34 +45,32 @@ void SymmetricSystem::number_unknowns(SymmetricRows rows)
 }
 
 /// Renumbers the unknowns in the order of elimination.
-void SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace)
+void SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs)
 {
     const auto n = static_cast<Index>(vertex_of_.size());
-    const std::vector<Index> order = elimination_order(upper_pattern(pairs, unknown_of_, n), workspace.cholmod);
+    const std::vector<Index> order = elimination_order(upper_pattern(pairs, unknown_of_, n).pattern);
     std::vector<Index> vertex_of(at(n));
     std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return vertex_of_[at(u)]; });
     vertex_of_ = std::move(vertex_of);
     for (Index u = 0; u < n; ++u)
         unknown_of_[at(vertex_of_[at(u)])] = u;
-    upper_ = upper_pattern(pairs, unknown_of_, n);
-    for (Index u = 0; u < n; ++u)
-        diagonal_slots_.push_back(upper_.slot({u, u}));
+    auto [pattern, slots] = upper_pattern(pairs, unknown_of_, n);
+    upper_ = std::move(pattern);
+    slots_ = std::move(slots);
 }
 
-/// Sorts the pairs into entries of the matrix and couplings; those beyond Γ by the vertices of Γ.
-void SymmetricSystem::place_pairs(const std::vector<VertexPair>& pairs)
+/// What is no entry of the matrix; what is beyond Γ by the vertices of Γ.
+void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs)
 {
-    constexpr Index unread = -1;
     std::vector<std::size_t> at_fixed;
     std::vector<std::pair<Index, std::size_t>> at_beyond;
-    slots_.assign(pairs.size(), unread);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (slots_[i] >= 0)
+            continue;
         const auto [a, b] = unknown_first(pairs[i]);
         if (!is_unknown(a))
             continue;
-        if (is_unknown(b))
-            slots_[i] = upper_.slot(upper_entry(unknown_of_[at(a)], unknown_of_[at(b)]));
-        else if (b < sub_mesh_->n_vertices)
+        if (b < sub_mesh_->n_vertices)
             at_fixed.push_back(i);
         else
             at_beyond.emplace_back(a, i);
@@ -87,7 +86,7 @@ void SymmetricSystem::place_pairs(const std::vector<VertexPair>& pairs)
         slots_[i] = slot++;
         beyond_.push_back({unknown_of_[at(a)], unknown_first(pairs[i]).second, 0.0});
     }
-    std::replace(slots_.begin(), slots_.end(), unread, slot);
+    std::replace(slots_.begin(), slots_.end(), Index{-1}, slot);
 }
 
 VertexPair SymmetricSystem::unknown_first(VertexPair pair) const
@@ -139,7 +138,7 @@ void SymmetricSystem::assemble(const Points& positions, const Points& other_side
 
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
         mass_[u] = workspace.mass[at(vertex_of_[u])];
-        values[at(diagonal_slots_[u])] = mass_[u] + workspace.diagonal[at(vertex_of_[u])];
+        values[at(diagonal_slot(upper_, static_cast<Index>(u)))] = mass_[u] + workspace.diagonal[at(vertex_of_[u])];
     }
     for (std::size_t c = 0; c < fixed_.size(); ++c)
         fixed_[c].value = values[n_entries + c];
@@ -166,7 +165,7 @@ void SymmetricSystem::hold(std::size_t i, std::span<double> values)
         held_.push_back({entry.unknown, sub_mesh_->interface.vertices[i], values[at(entry.slot)]});
         values[at(entry.slot)] = 0.0;
     }
-    values[at(diagonal_slots_[at(unknown_of_[at(sub_mesh_->interface.vertices[i])])])] = 1.0;
+    values[at(diagonal_slot(upper_, unknown_of_[at(sub_mesh_->interface.vertices[i])]))] = 1.0;
 }
 
 /// Takes from the diagonal what the other side yields; nothing where too little would remain.
@@ -179,7 +178,7 @@ void SymmetricSystem::yield(std::size_t i, const Points& positions, double time_
     for (Index c = beyond_offsets_[i]; c < beyond_offsets_[i + 1]; ++c)
         yield += beyond_[at(c)].value * remainder_between(positions, v, beyond_[at(c)].vertex, time_step);
     interface_rows_[i].yield = diagonal + yield >= 0.0 ? yield : 0.0;
-    values[at(diagonal_slots_[at(unknown_of_[at(v)])])] += interface_rows_[i].yield;
+    values[at(diagonal_slot(upper_, unknown_of_[at(v)]))] += interface_rows_[i].yield;
 }
 
 void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
@@ -212,7 +211,8 @@ void SymmetricSystem::stop_yielding(std::span<double> values)
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
         if (interface_rows_[i].role == InterfaceRole::Follows)
             continue;
-        values[at(diagonal_slots_[at(unknown_of_[at(sub_mesh_->interface.vertices[i])])])] -= interface_rows_[i].yield;
+        values[at(diagonal_slot(upper_, unknown_of_[at(sub_mesh_->interface.vertices[i])]))] -=
+            interface_rows_[i].yield;
         interface_rows_[i].yield = 0.0;
     }
 }

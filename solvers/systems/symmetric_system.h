@@ -54,8 +54,8 @@ class SymmetricSystem final : public SubMeshSystem {
     };
 
     void number_unknowns(SymmetricRows rows);
-    void list_entries(const std::vector<VertexPair>& pairs, SolverWorkspace& workspace);
-    void place_pairs(const std::vector<VertexPair>& pairs);
+    void list_entries(const std::vector<VertexPair>& pairs);
+    void list_couplings(const std::vector<VertexPair>& pairs);
     void list_interface();
     void hold(std::size_t i, std::span<double> values);
     void yield(std::size_t i, const Points& positions, double time_step, double diagonal, std::span<double> values);
@@ -75,7 +75,6 @@ class SymmetricSystem final : public SubMeshSystem {
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then of `beyond_`, then one that nobody
     /// reads.
     std::vector<Index> slots_;
-    std::vector<Index> diagonal_slots_;
     /// Coefficients at own vertices that are never unknown; and at vertices of the halo.
     std::vector<Coupling> fixed_;
     std::vector<Coupling> beyond_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "solvers/laplacian/symmetric_laplacian.h"
@@ -15,15 +14,22 @@ struct Coupling {
     double value = 0.0;
 };
 
-/// The entry of two unknowns on or above the diagonal.
-inline MatrixEntry upper_entry(Index a, Index b)
-{
-    return {std::max(a, b), std::min(a, b)};
-}
+/// The upper triangle of a symmetric matrix, its diagonal included, and where pairs of vertices stand in it.
+struct UpperPattern {
+    SparsePattern pattern;
+    /// Per pair: its entry; -1 where not both are unknown.
+    std::vector<Index> slots;
+};
 
-/// The upper triangle of a symmetric matrix, its diagonal included.
 /// @param unknown_of per vertex, or -1; vertices beyond its end are not unknown.
 /// @param n number of unknowns.
-SparsePattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n);
+/// @throws ComputationError if there are 2³¹ entries or more.
+UpperPattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n);
+
+/// The entry of an unknown on the diagonal, which is the last of its column.
+inline Index diagonal_slot(const SparsePattern& upper, Index unknown)
+{
+    return upper.column_offsets[at(unknown) + 1] - 1;
+}
 
 }  // namespace seamflow

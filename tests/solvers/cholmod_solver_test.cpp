@@ -45,26 +45,3 @@ TEST_CASE("a matrix that is not positive definite is found out, and the solver g
     REQUIRE(solver.factorise(matrix.values, workspace));
     CHECK((matrix.dense * Columns(solver.solve(right, workspace)) - right).norm() < 1e-10);
 }
-
-TEST_CASE("the order of elimination is a permutation with less fill-in than the rows' own order")
-{
-    RandomNumbers random(3);
-    CholmodWorkspace workspace;
-    const SymmetricMatrix matrix = grid_matrix(20, 1.0, random);
-    std::vector<Index> order = elimination_order(matrix.upper, workspace);
-    const auto fill_in = [&](const std::vector<Index>& eliminated) {
-        Eigen::MatrixXd filled = matrix.dense;
-        for (std::size_t i = 0; i < eliminated.size(); ++i)
-            for (std::size_t j = i + 1; j < eliminated.size(); ++j)
-                for (std::size_t k = i + 1; k < eliminated.size(); ++k)
-                    if (filled(eliminated[i], eliminated[j]) != 0.0 && filled(eliminated[i], eliminated[k]) != 0.0)
-                        filled(eliminated[j], eliminated[k]) = 1.0;
-        return (filled.array() != 0.0).count();
-    };
-    std::vector<Index> identity(order.size());
-    for (std::size_t i = 0; i < identity.size(); ++i)
-        identity[i] = static_cast<Index>(i);
-    CHECK(fill_in(order) < fill_in(identity) / 2);
-    std::sort(order.begin(), order.end());
-    CHECK(order == identity);
-}

@@ -40,15 +40,27 @@ Eigen::MatrixXi from_blocks(const FactorPattern& factor)
     return filled;
 }
 
+/// Every entry's column stands where it is said among the rows of its row's block.
+void check_places(const SparsePattern& upper, const FactorPattern& factor, const std::vector<Index>& places)
+{
+    REQUIRE(places.size() == upper.rows.size());
+    for (Index column = 0; column < upper.n(); ++column)
+        for (Index k = upper.column_offsets[at(column)]; k < upper.column_offsets[at(column) + 1]; ++k) {
+            Index block = 0;
+            while (factor.first[at(block) + 1] <= upper.rows[at(k)])
+                ++block;
+            CHECK(factor.rows[block][at(places[at(k)])] == column);
+        }
+}
+
 }  // namespace
 
 TEST_CASE("the blocks have exactly the entries that elimination fills in")
 {
     RandomNumbers random(1);
-    CholmodWorkspace workspace;
     for (const Index n : {1, 2, 9, 60}) {
         const SparsePattern pattern = random_pattern(n, random);
-        const FactorPattern factor = make_factor_pattern(pattern, workspace);
+        const FactorPattern factor = make_factor_pattern(pattern);
         std::vector<Index> position = factor.position;
         CHECK(from_blocks(factor) == eliminated(pattern, position));
         std::sort(position.begin(), position.end());
@@ -62,8 +74,7 @@ TEST_CASE("the blocks have exactly the entries that elimination fills in")
 TEST_CASE("an unknown is updated once by each earlier block that has a row there")
 {
     RandomNumbers random(2);
-    CholmodWorkspace workspace;
-    const FactorPattern factor = make_factor_pattern(random_pattern(60, random), workspace);
+    const FactorPattern factor = make_factor_pattern(random_pattern(60, random));
     std::size_t n_expected = 0;
     for (Index b = 0; b < factor.n_blocks(); ++b) {
         CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end()));
@@ -83,8 +94,7 @@ TEST_CASE("an unknown is updated once by each earlier block that has a row there
 
 TEST_CASE("a pattern without unknowns has no blocks")
 {
-    CholmodWorkspace workspace;
-    CHECK(make_factor_pattern(SparsePattern{}, workspace).n_blocks() == 0);
+    CHECK(make_factor_pattern(SparsePattern{}).n_blocks() == 0);
 }
 
 TEST_CASE("in a given order the last unknowns are one block, and the others have the entries that elimination fills in")
@@ -100,12 +110,14 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
             }
         }
         const SparsePattern upper = make_pattern(30, entries);
-        const FactorPattern factor = make_factor_pattern(upper, n_last);
+        std::vector<Index> places;
+        const FactorPattern factor = make_symmetric_factor_pattern(upper, n_last, places);
         Eigen::MatrixXi expected = eliminated(upper, factor.position);
         expected.bottomRightCorner(n_last, n_last).triangularView<Eigen::Lower>().setOnes();
         CHECK(from_blocks(factor) == expected);
         if (n_last > 0)
             CHECK(factor.width(factor.n_blocks() - 1) == n_last);
         CHECK(factor.updates.empty());
+        check_places(upper, factor, places);
     }
 }

@@ -24,11 +24,10 @@ Columns solved(LuSolver& solver, std::span<const double> values, const Columns& 
 TEST_CASE("three systems are solved at once, for one set of values after the other, with any workspace")
 {
     RandomNumbers random(1);
-    CholmodWorkspace cholmod;
     LuWorkspace workspace;
     for (const Index n : {1, 2, 3, 10, 150, 40}) {
         const SparsePattern pattern = random_pattern(n, random);
-        LuSolver solver(pattern, cholmod);
+        LuSolver solver(pattern);
         for (int repetition = 0; repetition < 3; ++repetition) {
             const auto values = random_values(pattern, random);
             const Columns right_hand_side = random_columns(n, random);
@@ -45,7 +44,6 @@ TEST_CASE("three systems are solved at once, for one set of values after the oth
 TEST_CASE("without any entries that are zero there is one block, solved like any other matrix")
 {
     RandomNumbers random(2);
-    CholmodWorkspace cholmod;
     LuWorkspace workspace;
     std::vector<MatrixEntry> entries;
     for (Index i = 0; i < 23; ++i)
@@ -55,7 +53,7 @@ TEST_CASE("without any entries that are zero there is one block, solved like any
     auto values = random_values(pattern, random);
     for (Index i = 0; i < 23; ++i)
         values[at(pattern.slot({i, i}))] += 20.0;
-    LuSolver solver(pattern, cholmod);
+    LuSolver solver(pattern);
     const Columns right_hand_side = random_columns(23, random);
     const Columns expected = dense(pattern, values).fullPivLu().solve(right_hand_side);
     CHECK((solved(solver, values, right_hand_side, workspace) - expected).cwiseAbs().maxCoeff() < 1e-13);
@@ -64,7 +62,6 @@ TEST_CASE("without any entries that are zero there is one block, solved like any
 TEST_CASE("the size of a row does not matter")
 {
     RandomNumbers random(3);
-    CholmodWorkspace cholmod;
     LuWorkspace workspace;
     const SparsePattern pattern = random_pattern(60, random);
     auto values = random_values(pattern, random);
@@ -75,17 +72,16 @@ TEST_CASE("the size of a row does not matter")
             values[slot] *= 1e9;
     for (Index row = 0; row < 60; row += 3)
         right_hand_side.row(row) *= 1e9;
-    LuSolver solver(pattern, cholmod);
+    LuSolver solver(pattern);
     CHECK((solved(solver, values, right_hand_side, workspace) - expected).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("a diagonal that will not do is found out, and the solver goes on with others")
 {
     RandomNumbers random(4);
-    CholmodWorkspace cholmod;
     LuWorkspace workspace;
     const SparsePattern pattern = random_pattern(40, random);
-    LuSolver solver(pattern, cholmod);
+    LuSolver solver(pattern);
     const auto values = random_values(pattern, random);
     for (const double pivot : {0.0, 1e-5, -1e-5}) {
         auto without_pivot = values;

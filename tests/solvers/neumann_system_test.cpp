@@ -43,7 +43,7 @@ TEST_CASE("the whole step satisfies the sum of the sub-meshes' equations on Γ, 
             std::map<Index, Point> residuals;
             double largest = 0.0;
             for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
-                NeumannSystem system(sub_mesh, laplacian, workspace);
+                NeumannSystem system(sub_mesh, laplacian);
                 const Points positions = localised(sub_mesh, cut.mesh.vertices);
                 const Points solved = localised(sub_mesh, expected);
                 system.assemble(positions, time_step, workspace);

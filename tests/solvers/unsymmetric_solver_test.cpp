@@ -27,7 +27,7 @@ TEST_CASE("matrices with and without a diagonal are solved by turns, singular on
     RandomNumbers random(1);
     SolverWorkspace workspace;
     const SparsePattern pattern = random_pattern(50, random);
-    UnsymmetricSolver solver(pattern, workspace);
+    UnsymmetricSolver solver(pattern);
     for (int repetition = 0; repetition < 3; ++repetition) {
         const auto with_diagonal = random_values(pattern, random);
         auto without_diagonal = with_diagonal;
@@ -46,7 +46,7 @@ TEST_CASE("a matrix without any diagonal is solved")
 {
     SolverWorkspace workspace;
     const SparsePattern pattern = make_pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
-    UnsymmetricSolver solver(pattern, workspace);
+    UnsymmetricSolver solver(pattern);
     Columns right_hand_side(2, 3);
     right_hand_side << 1, 2, 3, 4, 5, 6;
     const Columns solution = solved(solver, std::vector<double>{0.0, 2.0, 4.0, 0.0}, right_hand_side, workspace);
@@ -66,7 +66,7 @@ TEST_CASE("large systems are solved too")
             entries.push_back({i, j});
     const SparsePattern pattern = make_pattern(n, entries);
     const auto values = random_values(pattern, random);
-    UnsymmetricSolver solver(pattern, workspace);
+    UnsymmetricSolver solver(pattern);
     const Columns right_hand_side = random_columns(n, random);
     const Columns solution = solved(solver, values, right_hand_side, workspace);
     Columns residual = -right_hand_side;
