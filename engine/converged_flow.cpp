@@ -21,8 +21,8 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
-    , interface_(equation_.size(), 3)
-    , condensed_(equation_.n_copies(), 3)
+    , interface_(equation_.copies().n_vertices(), 3)
+    , condensed_(equation_.copies().n_copies(), 3)
     , eliminated_(decomposition_.sub_meshes.size())
     , seconds_(decomposition_.sub_meshes.size())
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
@@ -103,21 +103,26 @@ void ConvergedFlow::eliminate(Index s)
     seconds_[at(s)].assemble += watch.lap();
     system.factorise(workspace);
     seconds_[at(s)].factorise += watch.lap();
-    const Index first = equation_.first_copy(s);
+    const Index first = equation_.copies().first[at(s)];
     system.condense(workspace.positions, eliminated_[at(s)], condensed_.middleRows(first, system.n_interface()));
     const auto& interface = sub_mesh.interface;
     for (Index i = 0; i < interface.size(); ++i)
         if (interface.sharing[i].front() == s)
-            interface_.row(equation_.vertex_of_copy(first + i)) = workspace.positions.row(interface.vertices[at(i)]);
+            interface_.row(equation_.copies().vertex[at(first + i)]) = workspace.positions.row(interface.vertices[at(i)]);
     seconds_[at(s)].solve += watch.lap();
 }
 
 void ConvergedFlow::solve_interface()
 {
     const Stopwatch watch;
-    result_ = equation_.solve(system_views_, condensed_, stop_, interface_, run_in_parallel);
+    if (before_.size() > 0)
+        guess_ = interface_ - before_;
+    before_ = interface_;
+    result_ = equation_.solve(system_views_, condensed_, guess_, stop_, interface_, run_in_parallel);
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
+    if (result_.stagnated)
+        ++steps_stagnated_;
     interface_seconds_ += watch.seconds();
 }
 
@@ -126,9 +131,10 @@ void ConvergedFlow::fill_in(Index s)
     Stopwatch watch;
     NeumannSystem& system = *systems_[at(s)];
     Points& solution = eliminated_[at(s)];
+    const Index first = equation_.copies().first[at(s)];
     for (Index i = 0; i < system.n_interface(); ++i)
         solution.row(solution.rows() - system.n_interface() + i) =
-            interface_.row(equation_.vertex_of_copy(equation_.first_copy(s) + i));
+            interface_.row(equation_.copies().vertex[at(first + i)]);
     system.fill_in(solution, workspaces_.local());
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
     const std::vector<Index>& vertices = system.unknowns();

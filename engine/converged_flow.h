@@ -67,6 +67,9 @@ class ConvergedFlow {
     Points next_;
     /// On Γ: Vᵏ, then Vᵏ⁺¹.
     Points interface_;
+    /// On Γ: Vᵏ⁻¹, then Vᵏ; and the step before, which this one is expected to repeat. Empty in the first step.
+    Points before_;
+    Points guess_;
     /// What each sub-mesh has of the right-hand side on Γ.
     Points condensed_;
     /// Per sub-mesh, what its elimination leaves of the interior.
@@ -76,6 +79,8 @@ class ConvergedFlow {
     double interface_seconds_ = 0.0;
     /// Where the tolerance was missed.
     int steps_short_of_tolerance_ = 0;
+    /// Where more iterations would not have helped.
+    int steps_stagnated_ = 0;
     /// nullptr: the schedule is not recorded.
     std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;
