@@ -9,6 +9,7 @@
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {
 
@@ -19,6 +20,7 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , equation_(decomposition_)
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
+    , mean_edge_(mean_edge_length(mesh))
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
     , interface_(equation_.copies().n_vertices(), 3)
@@ -108,7 +110,8 @@ void ConvergedFlow::eliminate(Index s)
     const auto& interface = sub_mesh.interface;
     for (Index i = 0; i < interface.size(); ++i)
         if (interface.sharing[i].front() == s)
-            interface_.row(equation_.copies().vertex[at(first + i)]) = workspace.positions.row(interface.vertices[at(i)]);
+            interface_.row(equation_.copies().vertex[at(first + i)]) =
+                workspace.positions.row(interface.vertices[at(i)]);
     seconds_[at(s)].solve += watch.lap();
 }
 
@@ -148,6 +151,8 @@ void ConvergedFlow::describe(StepReport& report) const
 {
     report.iterations = result_.iterations;
     report.residual = result_.residual;
+    if (mean_edge_ > 0.0)
+        report.estimated_v_max = result_.estimated_distance / mean_edge_;
 }
 
 void ConvergedFlow::describe(FlowReport& report) const
@@ -169,10 +174,15 @@ void ConvergedFlow::describe(FlowReport& report) const
         report.seconds.solve += seconds.solve;
     }
     report.seconds.interface = interface_seconds_;
+    report.steps_short_of_tolerance = steps_short_of_tolerance_;
+    report.steps_stagnated = steps_stagnated_;
     if (steps_short_of_tolerance_ > 0)
-        report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
-                                 (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +
-                                 std::to_string(stop_.iterations) + " iterations at most.");
+        report.remarks.push_back(
+            "The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
+            (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " + std::to_string(stop_.iterations) +
+            " iterations at most" +
+            (steps_stagnated_ > 0 ? "; in " + std::to_string(steps_stagnated_) + " of them more would not have helped."
+                                  : "."));
     if (recorder_)
         report.schedule = recorder_->schedule();
 }

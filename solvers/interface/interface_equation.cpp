@@ -115,22 +115,19 @@ void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> s
     });
 }
 
-/// Takes the guess, with the coarse unknowns where they have to be: only from there on does the coarse space's
-/// correction of each direction keep the preconditioner symmetric.
+/// Moves the coarse unknowns to where they have to be: only from there on is the preconditioner symmetric. Then goes as
+/// far along the guess as pays.
 void InterfaceEquation::start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x,
                               const Loop& loop)
 {
-    curvature_ = {};
-    if (guess.size() > 0)
-        direction_ = guess;
-    else
-        direction_.setZero();
+    direction_.setZero();
     coarse_.correct(residual_, weights_, direction_, loop);
-    multiply(systems, loop);
-    for_each(loop, copies_.n_vertices(), [&](Index v) {
-        x.row(v) += direction_.row(v);
-        residual_.row(v) -= product_.row(v);
-    });
+    advance(systems, x, loop);
+    if (guess.size() == 0)
+        return;
+    direction_ = guess;
+    coarse_.correct(residual_, weights_, direction_, loop);
+    advance(systems, x, loop);
 }
 
 /// Conjugate gradients; x and the residual are brought up to date.
@@ -142,21 +139,26 @@ int InterfaceEquation::iterate(std::span<const NeumannSystem* const> systems, co
         precondition(systems, loop);
         // Conjugate to the direction before even where the residual has just been renewed.
         const Point beta = -quotients(dot(preconditioned_, product_, loop), curvature_);
-        for_each(loop, copies_.n_vertices(), [&](Index v) {
-            direction_.row(v) = preconditioned_.row(v) + direction_.row(v).cwiseProduct(beta);
-        });
-        multiply(systems, loop);
-        curvature_ = dot(direction_, product_, loop);
-        const Point alpha = quotients(dot(direction_, residual_, loop), curvature_);
-        for_each(loop, copies_.n_vertices(), [&](Index v) {
-            x.row(v) += direction_.row(v).cwiseProduct(alpha);
-            residual_.row(v) -= product_.row(v).cwiseProduct(alpha);
-        });
+        for_each(loop, copies_.n_vertices(),
+                 [&](Index v) { direction_.row(v) = preconditioned_.row(v) + direction_.row(v).cwiseProduct(beta); });
+        advance(systems, x, loop);
         const Sums lengths = norms(loop);
         if (lengths[0] <= goals[0] && lengths[1] <= goals[1] && lengths[2] <= goals[2])
             return iteration + 1;
     }
     return most;
+}
+
+/// Goes along the direction to where the energy is least.
+void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop)
+{
+    multiply(systems, loop);
+    curvature_ = dot(direction_, product_, loop);
+    const Point alpha = quotients(dot(direction_, residual_, loop), curvature_);
+    for_each(loop, copies_.n_vertices(), [&](Index v) {
+        x.row(v) += direction_.row(v).cwiseProduct(alpha);
+        residual_.row(v) -= product_.row(v).cwiseProduct(alpha);
+    });
 }
 
 void InterfaceEquation::multiply(std::span<const NeumannSystem* const> systems, const Loop& loop)

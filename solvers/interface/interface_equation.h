@@ -48,7 +48,7 @@ class InterfaceEquation {
     /// Solves.
     /// @param systems factorised.
     /// @param right_hand_sides one row per copy: each sub-mesh's share g_i.
-    /// @param guess one row per vertex of Γ: how far x may be expected to move, or nothing.
+    /// @param guess one row per vertex of Γ: how x may be expected to move, or no rows.
     /// @param x one row per vertex of Γ. In: Vᵏ; out: the solution.
     InterfaceResult solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
                           const Points& guess, const InterfaceStop& stop, Points& x, const Loop& loop);
@@ -62,6 +62,7 @@ class InterfaceEquation {
     void start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x, const Loop& loop);
     int iterate(std::span<const NeumannSystem* const> systems, const Sums& goals, int most, Points& x,
                 const Loop& loop);
+    void advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop);
     void multiply(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void precondition(std::span<const NeumannSystem* const> systems, const Loop& loop);
     template <class Apply>
@@ -81,7 +82,7 @@ class InterfaceEquation {
     Points direction_;
     Points product_;
     Points preconditioned_;
-    /// Of the present direction with its product; 0 before the first.
+    /// Of the present direction with its product.
     Sums curvature_{};
     std::vector<Sums> partial_;
 };
