@@ -152,7 +152,7 @@ void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::sp
                           const Loop& loop)
 {
     free_factor();
-    if (size() == 0 || getenv("NOCOARSE"))
+    if (size() == 0)
         return;
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_plateaus(s, systems[at(s)]->schur(), weights); });
     assemble();
