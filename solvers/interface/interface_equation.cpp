@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seamflow {
 
@@ -9,6 +10,8 @@ namespace {
 
 /// How much of the residual single precision may take away before it is measured anew.
 constexpr double most_reduction_at_once = 1e-4;
+/// Rounding in a residual, relative to what its terms are.
+constexpr double rounding = 4e-15;
 /// Residuals measured one after the other, none below half of the one before it: the end.
 constexpr int most_stalls = 3;
 
@@ -50,19 +53,27 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition)
 InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
                                          const Points& guess, const InterfaceStop& stop, Points& x, const Loop& loop)
 {
+    weigh_copies(systems, x, loop);
+    // Where so much is asked for that rounding is not let pass.
+    if (stop.tolerance < std::numeric_limits<double>::epsilon())
+        noise_ = 0.0;
     measure_residual(systems, right_hand_sides, x, loop);
     const Sums first = norms(loop);
-    weigh_copies(systems, loop);
     coarse_.prepare(systems, weights_, loop);
+    step_length_.setOnes();
     if (stop.iterations > 0)
         start(systems, guess, x, loop);
     Sums present = norms(loop);
+    if (stop.iterations > 0 && largest_ratio(present, first) <= stop.tolerance) {
+        measure_residual(systems, right_hand_sides, x, loop);
+        present = norms(loop);
+    }
     InterfaceResult result;
     int stalls = 0;
     while (result.iterations < stop.iterations && largest_ratio(present, first) > stop.tolerance && !result.stagnated) {
         Sums goals;
         for (std::size_t c = 0; c < 3; ++c)
-            goals[c] = std::max(stop.tolerance * first[c], most_reduction_at_once * present[c]);
+            goals[c] = std::max({stop.tolerance * first[c], most_reduction_at_once * present[c], noise_});
         result.iterations += iterate(systems, goals, stop.iterations - result.iterations, x, loop);
         measure_residual(systems, right_hand_sides, x, loop);
         const Sums before = present;
@@ -72,13 +83,22 @@ InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> s
     }
     result.residual = largest_ratio(present, first);
     result.stagnated = result.stagnated && result.residual > stop.tolerance;
-    precondition(systems, loop);
-    result.estimated_distance = copies_.n_vertices() > 0 ? preconditioned_.rowwise().norm().maxCoeff() : 0.0;
+    result.estimated_distance = estimate_distance(systems, loop);
     return result;
 }
 
-/// By the diagonals of the Schur complements.
-void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop)
+/// As far as the next iteration would go if it were as long as the last one, not being conjugate to any.
+double InterfaceEquation::estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop)
+{
+    precondition(systems, loop);
+    double largest = 0.0;
+    for (Index v = 0; v < copies_.n_vertices(); ++v)
+        largest = std::max(largest, preconditioned_.row(v).cwiseProduct(step_length_).norm());
+    return largest;
+}
+
+/// By the diagonals of the Schur complements, which also tell how large the terms of a residual are.
+void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> systems, const Points& x, const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
         const std::vector<double> diagonal = systems[at(s)]->schur().diagonal();
@@ -90,7 +110,10 @@ void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> syste
             sum += weights_[at(copy)];
         for (const Index copy : copies_.of_vertex[v])
             weights_[at(copy)] /= sum;
+        product_.row(v) = sum * x.row(v);
     });
+    const Sums squares = dot(product_, product_, loop);
+    noise_ = rounding * std::sqrt(squares[0] + squares[1] + squares[2]);
 }
 
 /// In double precision.
@@ -121,12 +144,12 @@ void InterfaceEquation::start(std::span<const NeumannSystem* const> systems, con
                               const Loop& loop)
 {
     direction_.setZero();
-    coarse_.correct(residual_, weights_, direction_, loop);
+    coarse_.correct(residual_, direction_, loop);
     advance(systems, x, loop);
     if (guess.size() == 0)
         return;
     direction_ = guess;
-    coarse_.correct(residual_, weights_, direction_, loop);
+    coarse_.correct(residual_, direction_, loop);
     advance(systems, x, loop);
 }
 
@@ -154,10 +177,10 @@ void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, P
 {
     multiply(systems, loop);
     curvature_ = dot(direction_, product_, loop);
-    const Point alpha = quotients(dot(direction_, residual_, loop), curvature_);
+    step_length_ = quotients(dot(direction_, residual_, loop), curvature_);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
-        x.row(v) += direction_.row(v).cwiseProduct(alpha);
-        residual_.row(v) -= product_.row(v).cwiseProduct(alpha);
+        x.row(v) += direction_.row(v).cwiseProduct(step_length_);
+        residual_.row(v) -= product_.row(v).cwiseProduct(step_length_);
     });
 }
 
@@ -171,7 +194,7 @@ void InterfaceEquation::precondition(std::span<const NeumannSystem* const> syste
 {
     on_each(systems, residual_, true, preconditioned_, loop,
             [](const DenseFactor& schur, FloatColumns columns) { schur.solve(columns); });
-    coarse_.correct(residual_, weights_, preconditioned_, loop);
+    coarse_.correct(residual_, preconditioned_, loop);
 }
 
 /// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted.
@@ -220,12 +243,12 @@ InterfaceEquation::Sums InterfaceEquation::dot(const Points& a, const Points& b,
     return total;
 }
 
-/// Of the residual's three columns.
+/// Of the residual's three columns; 0 where it is nothing but rounding.
 InterfaceEquation::Sums InterfaceEquation::norms(const Loop& loop)
 {
     Sums lengths = dot(residual_, residual_, loop);
-    for (double& length : lengths)
-        length = std::sqrt(length);
+    for (std::size_t c = 0; c < 3; ++c)
+        lengths[c] = std::sqrt(lengths[c]) <= noise_ ? 0.0 : std::sqrt(lengths[c]);
     return lengths;
 }
 

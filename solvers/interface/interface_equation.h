@@ -14,7 +14,8 @@ namespace seamflow {
 
 /// When the iteration for the interface equation ends.
 struct InterfaceStop {
-    /// Residual relative to that at Vᵏ, in the Euclidean norm, for each of x, y and z.
+    /// Residual relative to that at Vᵏ, in the Euclidean norm, for each of x, y and z; what is nothing but rounding
+    /// counts as none, unless the tolerance is below the precision of numbers itself.
     double tolerance = 0.0;
     /// Most iterations.
     int iterations = 0;
@@ -27,8 +28,8 @@ struct InterfaceResult {
     double residual = 0.0;
     /// Whether it ended because iterations no longer made the residual smaller.
     bool stagnated = false;
-    /// Largest row of the preconditioned residual, an estimate of the largest distance to the solution, in units of
-    /// length.
+    /// Largest row of the preconditioned residual, scaled like the last iteration: an estimate of the largest distance
+    /// to the solution, in units of length.
     double estimated_distance = 0.0;
 };
 
@@ -56,12 +57,13 @@ class InterfaceEquation {
   private:
     using Sums = std::array<double, 3>;
 
-    void weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop);
+    void weigh_copies(std::span<const NeumannSystem* const> systems, const Points& x, const Loop& loop);
     void measure_residual(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
                           const Points& x, const Loop& loop);
     void start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x, const Loop& loop);
     int iterate(std::span<const NeumannSystem* const> systems, const Sums& goals, int most, Points& x,
                 const Loop& loop);
+    double estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop);
     void multiply(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void precondition(std::span<const NeumannSystem* const> systems, const Loop& loop);
@@ -75,6 +77,8 @@ class InterfaceEquation {
     CoarseSpace coarse_;
     /// Per copy.
     std::vector<double> weights_;
+    /// Norm of a column of the residual that is nothing but rounding.
+    double noise_ = 0.0;
     /// Three columns for each sub-mesh.
     std::vector<float> products_;
     Points residual_copies_;
@@ -84,6 +88,8 @@ class InterfaceEquation {
     Points preconditioned_;
     /// Of the present direction with its product.
     Sums curvature_{};
+    /// Of the latest direction, as a multiple of it.
+    Point step_length_;
     std::vector<Sums> partial_;
 };
 
