@@ -10,6 +10,8 @@ namespace {
 
 /// How much of the residual single precision may take away before it is measured anew.
 constexpr double most_reduction_at_once = 1e-4;
+/// And the same after so many iterations, however little they have taken away.
+constexpr int most_iterations_at_once = 100;
 /// Rounding in a residual, relative to what its terms are.
 constexpr double rounding = 4e-15;
 /// Residuals measured one after the other, none below half of the one before it: the end.
@@ -74,12 +76,16 @@ InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> s
         Sums goals;
         for (std::size_t c = 0; c < 3; ++c)
             goals[c] = std::max({stop.tolerance * first[c], most_reduction_at_once * present[c], noise_});
-        result.iterations += iterate(systems, goals, stop.iterations - result.iterations, x, loop);
+        const int most = std::min(stop.iterations - result.iterations, most_iterations_at_once);
+        result.iterations += iterate(systems, goals, most, x, loop);
         measure_residual(systems, right_hand_sides, x, loop);
         const Sums before = present;
         present = norms(loop);
         stalls = largest_ratio(present, before) > 0.5 ? stalls + 1 : 0;
         result.stagnated = stalls == most_stalls;
+        // Rounding can spoil the directions so much that they lead nowhere: new ones then.
+        if (stalls > 0)
+            curvature_ = {};
     }
     result.residual = largest_ratio(present, first);
     result.stagnated = result.stagnated && result.residual > stop.tolerance;
