@@ -56,8 +56,8 @@ struct StepReport {
     /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
     std::optional<int> iterations;
     std::optional<double> residual;
-    /// Estimated distance of the step to the exact one (its largest at any vertex), where that is known.
-    std::optional<double> estimated_v_max;  ///< in mean edge lengths
+    /// Estimated largest distance of a vertex to where the exact step would have put it, where that is known.
+    std::optional<double> estimated_v_max;  ///< in mean edge lengths of the input
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.

@@ -12,9 +12,8 @@ namespace seamflow {
 
 namespace {
 
-/// How much is added to the diagonal of E, relative to it. Plateaus can cancel each other (those of both sides of a
-/// stretch do where all weights are 1/2), and then E is singular; as Z cancels them too, it does no harm that they are
-/// arbitrary.
+/// How much is added to the diagonal of E, relative to it: functions can cancel each other, and then E is singular; as
+/// Z cancels them too, it does no harm that their coefficients are arbitrary.
 constexpr double regularisation = 1e-8;
 
 /// The values are the indices whose list it is, ascending.
@@ -63,11 +62,11 @@ CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
     , products_(at(copies.n_sub_meshes()))
     , energies_(at(copies.n_sub_meshes()))
 {
-    find_plateaus();
-    list_plateaus();
+    find_functions();
+    list_functions();
     analyse();
-    shares_.resize(static_cast<Eigen::Index>(plateaus_at_.values.size()), 3);
-    heights_.resize(size(), 3);
+    shares_.resize(static_cast<Eigen::Index>(functions_at_.values.size()), 3);
+    coefficients_.resize(size(), 3);
 }
 
 CoarseSpace::~CoarseSpace()
@@ -75,10 +74,10 @@ CoarseSpace::~CoarseSpace()
     free_factor();
 }
 
-void CoarseSpace::find_plateaus()
+void CoarseSpace::find_functions()
 {
-    plateau_.resize(at(copies_.n_copies()));
-    Index n_plateaus = 0;
+    function_.resize(at(copies_.n_copies()));
+    Index n_functions = 0;
     std::map<std::vector<Index>, std::vector<Index>> stretches;
     // Vertices with the same first sub-mesh follow each other.
     for (Index begin = 0, end = 0; begin < copies_.n_vertices(); begin = end) {
@@ -94,38 +93,56 @@ void CoarseSpace::find_plateaus()
             const bool is_single = vertices.size() == 1;
             for (const Index v : vertices)
                 for (std::size_t k = 0; k < sharing.size(); ++k)
-                    plateau_[at(copies_.of_vertex[v][k])] = n_plateaus + (is_single ? 0 : static_cast<Index>(k));
-            n_plateaus += is_single ? 1 : static_cast<Index>(sharing.size());
+                    function_[at(copies_.of_vertex[v][k])] = n_functions + (is_single ? 0 : static_cast<Index>(k));
+            n_functions += is_single ? 1 : static_cast<Index>(sharing.size());
         }
     }
-    copies_in_ = inverse_lists(plateau_, n_plateaus);
+    copies_in_ = inverse_lists(function_, n_functions);
+    values_at_.resize(function_.size());
 }
 
-void CoarseSpace::list_plateaus()
+/// The first copy of a vertex has the constant.
+void CoarseSpace::set_functions(std::span<const double> weights, const Loop& loop)
+{
+    for_each(loop, size(), [&](Index f) {
+        const auto copies = copies_in_[f];
+        const auto is_first = [this](Index copy) {
+            return copies_.of_vertex[copies_.vertex[at(copy)]].front() == copy;
+        };
+        const bool is_constant = std::any_of(copies.begin(), copies.end(), is_first);
+        double mean = 0.0;
+        for (const Index copy : copies)
+            mean += weights[at(copy)] / static_cast<double>(copies.size());
+        for (const Index copy : copies)
+            values_at_[at(copy)] = is_constant ? (is_first(copy) ? 1.0 : 0.0) : weights[at(copy)] - mean;
+    });
+}
+
+void CoarseSpace::list_functions()
 {
     std::vector<Index> found;
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
         found.clear();
         for (Index copy = copies_.first[at(s)]; copy < copies_.first[at(s) + 1]; ++copy)
             for (const Index other : copies_.of_vertex[copies_.vertex[at(copy)]])
-                found.push_back(plateau_[at(other)]);
+                found.push_back(function_[at(other)]);
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
-        plateaus_at_.values.insert(plateaus_at_.values.end(), found.begin(), found.end());
-        plateaus_at_.close();
+        functions_at_.values.insert(functions_at_.values.end(), found.begin(), found.end());
+        functions_at_.close();
     }
-    places_ = inverse_lists(plateaus_at_.values, size());
+    places_ = inverse_lists(functions_at_.values, size());
 }
 
-/// Two unknowns have an entry where their plateaus meet one sub-mesh.
+/// Two unknowns have an entry where one sub-mesh has both of their functions.
 std::vector<MatrixEntry> CoarseSpace::entries() const
 {
     std::vector<MatrixEntry> entries;
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
-        for (const Index p : plateaus_at_[s])
-            for (const Index q : plateaus_at_[s])
-                if (unknown_of_[at(p)] <= unknown_of_[at(q)])
-                    entries.push_back({unknown_of_[at(q)], unknown_of_[at(p)]});
+        for (const Index f : functions_at_[s])
+            for (const Index g : functions_at_[s])
+                if (unknown_of_[at(f)] <= unknown_of_[at(g)])
+                    entries.push_back({unknown_of_[at(g)], unknown_of_[at(f)]});
     return entries;
 }
 
@@ -154,23 +171,24 @@ void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::sp
     free_factor();
     if (size() == 0)
         return;
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_plateaus(s, systems[at(s)]->schur(), weights); });
+    set_functions(weights, loop);
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, systems[at(s)]->schur()); });
     assemble();
     is_factorised_ = solver_->factorise(values_, heap_memory(), workspace_);
 }
 
 /// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
-void CoarseSpace::multiply_plateaus(Index s, const DenseFactor& schur, std::span<const double> weights)
+void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
 {
-    const auto plateaus = plateaus_at_[s];
+    const auto functions = functions_at_[s];
     const std::size_t n = at(copies_.n_in(s));
-    const std::size_t n_columns = (plateaus.size() + 2) / 3 * 3;
+    const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
     std::vector<float>& columns = products_[at(s)];
     columns.assign(n * n_columns, 0.0F);
     for (std::size_t i = 0; i < n; ++i)
         for (const Index copy : copies_.of_vertex[copies_.vertex[at(copies_.first[at(s)]) + i]]) {
-            const auto column = static_cast<std::size_t>(place_in(plateaus, plateau_[at(copy)]));
-            columns[column * n + i] += static_cast<float>(weights[at(copy)]);
+            const auto column = static_cast<std::size_t>(place_in(functions, function_[at(copy)]));
+            columns[column * n + i] += static_cast<float>(values_at_[at(copy)]);
         }
     const auto on_each_three = [&](auto&& apply) {
         for (std::size_t c = 0; c < n_columns; c += 3)
@@ -178,7 +196,7 @@ void CoarseSpace::multiply_plateaus(Index s, const DenseFactor& schur, std::span
     };
     on_each_three([&](FloatColumns v) { schur.multiply_by_root_transposed(v); });
     const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(n),
-                                                                    static_cast<Eigen::Index>(plateaus.size()))
+                                                                    static_cast<Eigen::Index>(functions.size()))
                                       .cast<double>();
     energies_[at(s)].noalias() = roots.transpose() * roots;
     on_each_three([&](FloatColumns v) { schur.multiply_by_root(v); });
@@ -190,34 +208,35 @@ void CoarseSpace::assemble()
     std::fill(values_.begin(), values_.end(), 0.0);
     auto slot = slots_.begin();
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
-        const auto plateaus = plateaus_at_[s];
-        for (std::size_t p = 0; p < plateaus.size(); ++p)
-            for (std::size_t q = 0; q < plateaus.size(); ++q)
-                if (unknown_of_[at(plateaus[p])] <= unknown_of_[at(plateaus[q])])
+        const auto functions = functions_at_[s];
+        for (std::size_t f = 0; f < functions.size(); ++f)
+            for (std::size_t g = 0; g < functions.size(); ++g)
+                if (unknown_of_[at(functions[f])] <= unknown_of_[at(functions[g])])
                     values_[at(*slot++)] +=
-                        energies_[at(s)](static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
+                        energies_[at(s)](static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
     }
+    // Where all weights are the same, a function is none.
     for (const Index diagonal : diagonal_slots_)
-        values_[at(diagonal)] *= 1.0 + regularisation;
+        values_[at(diagonal)] = values_[at(diagonal)] > 0.0 ? (1.0 + regularisation) * values_[at(diagonal)] : 1.0;
 }
 
-void CoarseSpace::correct(const Points& residual, std::span<const double> weights, Points& y, const Loop& loop)
+void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
 {
     if (!is_factorised_)
         return;
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_transposed(s, y); });
-    for_each(loop, size(), [&](Index p) {
+    for_each(loop, size(), [&](Index f) {
         Point sum = Point::Zero();
-        for (const Index copy : copies_in_[p])
-            sum += weights[at(copy)] * residual.row(copies_.vertex[at(copy)]);
-        for (const Index place : places_[p])
+        for (const Index copy : copies_in_[f])
+            sum += values_at_[at(copy)] * residual.row(copies_.vertex[at(copy)]);
+        for (const Index place : places_[f])
             sum -= shares_.row(place);
-        heights_.row(unknown_of_[at(p)]) = sum;
+        coefficients_.row(unknown_of_[at(f)]) = sum;
     });
-    solver_->solve(heights_, heights_, workspace_);
+    solver_->solve(coefficients_, coefficients_, workspace_);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
-            y.row(v) += weights[at(copy)] * heights_.row(unknown_of_[at(plateau_[at(copy)])]);
+            y.row(v) += values_at_[at(copy)] * coefficients_.row(unknown_of_[at(function_[at(copy)])]);
     });
 }
 
@@ -228,9 +247,9 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
     Columns local(n, 3);
     for (Index i = 0; i < n; ++i)
         local.row(i) = y.row(copies_.vertex[at(copies_.first[at(s)] + i)]);
-    for (Index place = plateaus_at_.offsets[at(s)]; place < plateaus_at_.offsets[at(s) + 1]; ++place)
+    for (Index place = functions_at_.offsets[at(s)]; place < functions_at_.offsets[at(s) + 1]; ++place)
         shares_.row(place) =
-            multiply_column(products_[at(s)].data() + at(place - plateaus_at_.offsets[at(s)]) * at(n), local);
+            multiply_column(products_[at(s)].data() + at(place - functions_at_.offsets[at(s)]) * at(n), local);
 }
 
 void CoarseSpace::free_factor()

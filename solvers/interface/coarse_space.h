@@ -13,12 +13,13 @@
 
 namespace seamflow {
 
-/// What the sub-meshes cannot settle each for itself, as few unknowns: a sub-mesh's weights W on one stretch of Γ, the
-/// vertices that it shares with the same others, are a plateau, of which the unknown is the height; where a stretch is
-/// a single vertex, those of all its sub-meshes are one. Balances the Neumann-Neumann preconditioner (Mandel,
-/// "Balancing domain decomposition", 1993, with one plateau for all of a sub-mesh's Γ) in the form in which an
-/// iteration needs no second product with S (A-DEF2 of Tang, Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r
-/// - S y), where E = Zᵀ S Z and Z has a column for each plateau.
+/// What the sub-meshes cannot settle each for itself, as few unknowns. On each stretch of Γ, the vertices that the same
+/// sub-meshes share, the functions that are a sub-mesh's weights W there, and 0 elsewhere, are the columns of Z, in a
+/// basis that is sound where weights hardly differ: the constant, and the weights of all but the first sub-mesh without
+/// their mean; of a single vertex the constant alone. Balances the Neumann-Neumann preconditioner (Mandel, "Balancing
+/// domain decomposition", 1993, with one function for all stretches of a sub-mesh) in the form in which an iteration
+/// needs no second product with S (A-DEF2 of Tang, Nabben, Vuik and Erlangga 2009): y becomes
+/// y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
 class CoarseSpace {
   public:
     /// @param copies must outlive the space.
@@ -38,29 +39,30 @@ class CoarseSpace {
 
     /// y becomes y + Z E⁻¹ Zᵀ (residual - S y).
     /// @param residual, y one row per vertex of Γ.
-    /// @param weights those of `prepare`.
-    void correct(const Points& residual, std::span<const double> weights, Points& y, const Loop& loop);
+    void correct(const Points& residual, Points& y, const Loop& loop);
 
   private:
-    void find_plateaus();
-    void list_plateaus();
+    void find_functions();
+    void list_functions();
     void analyse();
     [[nodiscard]] std::vector<MatrixEntry> entries() const;
-    void multiply_plateaus(Index s, const DenseFactor& schur, std::span<const double> weights);
+    void set_functions(std::span<const double> weights, const Loop& loop);
+    void multiply_functions(Index s, const DenseFactor& schur);
     void multiply_transposed(Index s, const Points& y);
     void assemble();
     void free_factor();
 
     const InterfaceCopies& copies_;
-    /// Per copy: the plateau that has its weight.
-    std::vector<Index> plateau_;
-    /// Per plateau its copies, in ascending order.
+    /// Per copy: the function that it belongs to, and what it adds to that at its vertex.
+    std::vector<Index> function_;
+    std::vector<double> values_at_;
+    /// Per function its copies, in ascending order.
     IndexLists copies_in_;
-    /// Per sub-mesh: the plateaus on its part of Γ, others' too, in ascending order.
-    IndexLists plateaus_at_;
-    /// Per plateau: where it stands among the values of `plateaus_at_`.
+    /// Per sub-mesh: the functions on its part of Γ, in ascending order.
+    IndexLists functions_at_;
+    /// Per function: where it stands among the values of `functions_at_`.
     IndexLists places_;
-    /// Per plateau: its unknown, in the order of elimination.
+    /// Per function: its unknown, in the order of elimination.
     std::vector<Index> unknown_of_;
     std::optional<LdlSolver> solver_;
     LdlWorkspace workspace_;
@@ -68,14 +70,14 @@ class CoarseSpace {
     std::vector<double> values_;
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;
-    /// Per sub-mesh, its share of S Z: a column for each plateau there, and zeros to make their number a multiple of
+    /// Per sub-mesh, its share of S Z: a column for each function there, and zeros to make their number a multiple of
     /// three.
     std::vector<std::vector<float>> products_;
-    /// Per sub-mesh, its share of E: plateaus there by plateaus there.
+    /// Per sub-mesh, its share of E: functions there by functions there.
     std::vector<Eigen::MatrixXd> energies_;
-    /// Per value of `plateaus_at_`, the sub-mesh's share of Zᵀ S y.
+    /// Per value of `functions_at_`, the sub-mesh's share of Zᵀ S y.
     Points shares_;
-    Columns heights_;
+    Columns coefficients_;
     bool is_factorised_ = false;
 };
 

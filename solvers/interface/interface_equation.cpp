@@ -9,8 +9,10 @@ namespace {
 
 /// How much of the residual single precision may take away before it is measured anew.
 constexpr double most_reduction_at_once = 1e-4;
-/// What single precision is trusted with.
-constexpr double least_reduction_to_check = 1e-3;
+/// And the same after so many iterations, however little they have taken away.
+constexpr int most_iterations_at_once = 100;
+/// A residual that is larger, relative to that at the beginning, need not be measured anew.
+constexpr double largest_to_measure = 1e-3;
 /// Residuals measured one after the other, none below half of the one before it: the end.
 constexpr int most_stalls = 3;
 
@@ -35,52 +37,74 @@ Point quotients(const std::array<double, 3>& numerators, const std::array<double
 
 }  // namespace
 
-InterfaceEquation::InterfaceEquation(const Decomposition& decomposition)
+InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing)
     : copies_(decomposition)
-    , coarse_(copies_)
     , weights_(at(copies_.n_copies()))
     , products_(3 * weights_.size())
     , residual_copies_(copies_.n_copies(), 3)
+    , right_hand_side_(copies_.n_vertices(), 3)
     , residual_(copies_.n_vertices(), 3)
     , direction_(copies_.n_vertices(), 3)
     , product_(copies_.n_vertices(), 3)
     , preconditioned_(copies_.n_vertices(), 3)
     , partial_(at(copies_.n_vertices() / block_size) + 1)
 {
+    if (balancing == Balancing::Coarse)
+        coarse_.emplace(copies_);
 }
 
 InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
                                          const Points& guess, const InterfaceStop& stop, Points& x, const Loop& loop)
 {
     x.setZero(copies_.n_vertices(), 3);
-    sum_copies(right_hand_sides, loop);
-    const Sums first = norms(loop);
     weigh_copies(systems, loop);
-    coarse_.prepare(systems, weights_, loop);
+    if (coarse_)
+        coarse_->prepare(systems, weights_, loop);
+    sum_copies(right_hand_sides, right_hand_side_, loop);
+    residual_ = right_hand_side_;
+    const Sums first = norms(loop);
+    step_length_.setOnes();
     if (stop.iterations > 0)
         start(systems, guess, x, loop);
     Sums present = norms(loop);
+    const auto measure_anew = [&] {
+        if (largest_ratio(present, first) > largest_to_measure)
+            return;
+        measure_residual(systems, x, loop);
+        present = norms(loop);
+    };
+    measure_anew();
     InterfaceResult result;
     int stalls = 0;
     while (result.iterations < stop.iterations && largest_ratio(present, first) > stop.tolerance && !result.stagnated) {
         Sums goals;
         for (std::size_t c = 0; c < 3; ++c)
             goals[c] = std::max(stop.tolerance * first[c], most_reduction_at_once * present[c]);
-        result.iterations += iterate(systems, goals, stop.iterations - result.iterations, x, loop);
+        const int most = std::min(stop.iterations - result.iterations, most_iterations_at_once);
+        result.iterations += iterate(systems, goals, most, x, loop);
         const Sums before = present;
         present = norms(loop);
-        if (largest_ratio(present, first) < least_reduction_to_check) {
-            measure_residual(systems, right_hand_sides, x, loop);
-            present = norms(loop);
-        }
+        measure_anew();
         stalls = largest_ratio(present, before) > 0.5 ? stalls + 1 : 0;
         result.stagnated = stalls == most_stalls;
+        // Rounding can spoil the directions so much that they lead nowhere: new ones then.
+        if (stalls > 0)
+            curvature_ = {};
     }
     result.residual = largest_ratio(present, first);
     result.stagnated = result.stagnated && result.residual > stop.tolerance;
-    precondition(systems, loop);
-    result.estimated_distance = copies_.n_vertices() > 0 ? preconditioned_.rowwise().norm().maxCoeff() : 0.0;
+    result.estimated_distance = estimate_distance(systems, loop);
     return result;
+}
+
+/// As far as the next iteration would go if it were as long as the last one, not being conjugate to any.
+double InterfaceEquation::estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop)
+{
+    precondition(systems, loop);
+    double largest = 0.0;
+    for (Index v = 0; v < copies_.n_vertices(); ++v)
+        largest = std::max(largest, preconditioned_.row(v).cwiseProduct(step_length_).norm());
+    return largest;
 }
 
 /// By the diagonals of the Schur complements.
@@ -99,9 +123,9 @@ void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> syste
     });
 }
 
-/// In double precision.
-void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
-                                         const Points& x, const Loop& loop)
+/// In double precision. The shares of the right-hand side may cancel each other almost wholly: only their sum is used.
+void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> systems, const Points& x,
+                                         const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
         const Index first = copies_.first[at(s)];
@@ -109,21 +133,21 @@ void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> s
         Points local(n, 3);
         for (Index i = 0; i < n; ++i)
             local.row(i) = x.row(copies_.vertex[at(first + i)]);
-        auto residual = residual_copies_.middleRows(first, n);
-        residual = right_hand_sides.middleRows(first, n);
-        systems[at(s)]->subtract_schur(local, residual);
+        auto change = residual_copies_.middleRows(first, n);
+        change.setZero();
+        systems[at(s)]->subtract_schur(local, change);
     });
-    sum_copies(residual_copies_, loop);
+    sum_copies(residual_copies_, residual_, loop);
+    residual_ += right_hand_side_;
 }
 
-/// Into the residual.
-void InterfaceEquation::sum_copies(const Points& shares, const Loop& loop)
+void InterfaceEquation::sum_copies(const Points& copies, Points& sums, const Loop& loop)
 {
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])
-            sum += shares.row(copy);
-        residual_.row(v) = sum;
+            sum += copies.row(copy);
+        sums.row(v) = sum;
     });
 }
 
@@ -132,14 +156,20 @@ void InterfaceEquation::sum_copies(const Points& shares, const Loop& loop)
 void InterfaceEquation::start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x,
                               const Loop& loop)
 {
+    curvature_ = {};
     direction_.setZero();
-    coarse_.correct(residual_, weights_, direction_, loop);
-    advance(systems, x, loop);
-    if (guess.size() == 0)
-        return;
-    direction_ = guess;
-    coarse_.correct(residual_, weights_, direction_, loop);
-    advance(systems, x, loop);
+    product_.setZero();
+    if (coarse_) {
+        coarse_->correct(residual_, direction_, loop);
+        advance(systems, x, loop);
+    }
+    if (guess.size() > 0) {
+        direction_ = guess;
+        if (coarse_)
+            coarse_->correct(residual_, direction_, loop);
+        advance(systems, x, loop);
+    }
+    step_length_.setOnes();
 }
 
 /// Conjugate gradients; x and the residual are brought up to date.
@@ -166,10 +196,10 @@ void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, P
 {
     multiply(systems, loop);
     curvature_ = dot(direction_, product_, loop);
-    const Point alpha = quotients(dot(direction_, residual_, loop), curvature_);
+    step_length_ = quotients(dot(direction_, residual_, loop), curvature_);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
-        x.row(v) += direction_.row(v).cwiseProduct(alpha);
-        residual_.row(v) -= product_.row(v).cwiseProduct(alpha);
+        x.row(v) += direction_.row(v).cwiseProduct(step_length_);
+        residual_.row(v) -= product_.row(v).cwiseProduct(step_length_);
     });
 }
 
@@ -183,7 +213,8 @@ void InterfaceEquation::precondition(std::span<const NeumannSystem* const> syste
 {
     on_each(systems, residual_, true, preconditioned_, loop,
             [](const DenseFactor& schur, FloatColumns columns) { schur.solve(columns); });
-    coarse_.correct(residual_, weights_, preconditioned_, loop);
+    if (coarse_)
+        coarse_->correct(residual_, preconditioned_, loop);
 }
 
 /// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted.

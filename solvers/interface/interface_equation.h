@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace seamflow {
 
 /// When the iteration for the interface equation ends.
 struct InterfaceStop {
-    /// Residual relative to that at Vᵏ, in the Euclidean norm, for each of x, y and z.
+    /// Residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
     double tolerance = 0.0;
     /// Most iterations.
     int iterations = 0;
@@ -27,21 +28,28 @@ struct InterfaceResult {
     double residual = 0.0;
     /// Whether it ended because iterations no longer made the residual smaller.
     bool stagnated = false;
-    /// Largest row of the preconditioned residual, an estimate of the largest distance to the solution, in units of
-    /// length.
+    /// Largest row of the preconditioned residual, scaled like the last iteration: an estimate of the largest distance
+    /// to the solution, in units of length.
     double estimated_distance = 0.0;
 };
 
-/// The whole backward Euler step as an equation on Γ alone: S x = Σ S_i x = Σ g_i over the sub-meshes' Schur
-/// complements. Solved for x, y and z at once by conjugate gradients, preconditioned by Σ W_i S_i⁻¹ W_i with weights
-/// that add up to 1 at each vertex (Neumann-Neumann) and balanced by a CoarseSpace. The products are in single
-/// precision; the residual is renewed in double precision without beginning anew. Sums are taken in a fixed order: the
-/// bits do not depend on how loops are run.
+/// Whether the preconditioner is balanced by a CoarseSpace: fewer iterations, but each costs more, and so does the
+/// beginning of each solution. Pays where sub-meshes are narrow against √dt.
+enum class Balancing {
+    None,
+    Coarse,
+};
+
+/// The whole backward Euler step as an equation for x = Vᵏ⁺¹ - Vᵏ on Γ alone: S x = Σ S_i x = Σ g_i over the
+/// sub-meshes' Schur complements. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
+/// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
+/// single precision; the residual is renewed in double precision without beginning anew. Sums are taken in a fixed
+/// order: the bits do not depend on how loops are run.
 class InterfaceEquation {
   public:
     /// @param decomposition without overlap; needed only during the call.
     /// @throws ComputationError if an analysis fails.
-    explicit InterfaceEquation(const Decomposition& decomposition);
+    InterfaceEquation(const Decomposition& decomposition, Balancing balancing);
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
@@ -57,12 +65,12 @@ class InterfaceEquation {
     using Sums = std::array<double, 3>;
 
     void weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop);
-    void sum_copies(const Points& shares, const Loop& loop);
-    void measure_residual(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
-                          const Points& x, const Loop& loop);
+    void sum_copies(const Points& copies, Points& sums, const Loop& loop);
+    void measure_residual(std::span<const NeumannSystem* const> systems, const Points& x, const Loop& loop);
     void start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x, const Loop& loop);
     int iterate(std::span<const NeumannSystem* const> systems, const Sums& goals, int most, Points& x,
                 const Loop& loop);
+    double estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop);
     void multiply(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void precondition(std::span<const NeumannSystem* const> systems, const Loop& loop);
@@ -73,18 +81,21 @@ class InterfaceEquation {
     Sums norms(const Loop& loop);
 
     InterfaceCopies copies_;
-    CoarseSpace coarse_;
+    std::optional<CoarseSpace> coarse_;
     /// Per copy.
     std::vector<double> weights_;
     /// Three columns for each sub-mesh.
     std::vector<float> products_;
     Points residual_copies_;
+    Points right_hand_side_;
     Points residual_;
     Points direction_;
     Points product_;
     Points preconditioned_;
     /// Of the present direction with its product.
     Sums curvature_{};
+    /// Of the latest direction, as a multiple of it.
+    Point step_length_;
     std::vector<Sums> partial_;
 };
 
