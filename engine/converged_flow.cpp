@@ -5,24 +5,39 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "engine/choose_subdomains.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {
+
+namespace {
+
+/// Wider sub-meshes, in √dt, do without a coarse space: it would save a tenth of the iterations.
+constexpr double width_without_coarse_space = 4.0;
+
+Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step)
+{
+    return width_in_diffusion_lengths(mesh, n_parts, time_step) < width_without_coarse_space ? Balancing::Coarse
+                                                                                             : Balancing::None;
+}
+
+}  // namespace
 
 ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                              const FlowOptions& options)
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
     , systems_(decomposition_.sub_meshes.size())
-    , equation_(decomposition_)
+    , equation_(decomposition_, balancing_for(mesh, cut.n_parts, options.time_step))
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
+    , mean_edge_(mean_edge_length(mesh))
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
-    , interface_(equation_.size(), 3)
-    , condensed_(equation_.n_copies(), 3)
+    , condensed_(equation_.copies().n_copies(), 3)
     , eliminated_(decomposition_.sub_meshes.size())
     , seconds_(decomposition_.sub_meshes.size())
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
@@ -39,18 +54,14 @@ void ConvergedFlow::make_systems(const FlowOptions& options)
         on_behalf_of(sub_mesh, s,
                      [&] { systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian); });
     });
-    std::size_t largest = 1;
     for (const auto& system : systems_) {
         system_views_.push_back(system.get());
-        largest = std::max(largest, system->factor_bytes());
+        factor_bytes_ += system->factor_bytes();
     }
-    const std::size_t all = systems_.size() * largest;
-    if (options.memory_limit && *options.memory_limit < all)
+    if (options.memory_limit && *options.memory_limit < factor_bytes_)
         throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) +
                           " bytes, but a converged step keeps all factorisations at once, which take " +
-                          std::to_string(all) + ": raise it, or do without a tolerance");
-    factors_.use_blocks_of(largest);
-    workspaces_.use(factors_);
+                          std::to_string(factor_bytes_) + ": raise it, or do without a tolerance");
 }
 
 template <class Body>
@@ -102,21 +113,21 @@ void ConvergedFlow::eliminate(Index s)
     seconds_[at(s)].assemble += watch.lap();
     system.factorise(workspace);
     seconds_[at(s)].factorise += watch.lap();
-    const Index first = equation_.first_copy(s);
-    system.condense(workspace.positions, eliminated_[at(s)], condensed_.middleRows(first, system.n_interface()));
-    const auto& interface = sub_mesh.interface;
-    for (Index i = 0; i < interface.size(); ++i)
-        if (interface.sharing[i].front() == s)
-            interface_.row(equation_.vertex_of_copy(first + i)) = workspace.positions.row(interface.vertices[at(i)]);
+    const Index first = equation_.copies().first[at(s)];
+    system.condense(workspace.positions, eliminated_[at(s)], condensed_.middleRows(first, system.n_interface()),
+                    workspace);
     seconds_[at(s)].solve += watch.lap();
 }
 
 void ConvergedFlow::solve_interface()
 {
     const Stopwatch watch;
-    result_ = equation_.solve(system_views_, condensed_, stop_, interface_, run_in_parallel);
+    guess_.swap(interface_);
+    result_ = equation_.solve(system_views_, condensed_, guess_, stop_, interface_, run_in_parallel);
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
+    if (result_.stagnated)
+        ++steps_stagnated_;
     interface_seconds_ += watch.seconds();
 }
 
@@ -125,15 +136,17 @@ void ConvergedFlow::fill_in(Index s)
     Stopwatch watch;
     NeumannSystem& system = *systems_[at(s)];
     Points& solution = eliminated_[at(s)];
+    const Index first = equation_.copies().first[at(s)];
     for (Index i = 0; i < system.n_interface(); ++i)
         solution.row(solution.rows() - system.n_interface() + i) =
-            interface_.row(equation_.vertex_of_copy(equation_.first_copy(s) + i));
-    system.fill_in(solution, workspaces_.local());
+            interface_.row(equation_.copies().vertex[at(first + i)]);
+    system.fill_in(solution);
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
     const std::vector<Index>& vertices = system.unknowns();
     for (std::size_t u = 0; u < vertices.size(); ++u)
         if (sub_mesh.owned[at(vertices[u])] != 0)
-            next_.row(sub_mesh.local_to_global[at(vertices[u])]) = solution.row(static_cast<Eigen::Index>(u));
+            next_.row(sub_mesh.local_to_global[at(vertices[u])]) =
+                positions_.row(sub_mesh.local_to_global[at(vertices[u])]) + solution.row(static_cast<Eigen::Index>(u));
     seconds_[at(s)].solve += watch.lap();
 }
 
@@ -141,6 +154,8 @@ void ConvergedFlow::describe(StepReport& report) const
 {
     report.iterations = result_.iterations;
     report.residual = result_.residual;
+    if (mean_edge_ > 0.0)
+        report.estimated_v_max = result_.estimated_distance / mean_edge_;
 }
 
 void ConvergedFlow::describe(FlowReport& report) const
@@ -151,7 +166,7 @@ void ConvergedFlow::describe(FlowReport& report) const
     report.subdomain_colors.assign(systems_.size(), 0);
     report.p.assign(systems_.size(), 0.0);
     report.live_factors = report.subdomains;
-    report.factor_memory_bytes = factors_.bytes();
+    report.factor_memory_bytes = factor_bytes_;
     for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
         report.subdomain_faces.push_back(static_cast<Index>(sub_mesh.faces.size()));
         report.subdomain_vertices.push_back(sub_mesh.n_vertices);
@@ -162,10 +177,15 @@ void ConvergedFlow::describe(FlowReport& report) const
         report.seconds.solve += seconds.solve;
     }
     report.seconds.interface = interface_seconds_;
+    report.steps_short_of_tolerance = steps_short_of_tolerance_;
+    report.steps_stagnated = steps_stagnated_;
     if (steps_short_of_tolerance_ > 0)
-        report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
-                                 (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +
-                                 std::to_string(stop_.iterations) + " iterations at most.");
+        report.remarks.push_back(
+            "The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
+            (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " + std::to_string(stop_.iterations) +
+            " iterations at most" +
+            (steps_stagnated_ > 0 ? "; in " + std::to_string(steps_stagnated_) + " of them more would not have helped."
+                                  : "."));
     if (recorder_)
         report.schedule = recorder_->schedule();
 }

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "engine/factor_pool.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "engine/schedule_recorder.h"
@@ -54,19 +53,22 @@ class ConvergedFlow {
     void fill_in(Index s);
 
     Decomposition decomposition_;
-    FactorPool factors_;
     Workspaces workspaces_;
     std::vector<std::unique_ptr<NeumannSystem>> systems_;
     std::vector<const NeumannSystem*> system_views_;
+    std::size_t factor_bytes_ = 0;
     InterfaceEquation equation_;
     InterfaceStop stop_;
     InterfaceResult result_;
     double time_step_;
+    /// Of the mesh before the first step.
+    double mean_edge_;
     Points positions_;
     /// Vᵏ⁺¹, #V by 3: complete at the end of a step.
     Points next_;
-    /// On Γ: Vᵏ, then Vᵏ⁺¹.
+    /// On Γ: Vᵏ⁺¹ - Vᵏ, and that of the step before, which has no rows in the first step.
     Points interface_;
+    Points guess_;
     /// What each sub-mesh has of the right-hand side on Γ.
     Points condensed_;
     /// Per sub-mesh, what its elimination leaves of the interior.
@@ -76,6 +78,8 @@ class ConvergedFlow {
     double interface_seconds_ = 0.0;
     /// Where the tolerance was missed.
     int steps_short_of_tolerance_ = 0;
+    /// Where more iterations would not have helped.
+    int steps_stagnated_ = 0;
     /// nullptr: the schedule is not recorded.
     std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;

@@ -133,8 +133,8 @@ struct FlowOptions {
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
-    /// The undecomposed step itself, to this residual on Γ relative to that at the beginning of the step: for Δ_F and
-    /// Δ_A, in place of what `conditions` says.
+    /// The undecomposed step itself, to this residual on Γ relative to that of the positions before the step: for Δ_F
+    /// and Δ_A, in place of what `conditions` says.
     std::optional<double> tolerance;
     /// Most iterations of a step for that.
     int converge_iterations = 1000;

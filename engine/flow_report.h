@@ -56,6 +56,8 @@ struct StepReport {
     /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
     std::optional<int> iterations;
     std::optional<double> residual;
+    /// Estimated largest distance of a vertex to where the exact step would have put it, where that is known.
+    std::optional<double> estimated_v_max;  ///< in mean edge lengths of the input
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.
@@ -102,6 +104,10 @@ struct FlowReport {
     std::optional<PolygonMesh> pieces;
     /// With FlowOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
+    /// With FlowOptions::tolerance, the steps that did not reach it, and those of them where more iterations would not
+    /// have helped.
+    int steps_short_of_tolerance = 0;
+    int steps_stagnated = 0;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
     std::vector<std::string> remarks;
 };

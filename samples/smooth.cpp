@@ -73,6 +73,17 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
     }
 }
 
+/// Where iterations end that the user has not limited, or more would not help, the results are not what was asked for.
+ExitStatus require_converged(const SmoothCommand& command, const FlowReport& report)
+{
+    const int missed = command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
+    if (missed == 0)
+        return ExitStatus::Success;
+    std::cerr << "smooth: the tolerance " << command.options.tolerance.value_or(0.0) << " was missed in " << missed
+              << (missed == 1 ? " step; " : " steps; ") << command.output.string() << " has the last state\n";
+    return ExitStatus::ComputationFailed;
+}
+
 ExitStatus smooth(int argc, char** argv)
 {
     SmoothCommand command;
@@ -106,7 +117,7 @@ ExitStatus smooth(int argc, char** argv)
     if (!command.trace.empty())
         write_schedule_trace(command.trace, report);
     print_summary(std::cout, run, report);
-    return ExitStatus::Success;
+    return require_converged(command, report);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 
 namespace seamflow {
@@ -19,5 +20,24 @@ class FactorMemory {
 
 /// The heap: every factor has memory of its own.
 FactorMemory& heap_memory();
+
+/// Memory for one factor at a time, taken from the heap once and kept.
+class KeptMemory final : public FactorMemory {
+  public:
+    std::span<std::byte> take(std::size_t bytes) override
+    {
+        if (size_ < bytes) {
+            memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
+            size_ = bytes;
+        }
+        return {memory_.get(), size_};
+    }
+
+    void give_back(std::span<std::byte>) override {}
+
+  private:
+    std::unique_ptr<std::byte[]> memory_;
+    std::size_t size_ = 0;
+};
 
 }  // namespace seamflow

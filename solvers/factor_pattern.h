@@ -9,8 +9,8 @@ namespace seamflow {
 
 /// Which entries of the factors L and U of a matrix may be different from zero if every pivot is taken from the
 /// diagonal, with the matrix's pattern made symmetric. Unknowns are numbered in the order of elimination, and gathered
-/// into blocks of consecutive ones whose columns of L have the same rows but for each other (supernodes; a few entries
-/// that stay zero are taken in for larger blocks). The rows of U are those columns, transposed.
+/// into blocks of consecutive ones whose columns of L have the same rows but for each other (supernodes). The rows of U
+/// are those columns, transposed.
 struct FactorPattern {
     /// An update of one column of L, and one row of U, by a block of earlier ones.
     struct Update {
@@ -38,7 +38,8 @@ struct FactorPattern {
 /// @throws ComputationError if there is too little memory.
 FactorPattern make_factor_pattern(const SparsePattern& pattern);
 
-/// For a symmetric matrix whose unknowns are in the order of elimination, without `updates`.
+/// For a symmetric matrix whose unknowns are in the order of elimination, without `updates`. A few entries that stay
+/// zero are taken in for wider blocks.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @param n_last the last unknowns, which are made one block in any case.
 /// @param places receives, per entry of the matrix, where its column stands among the rows of its row's block.

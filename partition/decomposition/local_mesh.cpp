@@ -14,37 +14,46 @@ std::size_t count_corners(const PolygonMesh& mesh, std::span<const Index> faces)
     return n;
 }
 
+/// Numbers the vertices as they are met, then in the order of their global indices.
 void copy_vertices(const PolygonMesh& mesh, std::size_t n_corners, SubMeshDraft& draft)
 {
     SubMesh& sub_mesh = draft.sub_mesh;
-    for (const Index f : sub_mesh.faces)
-        for (const Index v : mesh.face(f))
-            if (draft.vertices.insert(v))
-                sub_mesh.local_to_global.push_back(v);
-    std::sort(sub_mesh.local_to_global.begin(), sub_mesh.local_to_global.end());
-    sub_mesh.n_vertices = static_cast<Index>(sub_mesh.local_to_global.size());
-    draft.vertices.set_positions(sub_mesh.local_to_global);
-
-    sub_mesh.face_vertices.offsets.reserve(sub_mesh.faces.size() + 1);
-    sub_mesh.face_vertices.values.reserve(n_corners);
+    auto& [offsets, corners] = sub_mesh.face_vertices;
+    offsets.reserve(sub_mesh.faces.size() + 1);
+    corners.reserve(n_corners);
+    std::vector<Index> met;
     for (const Index f : sub_mesh.faces) {
         for (const Index v : mesh.face(f))
-            sub_mesh.face_vertices.values.push_back(draft.vertices[v]);
+            corners.push_back(draft.vertices.position_or_append(v, met));
         sub_mesh.face_vertices.close();
     }
+    sub_mesh.n_vertices = static_cast<Index>(met.size());
+    sub_mesh.local_to_global = met;
+    std::sort(sub_mesh.local_to_global.begin(), sub_mesh.local_to_global.end());
+    draft.vertices.set_positions(sub_mesh.local_to_global);
+    std::transform(met.begin(), met.end(), met.begin(), [&](Index v) { return draft.vertices[v]; });
+    for (Index& corner : corners)
+        corner = met[at(corner)];
 }
 
+/// A pair of half-edges is found once, from the first of its faces.
 void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMeshDraft& draft)
 {
     SubMesh& sub_mesh = draft.sub_mesh;
-    sub_mesh.twin.reserve(sub_mesh.face_vertices.values.size());
+    sub_mesh.twin.assign(sub_mesh.face_vertices.values.size(), -1);
+    Index own = 0;
     for (const Index f : sub_mesh.faces)
-        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
+        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h, ++own) {
             const Index twin = topology.twin[at(h)];
-            const Index face = twin < 0 ? -1 : draft.faces[topology.face_of[at(twin)]];
-            sub_mesh.twin.push_back(face < 0 ? -1
-                                             : sub_mesh.face_vertices.offsets[at(face)] + twin -
-                                                   mesh.face_offsets[at(topology.face_of[at(twin)])]);
+            if (twin < h)
+                continue;
+            const Index other_face = topology.face_of[at(twin)];
+            const Index face = draft.faces[other_face];
+            if (face < 0)
+                continue;
+            const Index other = sub_mesh.face_vertices.offsets[at(face)] + twin - mesh.face_offsets[at(other_face)];
+            sub_mesh.twin[at(own)] = other;
+            sub_mesh.twin[at(other)] = own;
         }
 }
 

@@ -33,6 +33,22 @@ class PositionTable {
         return true;
     }
 
+    /// The position of an index; where it is new, it is appended to the list, and that is its position.
+    Index position_or_append(Index value, std::vector<Index>& list)
+    {
+        std::size_t slot = slot_of(value);
+        if (slots_[slot].value < 0) {
+            if (2 * (n_values_ + 1) > slots_.size()) {
+                grow();
+                slot = slot_of(value);
+            }
+            slots_[slot] = {value, static_cast<Index>(list.size())};
+            ++n_values_;
+            list.push_back(value);
+        }
+        return slots_[slot].position;
+    }
+
     /// Of indices that are in the table, in the order given.
     void set_positions(std::span<const Index> values, Index first = 0)
     {

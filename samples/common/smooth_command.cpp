@@ -165,6 +165,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     command.arguments.assign(argv + 1, argv + argc);
+    command.limits_iterations = app.count("--converge-iterations") > 0;
     command.options.record_schedule = !command.trace.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);

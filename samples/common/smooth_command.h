@@ -19,6 +19,8 @@ struct SmoothCommand {
     FlowOptions options;
     /// The time step in squared mean edge lengths of the input.
     std::optional<double> time_step_edges;
+    /// Whether the iterations of a step are as many as the user says: then it is no failure that a step has no more.
+    bool limits_iterations = false;
     /// Files; empty: none.
     std::filesystem::path labels;
     std::filesystem::path parts;

@@ -1,6 +1,7 @@
 #include "solvers/interface/dense_factor.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solvers/wide.h"
 
@@ -34,7 +35,7 @@ void DenseFactor::take(const DenseLdl& factor)
 {
     n_ = static_cast<Index>(factor.rows());
     values_.resize(at(n_) * at(n_));
-    diagonal_.resize(at(n_));
+    root_.resize(at(n_));
     inverse_.resize(at(n_));
     for (Index row = 0; row < n_; ++row) {
         for (Index column = 0; column < row; ++column) {
@@ -43,17 +44,28 @@ void DenseFactor::take(const DenseLdl& factor)
             values_[at(row) * at(n_) + at(column)] = value;
         }
         values_[at(row) * at(n_) + at(row)] = 0.0F;
-        diagonal_[at(row)] = static_cast<float>(factor(row, row));
+        root_[at(row)] = static_cast<float>(std::sqrt(factor(row, row)));
         inverse_[at(row)] = static_cast<float>(1.0 / factor(row, row));
     }
 }
 
 void DenseFactor::multiply(FloatColumns v) const
 {
+    multiply_by_root_transposed(v);
+    multiply_by_root(v);
+}
+
+void DenseFactor::multiply_by_root_transposed(FloatColumns v) const
+{
     // Lᵀ v: row j of the result needs those after it, so that columns in ascending order may write over it.
     for (Index column = 0; column < n_; ++column)
         add_column(&values_[at(column) * at(n_)], 0, column, v.x[column], v.y[column], v.z[column], v.x, v.y, v.z);
-    scale(diagonal_, v);
+    scale(root_, v);
+}
+
+void DenseFactor::multiply_by_root(FloatColumns v) const
+{
+    scale(root_, v);
     for (Index column = n_ - 1; column >= 0; --column)
         add_column(&values_[at(column) * at(n_)], column + 1, n_, v.x[column], v.y[column], v.z[column], v.x, v.y, v.z);
 }
@@ -66,6 +78,20 @@ void DenseFactor::solve(FloatColumns v) const
     scale(inverse_, v);
     for (Index column = n_ - 1; column >= 0; --column)
         add_column(&values_[at(column) * at(n_)], 0, column, -v.x[column], -v.y[column], -v.z[column], v.x, v.y, v.z);
+}
+
+std::vector<double> DenseFactor::diagonal() const
+{
+    std::vector<double> sums(at(n_));
+    for (Index column = 0; column < n_; ++column) {
+        const double pivot = 1.0 / static_cast<double>(inverse_[at(column)]);
+        sums[at(column)] += pivot;
+        for (Index row = column + 1; row < n_; ++row) {
+            const auto value = static_cast<double>(values_[at(column) * at(n_) + at(row)]);
+            sums[at(row)] += value * value * pivot;
+        }
+    }
+    return sums;
 }
 
 }  // namespace seamflow

@@ -25,17 +25,24 @@ class DenseFactor {
     /// v becomes S v; n numbers per column.
     void multiply(FloatColumns v) const;
 
+    /// The two halves of that, S = R Rᵀ with R = L √D: v becomes Rᵀ v, and R v.
+    void multiply_by_root_transposed(FloatColumns v) const;
+    void multiply_by_root(FloatColumns v) const;
+
     /// v becomes S⁻¹ v.
     void solve(FloatColumns v) const;
 
-    [[nodiscard]] std::size_t bytes() const { return (values_.capacity() + diagonal_.capacity()) * sizeof(float); }
+    /// The diagonal of S.
+    [[nodiscard]] std::vector<double> diagonal() const;
+
+    [[nodiscard]] std::size_t bytes() const { return (values_.capacity() + 2 * root_.capacity()) * sizeof(float); }
 
   private:
     Index n_ = 0;
     /// n by n by columns: below the diagonal L, above it Lᵀ, so that a column of either is contiguous.
     std::vector<float> values_;
-    /// D, and its inverses.
-    std::vector<float> diagonal_;
+    /// √D, and the inverses of D.
+    std::vector<float> root_;
     std::vector<float> inverse_;
 };
 

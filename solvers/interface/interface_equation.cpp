@@ -8,7 +8,13 @@ namespace seamflow {
 namespace {
 
 /// How much of the residual single precision may take away before it is measured anew.
-constexpr double most_reduction_at_once = 1e-5;
+constexpr double most_reduction_at_once = 1e-4;
+/// And the same after so many iterations, however little they have taken away.
+constexpr int most_iterations_at_once = 100;
+/// A residual that is larger, relative to that at the beginning, need not be measured anew.
+constexpr double largest_to_measure = 1e-3;
+/// Residuals measured one after the other, none below half of the one before it: the end.
+constexpr int most_stalls = 3;
 
 double largest_ratio(const std::array<double, 3>& norms, const std::array<double, 3>& first)
 {
@@ -19,116 +25,182 @@ double largest_ratio(const std::array<double, 3>& norms, const std::array<double
     return largest;
 }
 
-}  // namespace
-
-InterfaceEquation::InterfaceEquation(const Decomposition& decomposition)
-    : first_copy_{0}
+/// Where the denominator is 0, 0.
+Point quotients(const std::array<double, 3>& numerators, const std::array<double, 3>& denominators)
 {
-    for (const SubMesh& sub_mesh : decomposition.sub_meshes)
-        first_copy_.push_back(first_copy_.back() + sub_mesh.interface.size());
-    vertex_of_copy_.assign(at(n_copies()), -1);
-    copy_offsets_.push_back(0);
-    for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
-        const auto& interface = decomposition.sub_meshes[at(s)].interface;
-        for (Index i = 0; i < interface.size(); ++i) {
-            if (interface.sharing[i].front() != s)
-                continue;
-            for (std::size_t k = 0; k < interface.sharing[i].size(); ++k) {
-                const Index t = interface.sharing[i][k];
-                const auto& others = decomposition.sub_meshes[at(t)].interface.vertices;
-                const auto place = std::lower_bound(others.begin(), others.end(), interface.index_in_sharing[i][k]);
-                copies_.push_back(first_copy_[at(t)] + static_cast<Index>(place - others.begin()));
-                vertex_of_copy_[at(copies_.back())] = size();
-            }
-            copy_offsets_.push_back(static_cast<Index>(copies_.size()));
-        }
-    }
-    products_.resize(3 * at(n_copies()));
-    residual_copies_.resize(n_copies(), 3);
-    for (Points* array : {&residual_, &direction_, &product_, &preconditioned_})
-        array->resize(size(), 3);
-    partial_.resize(at(size() / block_size) + 1);
-}
-
-InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
-                                         const InterfaceStop& stop, Points& x, const Loop& loop)
-{
-    measure_residual(systems, right_hand_sides, x, loop);
-    Sums first = dot(residual_, residual_, loop);
-    for (double& norm : first)
-        norm = std::sqrt(norm);
-    Sums norms = first;
-    InterfaceResult result;
-    while (result.iterations < stop.iterations && largest_ratio(norms, first) > stop.tolerance) {
-        Sums goals;
-        for (std::size_t c = 0; c < 3; ++c)
-            goals[c] = std::max(stop.tolerance * first[c], most_reduction_at_once * norms[c]);
-        result.iterations += iterate(systems, goals, stop.iterations - result.iterations, x, loop);
-        if (result.iterations < stop.iterations || stop.tolerance > 0.0)
-            measure_residual(systems, right_hand_sides, x, loop);
-        const Sums before = norms;
-        norms = dot(residual_, residual_, loop);
-        for (double& norm : norms)
-            norm = std::sqrt(norm);
-        if (largest_ratio(norms, before) > 0.5)
-            break;
-    }
-    result.residual = largest_ratio(norms, first);
+    Point result = Point::Zero();
+    for (std::size_t c = 0; c < 3; ++c)
+        if (denominators[c] > 0.0)
+            result[static_cast<Eigen::Index>(c)] = numerators[c] / denominators[c];
     return result;
 }
 
-/// In double precision.
-void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
-                                         const Points& x, const Loop& loop)
+}  // namespace
+
+InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing)
+    : copies_(decomposition)
+    , weights_(at(copies_.n_copies()))
+    , products_(3 * weights_.size())
+    , residual_copies_(copies_.n_copies(), 3)
+    , right_hand_side_(copies_.n_vertices(), 3)
+    , residual_(copies_.n_vertices(), 3)
+    , direction_(copies_.n_vertices(), 3)
+    , product_(copies_.n_vertices(), 3)
+    , preconditioned_(copies_.n_vertices(), 3)
+    , partial_(at(copies_.n_vertices() / block_size) + 1)
 {
-    for_each(loop, static_cast<Index>(systems.size()), [&](Index s) {
-        const NeumannSystem& system = *systems[at(s)];
-        Points local(system.n_interface(), 3);
-        for (Index i = 0; i < system.n_interface(); ++i)
-            local.row(i) = x.row(vertex_of_copy_[at(first_copy(s) + i)]);
-        auto residual = residual_copies_.middleRows(first_copy(s), system.n_interface());
-        residual = right_hand_sides.middleRows(first_copy(s), system.n_interface());
-        system.subtract_schur(local, residual);
+    if (balancing == Balancing::Coarse)
+        coarse_.emplace(copies_);
+}
+
+InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
+                                         const Points& guess, const InterfaceStop& stop, Points& x, const Loop& loop)
+{
+    x.setZero(copies_.n_vertices(), 3);
+    weigh_copies(systems, loop);
+    if (coarse_)
+        coarse_->prepare(systems, weights_, loop);
+    sum_copies(right_hand_sides, right_hand_side_, loop);
+    residual_ = right_hand_side_;
+    const Sums first = norms(loop);
+    step_length_.setOnes();
+    if (stop.iterations > 0)
+        start(systems, guess, x, loop);
+    Sums present = norms(loop);
+    const auto measure_anew = [&] {
+        if (largest_ratio(present, first) > largest_to_measure)
+            return;
+        measure_residual(systems, x, loop);
+        present = norms(loop);
+    };
+    measure_anew();
+    InterfaceResult result;
+    int stalls = 0;
+    while (result.iterations < stop.iterations && largest_ratio(present, first) > stop.tolerance && !result.stagnated) {
+        Sums goals;
+        for (std::size_t c = 0; c < 3; ++c)
+            goals[c] = std::max(stop.tolerance * first[c], most_reduction_at_once * present[c]);
+        const int most = std::min(stop.iterations - result.iterations, most_iterations_at_once);
+        result.iterations += iterate(systems, goals, most, x, loop);
+        const Sums before = present;
+        present = norms(loop);
+        measure_anew();
+        stalls = largest_ratio(present, before) > 0.5 ? stalls + 1 : 0;
+        result.stagnated = stalls == most_stalls;
+        // Rounding can spoil the directions so much that they lead nowhere: new ones then.
+        if (stalls > 0)
+            curvature_ = {};
+    }
+    result.residual = largest_ratio(present, first);
+    result.stagnated = result.stagnated && result.residual > stop.tolerance;
+    result.estimated_distance = estimate_distance(systems, loop);
+    return result;
+}
+
+/// As far as the next iteration would go if it were as long as the last one, not being conjugate to any.
+double InterfaceEquation::estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop)
+{
+    precondition(systems, loop);
+    double largest = 0.0;
+    for (Index v = 0; v < copies_.n_vertices(); ++v)
+        largest = std::max(largest, preconditioned_.row(v).cwiseProduct(step_length_).norm());
+    return largest;
+}
+
+/// By the diagonals of the Schur complements.
+void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop)
+{
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        const std::vector<double> diagonal = systems[at(s)]->schur().diagonal();
+        std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[at(s)]);
     });
-    for_each(loop, size(), [&](Index v) {
-        Point sum = Point::Zero();
-        for (Index k = copy_offsets_[at(v)]; k < copy_offsets_[at(v) + 1]; ++k)
-            sum += residual_copies_.row(copies_[at(k)]);
-        residual_.row(v) = sum;
+    for_each(loop, copies_.n_vertices(), [&](Index v) {
+        double sum = 0.0;
+        for (const Index copy : copies_.of_vertex[v])
+            sum += weights_[at(copy)];
+        for (const Index copy : copies_.of_vertex[v])
+            weights_[at(copy)] /= sum;
     });
 }
 
-/// Conjugate gradients from the present residual; x and the residual are brought up to date.
+/// In double precision. The shares of the right-hand side may cancel each other almost wholly: only their sum is used.
+void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> systems, const Points& x,
+                                         const Loop& loop)
+{
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        const Index first = copies_.first[at(s)];
+        const Index n = copies_.n_in(s);
+        Points local(n, 3);
+        for (Index i = 0; i < n; ++i)
+            local.row(i) = x.row(copies_.vertex[at(first + i)]);
+        auto change = residual_copies_.middleRows(first, n);
+        change.setZero();
+        systems[at(s)]->subtract_schur(local, change);
+    });
+    sum_copies(residual_copies_, residual_, loop);
+    residual_ += right_hand_side_;
+}
+
+void InterfaceEquation::sum_copies(const Points& copies, Points& sums, const Loop& loop)
+{
+    for_each(loop, copies_.n_vertices(), [&](Index v) {
+        Point sum = Point::Zero();
+        for (const Index copy : copies_.of_vertex[v])
+            sum += copies.row(copy);
+        sums.row(v) = sum;
+    });
+}
+
+/// Moves the coarse unknowns to where they have to be: only from there on is the preconditioner symmetric. Then goes as
+/// far along the guess as pays.
+void InterfaceEquation::start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x,
+                              const Loop& loop)
+{
+    curvature_ = {};
+    direction_.setZero();
+    product_.setZero();
+    if (coarse_) {
+        coarse_->correct(residual_, direction_, loop);
+        advance(systems, x, loop);
+    }
+    if (guess.size() > 0) {
+        direction_ = guess;
+        if (coarse_)
+            coarse_->correct(residual_, direction_, loop);
+        advance(systems, x, loop);
+    }
+    step_length_.setOnes();
+}
+
+/// Conjugate gradients; x and the residual are brought up to date.
 /// @returns how many iterations.
 int InterfaceEquation::iterate(std::span<const NeumannSystem* const> systems, const Sums& goals, int most, Points& x,
                                const Loop& loop)
 {
-    Sums energy{};
     for (int iteration = 0; iteration < most; ++iteration) {
         precondition(systems, loop);
-        const Sums renewed = dot(residual_, preconditioned_, loop);
-        Point beta;
-        for (std::size_t c = 0; c < 3; ++c)
-            beta[static_cast<Eigen::Index>(c)] = energy[c] > 0.0 ? renewed[c] / energy[c] : 0.0;
-        energy = renewed;
-        for_each(loop, size(), [&](Index v) {
-            direction_.row(v) = iteration == 0 ? Point(preconditioned_.row(v))
-                                               : Point(preconditioned_.row(v) + direction_.row(v).cwiseProduct(beta));
-        });
-        multiply(systems, loop);
-        const Sums curvature = dot(direction_, product_, loop);
-        Point alpha;
-        for (std::size_t c = 0; c < 3; ++c)
-            alpha[static_cast<Eigen::Index>(c)] = curvature[c] > 0.0 ? energy[c] / curvature[c] : 0.0;
-        for_each(loop, size(), [&](Index v) {
-            x.row(v) += direction_.row(v).cwiseProduct(alpha);
-            residual_.row(v) -= product_.row(v).cwiseProduct(alpha);
-        });
-        const Sums squares = dot(residual_, residual_, loop);
-        if (std::sqrt(squares[0]) <= goals[0] && std::sqrt(squares[1]) <= goals[1] && std::sqrt(squares[2]) <= goals[2])
+        // Conjugate to the direction before even where the residual has just been renewed.
+        const Point beta = -quotients(dot(preconditioned_, product_, loop), curvature_);
+        for_each(loop, copies_.n_vertices(),
+                 [&](Index v) { direction_.row(v) = preconditioned_.row(v) + direction_.row(v).cwiseProduct(beta); });
+        advance(systems, x, loop);
+        const Sums lengths = norms(loop);
+        if (lengths[0] <= goals[0] && lengths[1] <= goals[1] && lengths[2] <= goals[2])
             return iteration + 1;
     }
     return most;
+}
+
+/// Goes along the direction to where the energy is least.
+void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop)
+{
+    multiply(systems, loop);
+    curvature_ = dot(direction_, product_, loop);
+    step_length_ = quotients(dot(direction_, residual_, loop), curvature_);
+    for_each(loop, copies_.n_vertices(), [&](Index v) {
+        x.row(v) += direction_.row(v).cwiseProduct(step_length_);
+        residual_.row(v) -= product_.row(v).cwiseProduct(step_length_);
+    });
 }
 
 void InterfaceEquation::multiply(std::span<const NeumannSystem* const> systems, const Loop& loop)
@@ -141,54 +213,63 @@ void InterfaceEquation::precondition(std::span<const NeumannSystem* const> syste
 {
     on_each(systems, residual_, true, preconditioned_, loop,
             [](const DenseFactor& schur, FloatColumns columns) { schur.solve(columns); });
+    if (coarse_)
+        coarse_->correct(residual_, preconditioned_, loop);
 }
 
-/// Target = the sum of what `apply` makes of the source on each sub-mesh's Γ.
-/// @param weighted whether source and results are divided by the number of copies.
+/// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted.
 template <class Apply>
 void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, const Points& source, bool weighted,
                                 Points& target, const Loop& loop, Apply&& apply)
 {
-    const auto weight = [&](Index v) {
-        return weighted ? 1.0 / static_cast<double>(copy_offsets_[at(v) + 1] - copy_offsets_[at(v)]) : 1.0;
-    };
-    for_each(loop, static_cast<Index>(systems.size()), [&](Index s) {
-        const auto n = static_cast<std::ptrdiff_t>(systems[at(s)]->n_interface());
-        float* begin = products_.data() + 3 * static_cast<std::ptrdiff_t>(first_copy(s));
-        const FloatColumns columns{begin, begin + n, begin + 2 * n};
-        for (std::ptrdiff_t i = 0; i < n; ++i) {
-            const Index v = vertex_of_copy_[at(first_copy(s)) + static_cast<std::size_t>(i)];
-            const Point value = weight(v) * source.row(v);
+    const auto weight = [&](Index copy) { return weighted ? weights_[at(copy)] : 1.0; };
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        const Index n = copies_.n_in(s);
+        const Index first = copies_.first[at(s)];
+        float* begin = products_.data() + 3 * static_cast<std::ptrdiff_t>(first);
+        const FloatColumns columns{begin, begin + n, begin + 2 * static_cast<std::ptrdiff_t>(n)};
+        for (Index i = 0; i < n; ++i) {
+            const Point value = weight(first + i) * source.row(copies_.vertex[at(first + i)]);
             columns.x[i] = static_cast<float>(value[0]);
             columns.y[i] = static_cast<float>(value[1]);
             columns.z[i] = static_cast<float>(value[2]);
         }
         apply(systems[at(s)]->schur(), columns);
-        for (std::ptrdiff_t i = 0; i < n; ++i)
-            residual_copies_.row(first_copy(s) + i) << columns.x[i], columns.y[i], columns.z[i];
+        for (Index i = 0; i < n; ++i)
+            residual_copies_.row(first + i) << columns.x[i], columns.y[i], columns.z[i];
     });
-    for_each(loop, size(), [&](Index v) {
+    for_each(loop, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
-        for (Index k = copy_offsets_[at(v)]; k < copy_offsets_[at(v) + 1]; ++k)
-            sum += residual_copies_.row(copies_[at(k)]);
-        target.row(v) = weight(v) * sum;
+        for (const Index copy : copies_.of_vertex[v])
+            sum += weight(copy) * residual_copies_.row(copy);
+        target.row(v) = sum;
     });
 }
 
 InterfaceEquation::Sums InterfaceEquation::dot(const Points& a, const Points& b, const Loop& loop)
 {
-    for_each_block(loop, size(), [&](Index block, Index begin, Index end) {
+    const Index n = copies_.n_vertices();
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
         Point sum = Point::Zero();
         for (Index v = begin; v < end; ++v)
             sum += a.row(v).cwiseProduct(b.row(v));
         partial_[at(block)] = {sum[0], sum[1], sum[2]};
     });
     Sums total{};
-    const Index n_blocks = size() / block_size + (size() % block_size > 0 ? 1 : 0);
+    const Index n_blocks = n / block_size + (n % block_size > 0 ? 1 : 0);
     for (Index block = 0; block < n_blocks; ++block)
         for (std::size_t c = 0; c < 3; ++c)
             total[c] += partial_[at(block)][c];
     return total;
+}
+
+/// Of the residual's three columns.
+InterfaceEquation::Sums InterfaceEquation::norms(const Loop& loop)
+{
+    Sums lengths = dot(residual_, residual_, loop);
+    for (double& length : lengths)
+        length = std::sqrt(length);
+    return lengths;
 }
 
 }  // namespace seamflow

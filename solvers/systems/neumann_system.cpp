@@ -7,8 +7,42 @@
 #include "solvers/elimination_order.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
+#include "solvers/wide.h"
 
 namespace seamflow {
+
+namespace {
+
+/// v[0 … n - 1] += row[0 … n - 1] · factor, for three columns.
+SEAMFLOW_WIDE void add_row(const double* __restrict row, Index n, const Point& factor, Columns& v)
+{
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        double* __restrict column = v.col(c).data();
+        const double f = factor[c];
+        for (Index j = 0; j < n; ++j)
+            column[j] += row[j] * f;
+    }
+}
+
+/// row[0 … n - 1] · v[0 … n - 1], for three columns; by four sums each, as wide registers have them.
+SEAMFLOW_WIDE Point multiply_row(const double* __restrict row, Index n, const Columns& v)
+{
+    Point result;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        const double* __restrict column = v.col(c).data();
+        double sums[4] = {};
+        const Index n_whole = n / 4 * 4;
+        for (Index j = 0; j < n_whole; j += 4)
+            for (Index k = 0; k < 4; ++k)
+                sums[k] += row[j + k] * column[j + k];
+        for (Index j = n_whole; j < n; ++j)
+            sums[0] += row[j] * column[j];
+        result[c] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    }
+    return result;
+}
+
+}  // namespace
 
 NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
     : sub_mesh_(&sub_mesh)
@@ -19,7 +53,6 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
     const std::vector<VertexPair> pairs = laplacian_->pairs();
     number_unknowns(pairs);
     list_couplings(pairs);
-    mass_.resize(vertex_of_.size());
     solver_ = std::make_unique<LdlSolver>(upper_, n_interface());
 }
 
@@ -74,9 +107,9 @@ void NeumannSystem::assemble(const Points& positions, double time_step, SolverWo
     workspace.mass.resize(workspace.diagonal.size());
     laplacian_->assemble(positions, time_step, slots_, workspace.values, workspace.diagonal, workspace.mass);
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
-        mass_[u] = workspace.mass[at(vertex_of_[u])];
+        const Index v = vertex_of_[u];
         workspace.values[at(diagonal_slot(upper_, static_cast<Index>(u)))] =
-            mass_[u] + workspace.diagonal[at(vertex_of_[u])];
+            workspace.mass[at(v)] + workspace.diagonal[at(v)];
     }
     for (std::size_t c = 0; c < fixed_.size(); ++c)
         fixed_[c].value = workspace.values[n_entries + c];
@@ -89,20 +122,31 @@ void NeumannSystem::factorise(SolverWorkspace& workspace)
     const auto values = std::span<const double>(workspace.values).first(at(upper_.n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (!solver_->factorise(values, *workspace.factors, workspace.ldl))
+    if (!solver_->factorise(values, memory_, workspace.ldl))
         throw ComputationError(system_singular);
     schur_.take(solver_->last());
 }
 
-void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed) const
+/// The rows of K add up to zero: K V is made of differences, and has no rounding error of the size of V.
+void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed,
+                             const SolverWorkspace& workspace) const
 {
-    const auto n = static_cast<Eigen::Index>(vertex_of_.size());
-    eliminated.resize(n, 3);
-    for (Eigen::Index u = 0; u < n; ++u)
-        eliminated.row(u) = mass_[static_cast<std::size_t>(u)] * positions.row(vertex_of_[static_cast<std::size_t>(u)]);
+    eliminated.setZero(static_cast<Eigen::Index>(vertex_of_.size()), 3);
+    for (Index column = 0; column < upper_.n(); ++column) {
+        const Point here = positions.row(vertex_of_[at(column)]);
+        Point sum = Point::Zero();
+        for (Index slot = upper_.column_offsets[at(column)]; slot < diagonal_slot(upper_, column); ++slot) {
+            const Index row = upper_.rows[at(slot)];
+            const Point flux = workspace.values[at(slot)] * (positions.row(vertex_of_[at(row)]) - here);
+            eliminated.row(row) += flux;
+            sum += flux;
+        }
+        eliminated.row(column) -= sum;
+    }
     for (const Coupling& coupling : fixed_)
-        eliminated.row(coupling.unknown) -= coupling.value * positions.row(coupling.vertex);
-    if (n > 0)
+        eliminated.row(coupling.unknown) -=
+            coupling.value * (positions.row(coupling.vertex) - positions.row(vertex_of_[at(coupling.unknown)]));
+    if (!vertex_of_.empty())
         solver_->eliminate(eliminated);
     condensed = eliminated.bottomRows(n_interface());
 }
@@ -110,25 +154,18 @@ void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen:
 void NeumannSystem::subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const
 {
     const DenseLdl factor = solver_->last();
-    Points scaled = x;
+    Columns scaled = x;
     for (Index i = 0; i < n_interface(); ++i)
-        for (Index j = 0; j < i; ++j)
-            scaled.row(j) += factor(i, j) * x.row(i);
+        add_row(factor.row(i).data(), i, x.row(i), scaled);
     scaled.array().colwise() *= factor.diagonal().array();
-    for (Index i = 0; i < n_interface(); ++i) {
-        Point sum = scaled.row(i);
-        for (Index j = 0; j < i; ++j)
-            sum += factor(i, j) * scaled.row(j);
-        result.row(i) -= sum;
-    }
+    for (Index i = 0; i < n_interface(); ++i)
+        result.row(i) -= scaled.row(i) + multiply_row(factor.row(i).data(), i, scaled);
 }
 
-void NeumannSystem::fill_in(Points& solution, SolverWorkspace& workspace)
+void NeumannSystem::fill_in(Points& solution) const
 {
-    if (vertex_of_.empty())
-        return;
-    solver_->substitute_back(solution);
-    solver_->free_factor(*workspace.factors);
+    if (!vertex_of_.empty())
+        solver_->substitute_back(solution);
     if (!solution.allFinite())
         throw ComputationError(result_not_finite);
 }

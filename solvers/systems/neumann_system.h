@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
+#include "solvers/factor_memory.h"
 #include "solvers/interface/dense_factor.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/ldl_solver.h"
@@ -35,10 +36,12 @@ class NeumannSystem {
     /// @throws ComputationError if the equations are singular or not finite.
     void factorise(SolverWorkspace& workspace);
 
-    /// Eliminates the interior.
+    /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after `factorise`, with the same workspace.
+    /// @param positions those of `assemble`.
     /// @param eliminated #unknowns by 3: receives what fill_in needs of it.
     /// @param condensed n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
-    void condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed) const;
+    void condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed,
+                  const SolverWorkspace& workspace) const;
 
     /// The Schur complement on Γ.
     [[nodiscard]] const DenseFactor& schur() const { return schur_; }
@@ -47,15 +50,16 @@ class NeumannSystem {
     /// @param x, result n_interface() by 3.
     void subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const;
 
-    /// Solves for the interior with Γ given, and gives the factor's memory back.
-    /// @param solution #unknowns by 3. In: what condense left, and Vᵏ⁺¹ on Γ, whose rows are the last. Out: Vᵏ⁺¹.
+    /// Solves for the interior with Γ given.
+    /// @param solution #unknowns by 3. In: what condense left, and Vᵏ⁺¹ - Vᵏ on Γ, whose rows are the last. Out:
+    ///        Vᵏ⁺¹ - Vᵏ.
     /// @throws ComputationError if the result is not finite.
-    void fill_in(Points& solution, SolverWorkspace& workspace);
+    void fill_in(Points& solution) const;
 
     /// The own vertices that may move, in the order of the solution's rows.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return vertex_of_; }
 
-    /// What the factor takes, in bytes, its copy on Γ aside.
+    /// What the factor takes, in bytes, its copy on Γ aside. It is kept from step to step.
     [[nodiscard]] std::size_t factor_bytes() const { return solver_->factor_bytes(); }
 
   private:
@@ -73,8 +77,7 @@ class NeumannSystem {
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then one that nobody reads.
     std::vector<Index> slots_;
     std::vector<Coupling> fixed_;
-    /// Per unknown.
-    std::vector<double> mass_;
+    KeptMemory memory_;
     DenseFactor schur_;
 };
 

@@ -55,6 +55,47 @@ TEST_CASE("converged, the flow in many sub-meshes is the undecomposed flow")
         }
 }
 
+TEST_CASE("iterations do not grow with the number of sub-meshes, however long the step")
+{
+    const PolygonMesh mesh = make_triangles(8000);
+    for (const Laplacian laplacian : symmetric)
+        for (const Index subdomains : {16, 64, 250}) {
+            CAPTURE(name_of(laplacian));
+            CAPTURE(subdomains);
+            FlowOptions options = converged(laplacian, subdomains, 1e-8);
+            options.time_step = 0.1;
+            PolygonMesh moved = mesh;
+            for (const StepReport& step : mean_curvature_flow(moved, options).steps)
+                CHECK(step.iterations.value() <= 22);
+        }
+}
+
+TEST_CASE("the estimated distance to the exact step is the true one within a factor of 3")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const double tolerance : {1e-1, 1e-2, 1e-4}) {
+            CAPTURE(tolerance);
+            FlowOptions options = converged(Laplacian::Fujiwara, 12, tolerance);
+            options.steps = 1;
+            options.reference = true;
+            PolygonMesh moved = mesh;
+            const FlowReport report = mean_curvature_flow(moved, options);
+            const VertexDistance distance = report.steps.front().distance.value();
+            const double ratio = report.steps.front().estimated_v_max.value() * distance.mean_edge / distance.max;
+            CHECK(ratio < 3.0);
+            CHECK(ratio > 1.0 / 3.0);
+        }
+}
+
+TEST_CASE("components with and without Γ converge side by side")
+{
+    const PolygonMesh mesh = test::side_by_side({make_quads(900), make_triangles(100), make_noisy_sphere(700)});
+    FlowOptions undecomposed = converged(Laplacian::AlexaWardetzky, 1);
+    undecomposed.tolerance.reset();
+    CHECK(test::largest_difference(flowed(mesh, converged(Laplacian::AlexaWardetzky, 9)), flowed(mesh, undecomposed)) <
+          1e-8);
+}
+
 TEST_CASE("the tighter the tolerance the nearer, and iterations that run out are said")
 {
     const PolygonMesh mesh = make_triangles(2000);
@@ -76,6 +117,13 @@ TEST_CASE("the tighter the tolerance the nearer, and iterations that run out are
     CHECK(report.steps.back().residual > 1e-9);
     REQUIRE_FALSE(report.remarks.empty());
     CHECK(report.remarks.back().find("not reached in 3 steps") != std::string::npos);
+    CHECK(report.steps_short_of_tolerance == 3);
+    CHECK(report.steps_stagnated == 0);
+    few.converge_iterations = 1000;
+    few.tolerance = 1e-100;
+    const FlowReport stagnant = mean_curvature_flow(moved, few);
+    CHECK(stagnant.steps_stagnated == 3);
+    CHECK(stagnant.steps.back().iterations < 500);
 }
 
 TEST_CASE("converged steps give the same bits for every number of threads")

@@ -176,6 +176,25 @@ TEST_CASE("--memory-limit bounds the factors, which the summary tells, and chang
     CHECK(w.count_lines("said", "factors") == 0);
 }
 
+TEST_CASE("a missed tolerance ends with 4 and the last state, fewer iterations on request with 0")
+{
+    const Workshop w;
+    const std::string flow = " --time-step-edges 2 --subdomains 12 --steps 2 --report report.json --converge ";
+    REQUIRE(w.smooth("mesh.obj exact.obj" + flow + "1e-9") == 0);
+    for (const auto& step : w.json("report.json")["steps"]) {
+        CHECK(step["residual"].get<double>() <= 1e-9);
+        CHECK(step["estimated_v_max"].get<double>() < 1e-6);
+    }
+    CHECK(w.smooth("mesh.obj missed.obj" + flow + "1e-100") == 4);
+    CHECK(w.said().find("the tolerance 1e-100 was missed in 2 steps; missed.obj has the last state") !=
+          std::string::npos);
+    CHECK(w.has("missed.obj"));
+    CHECK(w.smooth("mesh.obj missed.obj" + flow + "1e-100 --converge-iterations 900") == 4);
+    REQUIRE(w.smooth("mesh.obj early.obj" + flow + "1e-9 --converge-iterations 2") == 0);
+    CHECK(w.json("report.json")["steps"][1]["iterations"] == 2);
+    CHECK(w.said().find("not reached in 2 steps") != std::string::npos);
+}
+
 TEST_CASE("--trace writes which task ran when, and changes nothing else")
 {
     const Workshop w;

@@ -54,6 +54,18 @@ TEST_CASE("the heap gives every factor memory of its own, fit for doubles")
     heap_memory().give_back(b);
 }
 
+TEST_CASE("kept memory is the same, factor after factor, until one needs more")
+{
+    KeptMemory memory;
+    const auto first = memory.take(1000);
+    CHECK(first.size() == 1000);
+    memory.give_back(first);
+    CHECK(memory.take(500).data() == first.data());
+    const auto larger = memory.take(4000);
+    CHECK(larger.size() == 4000);
+    CHECK(reinterpret_cast<std::uintptr_t>(larger.data()) % alignof(double) == 0);
+}
+
 TEST_CASE(
     "a system takes memory for its factor when it factorises, no more than it says, and gives it back when solved")
 {

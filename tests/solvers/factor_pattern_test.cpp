@@ -97,7 +97,8 @@ TEST_CASE("a pattern without unknowns has no blocks")
     CHECK(make_factor_pattern(SparsePattern{}).n_blocks() == 0);
 }
 
-TEST_CASE("in a given order the last unknowns are one block, and the others have the entries that elimination fills in")
+TEST_CASE("in a given order the last unknowns are one block, and the others have the entries that elimination fills "
+          "in, and few more")
 {
     RandomNumbers random(3);
     for (const Index n_last : {0, 1, 7, 30}) {
@@ -114,7 +115,9 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
         const FactorPattern factor = make_symmetric_factor_pattern(upper, n_last, places);
         Eigen::MatrixXi expected = eliminated(upper, factor.position);
         expected.bottomRightCorner(n_last, n_last).triangularView<Eigen::Lower>().setOnes();
-        CHECK(from_blocks(factor) == expected);
+        const Eigen::MatrixXi found = from_blocks(factor);
+        CHECK((found.array() >= expected.array()).all());
+        CHECK(found.sum() <= 2 * expected.sum());
         if (n_last > 0)
             CHECK(factor.width(factor.n_blocks() - 1) == n_last);
         CHECK(factor.updates.empty());

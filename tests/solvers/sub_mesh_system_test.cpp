@@ -195,7 +195,7 @@ TEST_CASE("predicted by a symmetric system or by a general one, the result is th
             for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
                 CAPTURE(name_of(laplacian));
                 const auto fast = make_predicted_system(sub_mesh, laplacian, workspace);
-                GeneralSystem general(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian), workspace);
+                GeneralSystem general(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian));
                 for (int step = 0; step < 2; ++step) {
                     const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                     const Points other_side = nearby(positions, random);
@@ -240,7 +240,7 @@ TEST_CASE("following everywhere, a symmetric system and a general one give the s
                     return solution;
                 };
                 const auto following = make_following_system(sub_mesh, laplacian, workspace);
-                GeneralSystem general(sub_mesh, laplacian, make_dirichlet(sub_mesh), workspace);
+                GeneralSystem general(sub_mesh, laplacian, make_dirichlet(sub_mesh));
                 const Points solution = solved(*following);
                 CHECK(largest_difference(solution, solved(general)) < 1e-10 * positions.cwiseAbs().maxCoeff());
                 for (const Index v : sub_mesh.interface.vertices)

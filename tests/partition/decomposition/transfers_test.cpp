@@ -42,3 +42,18 @@ TEST_CASE("a table knows where each index of a list is, however few were expecte
         CHECK(table[value] == (found == values.end() ? -1 : 20 + static_cast<Index>(found - values.begin())));
     }
 }
+
+TEST_CASE("a table appends what it does not have yet, and tells where everything is")
+{
+    std::mt19937 random(4);
+    std::vector<Index> list;
+    PositionTable table(1);
+    for (int i = 0; i < 1000; ++i) {
+        const auto value = static_cast<Index>(random() % 300);
+        const Index position = table.position_or_append(value, list);
+        REQUIRE(at(position) < list.size());
+        CHECK(list[at(position)] == value);
+    }
+    std::sort(list.begin(), list.end());
+    CHECK(std::adjacent_find(list.begin(), list.end()) == list.end());
+}

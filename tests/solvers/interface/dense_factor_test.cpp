@@ -30,6 +30,15 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
         auto product = v;
         factor.multiply(columns(product));
         CHECK((product.cast<double>() - S * v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm()));
+        auto halves = v;
+        factor.multiply_by_root_transposed(columns(halves));
+        CHECK(halves.cast<double>().squaredNorm() ==
+              doctest::Approx((v.cast<double>().transpose() * S * v.cast<double>()).trace()).epsilon(1e-4));
+        factor.multiply_by_root(columns(halves));
+        CHECK(halves == product);
+        const std::vector<double> of_product = factor.diagonal();
+        for (Index i = 0; i < n; ++i)
+            CHECK(of_product[at(i)] == doctest::Approx(S(i, i)).epsilon(1e-5));
         auto solution = v;
         factor.solve(columns(solution));
         CHECK((S * solution.cast<double>() - v.cast<double>()).norm() <

@@ -1,0 +1,262 @@
+#include "solvers/interface/coarse_space.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "solvers/elimination_order.h"
+#include "solvers/factor_memory.h"
+#include "solvers/wide.h"
+
+namespace seamflow {
+
+namespace {
+
+/// How much is added to the diagonal of E, relative to it: functions can cancel each other, and then E is singular; as
+/// Z cancels them too, it does no harm that their coefficients are arbitrary.
+constexpr double regularisation = 1e-8;
+
+/// The values are the indices whose list it is, ascending.
+IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
+{
+    IndexLists lists;
+    lists.offsets.assign(at(n_lists) + 1, 0);
+    for (const Index list : list_of)
+        ++lists.offsets[at(list) + 1];
+    std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
+    std::vector<Index> next(lists.offsets.begin(), lists.offsets.end() - 1);
+    lists.values.resize(list_of.size());
+    for (std::size_t i = 0; i < list_of.size(); ++i)
+        lists.values[at(next[at(list_of[i])]++)] = static_cast<Index>(i);
+    return lists;
+}
+
+std::ptrdiff_t place_in(std::span<const Index> ascending, Index value)
+{
+    return std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin();
+}
+
+/// column · v for three columns; by four sums each, as wide registers have them.
+SEAMFLOW_WIDE Point multiply_column(const float* __restrict column, const Columns& v)
+{
+    Point result;
+    const auto n = static_cast<Index>(v.rows());
+    const Index n_whole = n / 4 * 4;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        const double* __restrict values = v.col(c).data();
+        double sums[4] = {};
+        for (Index i = 0; i < n_whole; i += 4)
+            for (Index k = 0; k < 4; ++k)
+                sums[k] += static_cast<double>(column[i + k]) * values[i + k];
+        for (Index i = n_whole; i < n; ++i)
+            sums[0] += static_cast<double>(column[i]) * values[i];
+        result[c] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    }
+    return result;
+}
+
+}  // namespace
+
+CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
+    : copies_(copies)
+    , products_(at(copies.n_sub_meshes()))
+    , energies_(at(copies.n_sub_meshes()))
+{
+    find_functions();
+    list_functions();
+    analyse();
+    shares_.resize(static_cast<Eigen::Index>(functions_at_.values.size()), 3);
+    coefficients_.resize(size(), 3);
+}
+
+CoarseSpace::~CoarseSpace()
+{
+    free_factor();
+}
+
+void CoarseSpace::find_functions()
+{
+    function_.resize(at(copies_.n_copies()));
+    Index n_functions = 0;
+    std::map<std::vector<Index>, std::vector<Index>> stretches;
+    // Vertices with the same first sub-mesh follow each other.
+    for (Index begin = 0, end = 0; begin < copies_.n_vertices(); begin = end) {
+        const auto first_at = [this](Index v) { return copies_.sub_mesh[at(copies_.of_vertex[v].front())]; };
+        stretches.clear();
+        for (; end < copies_.n_vertices() && first_at(end) == first_at(begin); ++end) {
+            std::vector<Index> sharing;
+            for (const Index copy : copies_.of_vertex[end])
+                sharing.push_back(copies_.sub_mesh[at(copy)]);
+            stretches[std::move(sharing)].push_back(end);
+        }
+        for (const auto& [sharing, vertices] : stretches) {
+            const bool is_single = vertices.size() == 1;
+            for (const Index v : vertices)
+                for (std::size_t k = 0; k < sharing.size(); ++k)
+                    function_[at(copies_.of_vertex[v][k])] = n_functions + (is_single ? 0 : static_cast<Index>(k));
+            n_functions += is_single ? 1 : static_cast<Index>(sharing.size());
+        }
+    }
+    copies_in_ = inverse_lists(function_, n_functions);
+    values_at_.resize(function_.size());
+}
+
+/// The first copy of a vertex has the constant.
+void CoarseSpace::set_functions(std::span<const double> weights, const Loop& loop)
+{
+    for_each(loop, size(), [&](Index f) {
+        const auto copies = copies_in_[f];
+        const auto is_first = [this](Index copy) {
+            return copies_.of_vertex[copies_.vertex[at(copy)]].front() == copy;
+        };
+        const bool is_constant = std::any_of(copies.begin(), copies.end(), is_first);
+        double mean = 0.0;
+        for (const Index copy : copies)
+            mean += weights[at(copy)] / static_cast<double>(copies.size());
+        for (const Index copy : copies)
+            values_at_[at(copy)] = is_constant ? (is_first(copy) ? 1.0 : 0.0) : weights[at(copy)] - mean;
+    });
+}
+
+void CoarseSpace::list_functions()
+{
+    std::vector<Index> found;
+    for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
+        found.clear();
+        for (Index copy = copies_.first[at(s)]; copy < copies_.first[at(s) + 1]; ++copy)
+            for (const Index other : copies_.of_vertex[copies_.vertex[at(copy)]])
+                found.push_back(function_[at(other)]);
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        functions_at_.values.insert(functions_at_.values.end(), found.begin(), found.end());
+        functions_at_.close();
+    }
+    places_ = inverse_lists(functions_at_.values, size());
+}
+
+/// Two unknowns have an entry where one sub-mesh has both of their functions.
+std::vector<MatrixEntry> CoarseSpace::entries() const
+{
+    std::vector<MatrixEntry> entries;
+    for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
+        for (const Index f : functions_at_[s])
+            for (const Index g : functions_at_[s])
+                if (unknown_of_[at(f)] <= unknown_of_[at(g)])
+                    entries.push_back({unknown_of_[at(g)], unknown_of_[at(f)]});
+    return entries;
+}
+
+void CoarseSpace::analyse()
+{
+    unknown_of_.resize(at(size()));
+    std::iota(unknown_of_.begin(), unknown_of_.end(), 0);
+    if (size() == 0)
+        return;
+    const std::vector<Index> order = elimination_order(make_pattern(size(), entries()));
+    for (std::size_t i = 0; i < order.size(); ++i)
+        unknown_of_[at(order[i])] = static_cast<Index>(i);
+    const std::vector<MatrixEntry> places = entries();
+    const SparsePattern upper = make_pattern(size(), places);
+    solver_.emplace(upper);
+    values_.resize(at(upper.n_entries()));
+    for (const MatrixEntry& entry : places)
+        slots_.push_back(upper.slot(entry));
+    for (Index u = 0; u < size(); ++u)
+        diagonal_slots_.push_back(upper.slot({u, u}));
+}
+
+void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::span<const double> weights,
+                          const Loop& loop)
+{
+    free_factor();
+    if (size() == 0)
+        return;
+    set_functions(weights, loop);
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, systems[at(s)]->schur()); });
+    assemble();
+    is_factorised_ = solver_->factorise(values_, heap_memory(), workspace_);
+}
+
+/// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
+void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
+{
+    const auto functions = functions_at_[s];
+    const std::size_t n = at(copies_.n_in(s));
+    const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
+    std::vector<float>& columns = products_[at(s)];
+    columns.assign(n * n_columns, 0.0F);
+    for (std::size_t i = 0; i < n; ++i)
+        for (const Index copy : copies_.of_vertex[copies_.vertex[at(copies_.first[at(s)]) + i]]) {
+            const auto column = static_cast<std::size_t>(place_in(functions, function_[at(copy)]));
+            columns[column * n + i] += static_cast<float>(values_at_[at(copy)]);
+        }
+    const auto on_each_three = [&](auto&& apply) {
+        for (std::size_t c = 0; c < n_columns; c += 3)
+            apply(FloatColumns{columns.data() + c * n, columns.data() + (c + 1) * n, columns.data() + (c + 2) * n});
+    };
+    on_each_three([&](FloatColumns v) { schur.multiply_by_root_transposed(v); });
+    const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(n),
+                                                                    static_cast<Eigen::Index>(functions.size()))
+                                      .cast<double>();
+    energies_[at(s)].noalias() = roots.transpose() * roots;
+    on_each_three([&](FloatColumns v) { schur.multiply_by_root(v); });
+}
+
+/// In the order of `entries`.
+void CoarseSpace::assemble()
+{
+    std::fill(values_.begin(), values_.end(), 0.0);
+    auto slot = slots_.begin();
+    for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
+        const auto functions = functions_at_[s];
+        for (std::size_t f = 0; f < functions.size(); ++f)
+            for (std::size_t g = 0; g < functions.size(); ++g)
+                if (unknown_of_[at(functions[f])] <= unknown_of_[at(functions[g])])
+                    values_[at(*slot++)] +=
+                        energies_[at(s)](static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
+    }
+    // Where all weights are the same, a function is none.
+    for (const Index diagonal : diagonal_slots_)
+        values_[at(diagonal)] = values_[at(diagonal)] > 0.0 ? (1.0 + regularisation) * values_[at(diagonal)] : 1.0;
+}
+
+void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
+{
+    if (!is_factorised_)
+        return;
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_transposed(s, y); });
+    for_each(loop, size(), [&](Index f) {
+        Point sum = Point::Zero();
+        for (const Index copy : copies_in_[f])
+            sum += values_at_[at(copy)] * residual.row(copies_.vertex[at(copy)]);
+        for (const Index place : places_[f])
+            sum -= shares_.row(place);
+        coefficients_.row(unknown_of_[at(f)]) = sum;
+    });
+    solver_->solve(coefficients_, coefficients_, workspace_);
+    for_each(loop, copies_.n_vertices(), [&](Index v) {
+        for (const Index copy : copies_.of_vertex[v])
+            y.row(v) += values_at_[at(copy)] * coefficients_.row(unknown_of_[at(function_[at(copy)])]);
+    });
+}
+
+/// A sub-mesh's share of Zᵀ S y.
+void CoarseSpace::multiply_transposed(Index s, const Points& y)
+{
+    const Index n = copies_.n_in(s);
+    Columns local(n, 3);
+    for (Index i = 0; i < n; ++i)
+        local.row(i) = y.row(copies_.vertex[at(copies_.first[at(s)] + i)]);
+    for (Index place = functions_at_.offsets[at(s)]; place < functions_at_.offsets[at(s) + 1]; ++place)
+        shares_.row(place) =
+            multiply_column(products_[at(s)].data() + at(place - functions_at_.offsets[at(s)]) * at(n), local);
+}
+
+void CoarseSpace::free_factor()
+{
+    if (is_factorised_)
+        solver_->free_factor(heap_memory());
+    is_factorised_ = false;
+}
+
+}  // namespace seamflow

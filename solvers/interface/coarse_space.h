@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/loop.h"
+#include "solvers/columns.h"
+#include "solvers/interface/interface_copies.h"
+#include "solvers/ldl_solver.h"
+#include "solvers/systems/neumann_system.h"
+
+namespace seamflow {
+
+/// What the sub-meshes cannot settle each for itself, as few unknowns. On each stretch of Γ, the vertices that the same
+/// sub-meshes share, the functions that are a sub-mesh's weights W there, and 0 elsewhere, are the columns of Z, in a
+/// basis that is sound where weights hardly differ: the constant, and the weights of all but the first sub-mesh without
+/// their mean; of a single vertex the constant alone. Balances the Neumann-Neumann preconditioner (Mandel, "Balancing
+/// domain decomposition", 1993, with one function for all stretches of a sub-mesh) in the form in which an iteration
+/// needs no second product with S (A-DEF2 of Tang, Nabben, Vuik and Erlangga 2009): y becomes
+/// y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
+class CoarseSpace {
+  public:
+    /// @param copies must outlive the space.
+    /// @throws ComputationError if the analysis fails.
+    explicit CoarseSpace(const InterfaceCopies& copies);
+    ~CoarseSpace();
+    CoarseSpace(const CoarseSpace&) = delete;
+    CoarseSpace& operator=(const CoarseSpace&) = delete;
+
+    /// Number of unknowns.
+    [[nodiscard]] Index size() const { return copies_in_.size(); }
+
+    /// Makes S Z and factorises E.
+    /// @param systems factorised.
+    /// @param weights one per copy, positive, those of a vertex adding up to 1.
+    void prepare(std::span<const NeumannSystem* const> systems, std::span<const double> weights, const Loop& loop);
+
+    /// y becomes y + Z E⁻¹ Zᵀ (residual - S y).
+    /// @param residual, y one row per vertex of Γ.
+    void correct(const Points& residual, Points& y, const Loop& loop);
+
+  private:
+    void find_functions();
+    void list_functions();
+    void analyse();
+    [[nodiscard]] std::vector<MatrixEntry> entries() const;
+    void set_functions(std::span<const double> weights, const Loop& loop);
+    void multiply_functions(Index s, const DenseFactor& schur);
+    void multiply_transposed(Index s, const Points& y);
+    void assemble();
+    void free_factor();
+
+    const InterfaceCopies& copies_;
+    /// Per copy: the function that it belongs to, and what it adds to that at its vertex.
+    std::vector<Index> function_;
+    std::vector<double> values_at_;
+    /// Per function its copies, in ascending order.
+    IndexLists copies_in_;
+    /// Per sub-mesh: the functions on its part of Γ, in ascending order.
+    IndexLists functions_at_;
+    /// Per function: where it stands among the values of `functions_at_`.
+    IndexLists places_;
+    /// Per function: its unknown, in the order of elimination.
+    std::vector<Index> unknown_of_;
+    std::optional<LdlSolver> solver_;
+    LdlWorkspace workspace_;
+    /// The entries of E, on and above the diagonal; where each of `entries` stands among them, and the diagonal.
+    std::vector<double> values_;
+    std::vector<Index> slots_;
+    std::vector<Index> diagonal_slots_;
+    /// Per sub-mesh, its share of S Z: a column for each function there, and zeros to make their number a multiple of
+    /// three.
+    std::vector<std::vector<float>> products_;
+    /// Per sub-mesh, its share of E: functions there by functions there.
+    std::vector<Eigen::MatrixXd> energies_;
+    /// Per value of `functions_at_`, the sub-mesh's share of Zᵀ S y.
+    Points shares_;
+    Columns coefficients_;
+    bool is_factorised_ = false;
+};
+
+}  // namespace seamflow

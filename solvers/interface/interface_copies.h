@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+#include "partition/index_lists.h"
+
+namespace seamflow {
+
+/// The vertices of Γ, and their copies in the sub-meshes: sub-mesh after sub-mesh, in each in the order of its own Γ.
+struct InterfaceCopies {
+    /// @param decomposition without overlap.
+    explicit InterfaceCopies(const Decomposition& decomposition);
+
+    [[nodiscard]] Index n_vertices() const { return of_vertex.size(); }
+    [[nodiscard]] Index n_copies() const { return first.back(); }
+    [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(first.size()) - 1; }
+
+    /// How many copies sub-mesh s has.
+    [[nodiscard]] Index n_in(Index s) const { return first[at(s) + 1] - first[at(s)]; }
+
+    /// Per sub-mesh its first copy, and one more.
+    std::vector<Index> first{0};
+    /// Per copy.
+    std::vector<Index> vertex;
+    std::vector<Index> sub_mesh;
+    /// Per vertex of Γ its copies, in ascending order of the sub-meshes.
+    IndexLists of_vertex;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,89 @@
+#include <map>
+#include <memory>
+#include <set>
+
+#include <doctest/doctest.h>
+
+#include "samples/common/meshes/random_numbers.h"
+#include "solvers/interface/coarse_space.h"
+#include "tests/support/cut_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+/// S x over all sub-meshes, in double precision.
+Points product(const InterfaceCopies& copies, const std::vector<const NeumannSystem*>& systems, const Points& x)
+{
+    Points result = Points::Zero(x.rows(), 3);
+    for (Index s = 0; s < copies.n_sub_meshes(); ++s) {
+        Points local(copies.n_in(s), 3);
+        for (Index i = 0; i < copies.n_in(s); ++i)
+            local.row(i) = x.row(copies.vertex[at(copies.first[at(s)] + i)]);
+        Points share = Points::Zero(copies.n_in(s), 3);
+        systems[at(s)]->subtract_schur(local, share);
+        for (Index i = 0; i < copies.n_in(s); ++i)
+            result.row(copies.vertex[at(copies.first[at(s)] + i)]) -= share.row(i);
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("what is left of the residual after the correction has no part along any sub-mesh's weights on a stretch")
+{
+    RandomNumbers random(5);
+    SolverWorkspace workspace;
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = test::decompose(cut);
+        const InterfaceCopies copies(decomposition);
+        std::vector<std::unique_ptr<NeumannSystem>> systems;
+        std::vector<const NeumannSystem*> views;
+        for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+            systems.push_back(std::make_unique<NeumannSystem>(sub_mesh, Laplacian::Fujiwara));
+            views.push_back(systems.back().get());
+            systems.back()->assemble(localised(sub_mesh, cut.mesh.vertices), 0.05, workspace);
+            systems.back()->factorise(workspace);
+        }
+        std::vector<double> weights(at(copies.n_copies()));
+        std::map<std::vector<Index>, Index> stretches;
+        for (Index v = 0; v < copies.n_vertices(); ++v) {
+            double sum = 0.0;
+            std::vector<Index> sharing;
+            for (const Index copy : copies.of_vertex[v]) {
+                sum += weights[at(copy)] = 1.5 + random.symmetric();
+                sharing.push_back(copies.sub_mesh[at(copy)]);
+            }
+            for (const Index copy : copies.of_vertex[v])
+                weights[at(copy)] /= sum;
+            ++stretches[sharing];
+        }
+        CoarseSpace coarse(copies);
+        Index n_functions = 0;
+        for (const auto& [sharing, length] : stretches)
+            n_functions += length > 1 ? static_cast<Index>(sharing.size()) : 1;
+        CHECK(coarse.size() == n_functions);
+
+        coarse.prepare(views, weights, run_serially);
+        Points residual(copies.n_vertices(), 3);
+        Points y(copies.n_vertices(), 3);
+        for (Points* points : {&residual, &y})
+            for (double& value : points->reshaped())
+                value = random.symmetric();
+        coarse.correct(residual, y, run_serially);
+        const Points left = residual - product(copies, views, y);
+        std::map<std::pair<std::vector<Index>, Index>, Point> sums;
+        for (Index v = 0; v < copies.n_vertices(); ++v) {
+            std::vector<Index> sharing;
+            for (const Index copy : copies.of_vertex[v])
+                sharing.push_back(copies.sub_mesh[at(copy)]);
+            for (const Index copy : copies.of_vertex[v])
+                sums.try_emplace({sharing, copies.sub_mesh[at(copy)]}, Point::Zero()).first->second +=
+                    weights[at(copy)] * left.row(v);
+        }
+        for (const auto& [piece, sum] : sums)
+            CHECK(sum.norm() < 2e-4 * left.norm());
+    }
+}

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <Eigen/LU>
+#include <doctest/doctest.h>
+
+#include "solvers/interface/interface_equation.h"
+#include "tests/support/cut_meshes.h"
+#include "tests/support/flows.h"
+#include "tests/support/matrices.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+constexpr std::array symmetric{Laplacian::Fujiwara, Laplacian::AlexaWardetzky};
+
+/// One step of a cut mesh as an equation on Γ.
+struct Equation {
+    Equation(const CutMesh& cut, Laplacian laplacian, double time_step, Balancing balancing = Balancing::Coarse)
+        : decomposition(test::decompose(cut))
+        , equation(decomposition, balancing)
+        , right_hand_sides(equation.copies().n_copies(), 3)
+    {
+        SolverWorkspace workspace;
+        for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+            auto& system = *systems.emplace_back(std::make_unique<NeumannSystem>(sub_mesh, laplacian));
+            views.push_back(&system);
+            const Points positions = localised(sub_mesh, cut.mesh.vertices);
+            system.assemble(positions, time_step, workspace);
+            system.factorise(workspace);
+            const Index first = equation.copies().first[views.size() - 1];
+            Points eliminated;
+            system.condense(positions, eliminated, right_hand_sides.middleRows(first, system.n_interface()), workspace);
+        }
+    }
+
+    /// The rows of the vertices of Γ from those of the whole mesh.
+    [[nodiscard]] Points on_interface(const Points& whole) const
+    {
+        Points rows(equation.copies().n_vertices(), 3);
+        for (Index copy = 0; copy < equation.copies().n_copies(); ++copy) {
+            const Index s = equation.copies().sub_mesh[at(copy)];
+            const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+            const Index local = sub_mesh.interface.vertices[at(copy - equation.copies().first[at(s)])];
+            rows.row(equation.copies().vertex[at(copy)]) = whole.row(sub_mesh.local_to_global[at(local)]);
+        }
+        return rows;
+    }
+
+    InterfaceResult solve(const InterfaceStop& stop, Points& x, const Points& guess = {})
+    {
+        return equation.solve(views, right_hand_sides, guess, stop, x, run_serially);
+    }
+
+    Decomposition decomposition;
+    InterfaceEquation equation;
+    std::vector<std::unique_ptr<NeumannSystem>> systems;
+    std::vector<const NeumannSystem*> views;
+    Points right_hand_sides;
+};
+
+/// The whole step, dense.
+Points undecomposed_step(const CutMesh& cut, Laplacian laplacian, double time_step)
+{
+    const Topology topology = make_topology(cut.mesh);
+    Eigen::MatrixXd A = time_step * dense_laplacian(laplacian, cut.mesh, topology);
+    for (Index v = 0; v < cut.mesh.n_vertices(); ++v)
+        if (topology.kind[at(v)] != VertexKind::Interior)
+            A.row(v).setZero();
+    A += Eigen::MatrixXd::Identity(A.rows(), A.cols());
+    return A.partialPivLu().solve(cut.mesh.vertices);
+}
+
+double largest_distance(const Points& a, const Points& b)
+{
+    return a.rows() > 0 ? (a - b).rowwise().norm().maxCoeff() : 0.0;
+}
+
+/// Squares of 4 by 4 faces.
+CutMesh chessboard()
+{
+    PolygonMesh mesh = quad_grid(16, 16);
+    const Points flat = mesh.vertices;
+    mesh.vertices.col(2) = (0.7 * flat.col(0)).array().sin();
+    mesh.vertices.col(0).array() += 0.2 * (1.3 * flat.col(1)).array().sin();
+    mesh.vertices.col(1).array() += 0.2 * (1.7 * flat.col(0)).array().sin();
+    return cut_by_place("chessboard", std::move(mesh), [](const Point& centroid) {
+        return std::min(static_cast<Index>(centroid[0] / 4.0), Index{3}) +
+               4 * std::min(static_cast<Index>(centroid[1] / 4.0), Index{3});
+    });
+}
+
+}  // namespace
+
+TEST_CASE("the solution is the update by the undecomposed step on Γ")
+{
+    constexpr double time_step = 0.02;
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        for (const Laplacian laplacian : symmetric) {
+            CAPTURE(name_of(laplacian));
+            const Points update = undecomposed_step(cut, laplacian, time_step) - cut.mesh.vertices;
+            for (const Balancing balancing : {Balancing::None, Balancing::Coarse}) {
+                Equation problem(cut, laplacian, time_step, balancing);
+                Points x;
+                const InterfaceResult result = problem.solve({1e-11, 200}, x);
+                CHECK(result.residual <= 1e-11);
+                CHECK_FALSE(result.stagnated);
+                CHECK(largest_distance(x, problem.on_interface(update)) <
+                      1e-9 * cut.mesh.vertices.cwiseAbs().maxCoeff());
+            }
+        }
+    }
+}
+
+TEST_CASE("coarse functions that cancel each other do no harm")
+{
+    for (const double time_step : {1.0, 100.0, 1e4}) {
+        CAPTURE(time_step);
+        const CutMesh cut = chessboard();
+        REQUIRE(cut.n_parts == 16);
+        Equation problem(cut, Laplacian::Fujiwara, time_step);
+        Points x;
+        const InterfaceResult result = problem.solve({1e-11, 200}, x);
+        CHECK(result.residual <= 1e-11);
+        CHECK(result.iterations < 25);
+    }
+}
+
+TEST_CASE("the tolerance is relative to the residual at the old positions, whatever the guess")
+{
+    const CutMesh cut = chessboard();
+    Equation problem(cut, Laplacian::Fujiwara, 2.0);
+    Points solution;
+    const InterfaceResult without = problem.solve({1e-12, 200}, solution);
+    Points x;
+    const InterfaceResult with_solution = problem.solve({1e-4, 200}, x, solution);
+    CHECK(with_solution.iterations <= 1);
+    CHECK(with_solution.residual <= 1e-4);
+    // A guess without any sense is not followed.
+    const InterfaceResult with_nonsense = problem.solve({1e-12, 200}, x, 1e6 * problem.on_interface(cut.mesh.vertices));
+    CHECK(with_nonsense.iterations <= without.iterations + 2);
+    CHECK(largest_distance(x, solution) < 1e-9);
+}
+
+TEST_CASE("what cannot be reached ends in stagnation, with what can")
+{
+    const CutMesh cut = chessboard();
+    Equation problem(cut, Laplacian::Fujiwara, 2.0);
+    Points x;
+    const InterfaceResult result = problem.solve({1e-200, 1000}, x);
+    CHECK(result.stagnated);
+    CHECK(result.iterations < 500);
+    CHECK(result.residual < 1e-12);
+}
+
+TEST_CASE("the estimated distance is that to the solution within a factor of 3")
+{
+    const CutMesh cut = chessboard();
+    for (const double time_step : {2.0, 50.0})
+        for (const double tolerance : {1e-1, 1e-2, 1e-4}) {
+            CAPTURE(time_step);
+            CAPTURE(tolerance);
+            Equation problem(cut, Laplacian::Fujiwara, time_step);
+            Points expected;
+            problem.solve({1e-12, 200}, expected);
+            Points x;
+            const InterfaceResult result = problem.solve({tolerance, 200}, x);
+            const double distance = largest_distance(x, expected);
+            CHECK(result.estimated_distance < 3.0 * distance);
+            CHECK(result.estimated_distance > distance / 3.0);
+        }
+}
+
+TEST_CASE("without Γ there is nothing to solve")
+{
+    const CutMesh cut = cut_by_place("whole", quad_grid(4, 4), [](const Point&) { return 0; });
+    Equation problem(cut, Laplacian::AlexaWardetzky, 1.0);
+    Points x;
+    const InterfaceResult result = problem.solve({1e-8, 10}, x);
+    CHECK(result.iterations == 0);
+    CHECK(result.residual == 0.0);
+    CHECK(result.estimated_distance == 0.0);
+}
