@@ -95,6 +95,8 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         of_step.seconds = watch.lap();
         report.seconds.step += of_step.seconds;
         flow.describe(of_step);
+        if (of_step.estimated_v_max)
+            *of_step.estimated_v_max /= mean_edge_length(mesh, flow.positions(), run_in_parallel);
         of_step.displacement = meter.add_step(mesh.vertices, flow.positions());
         mesh.vertices = flow.positions();
 

@@ -107,6 +107,9 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
         const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
         out << "  gap mean " << digits(report.gap->mean / unit) << ", largest " << digits(report.gap->max / unit);
     }
+    if (report.estimated_v_max)
+        out << "  estimated distance to the undecomposed flow " << digits(*report.estimated_v_max, 2)
+            << " mean edge lengths";
     if (report.distance) {
         const VertexDistance& distance = *report.distance;
         const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;
