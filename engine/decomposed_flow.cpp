@@ -38,7 +38,9 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
-    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
     , positions_(mesh.vertices)
@@ -50,7 +52,9 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
     if (options.conditions != Conditions::Schwarz)
-        drift_.emplace(decomposition_, topology, options.laplacian, options.time_step);
+        drift_.emplace(decomposition_, mesh, topology, options.laplacian, options.time_step);
+    if (drift_ && options.laplacian == Laplacian::PtackovaVelho && decomposition_.n_interface_vertices > 0)
+        solved_ = mesh.vertices;
     plans_.push_back(make_plan(decomposition_, options, rank));
     if (alternates(options, states_.size()))
         plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
@@ -215,20 +219,34 @@ void DecomposedFlow::step()
     graph_.run(roots_[static_cast<std::size_t>(steps_done_) % roots_.size()]);
     ++steps_done_;
     if (drift_)
-        drift_->add_step(run_in_parallel);
+        estimate_drift();
     join();
     if (recorder_)
         recorder_->end_step();
 }
 
-void DecomposedFlow::join()
+void DecomposedFlow::gather(Points SubMeshState::*array, Points& whole) const
 {
     tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t s) {
         const SubMesh& sub_mesh = *states_[s].sub_mesh;
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             if (sub_mesh.owned[at(v)] != 0)
-                positions_.row(sub_mesh.local_to_global[at(v)]) = states_[s].position.row(v);
+                whole.row(sub_mesh.local_to_global[at(v)]) = (states_[s].*array).row(v);
     });
+}
+
+void DecomposedFlow::estimate_drift()
+{
+    if (solved_.rows() > 0) {
+        gather(&SubMeshState::solved, solved_);
+        drift_->measure_around(*mesh_, *topology_, positions_, solved_, run_in_parallel);
+    }
+    drift_->add_step(run_in_parallel);
+}
+
+void DecomposedFlow::join()
+{
+    gather(&SubMeshState::position, positions_);
     if (copies_)
         copies_->join(states_, positions_);
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "solvers/interface/ptackova_residual.h"
 #include "solvers/interface/residual_indicator.h"
 
 namespace seamflow {
@@ -24,7 +25,7 @@ void for_each_part(const Loop& loop, Index n, Body&& body)
 
 }  // namespace
 
-DriftEstimate::DriftEstimate(const Decomposition& decomposition, const Topology& topology, Laplacian laplacian,
+DriftEstimate::DriftEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                              double time_step)
     : decomposition_(&decomposition)
     , laplacian_(laplacian)
@@ -51,6 +52,8 @@ DriftEstimate::DriftEstimate(const Decomposition& decomposition, const Topology&
             neighbours_.close();
         }
     }
+    if (laplacian == Laplacian::PtackovaVelho)
+        list_surroundings(mesh, topology, kind);
     couplings_.resize(neighbours_.values.size());
     mass_.resize(index_in_owner_.size());
     diagonal_.resize(index_in_owner_.size());
@@ -58,6 +61,54 @@ DriftEstimate::DriftEstimate(const Decomposition& decomposition, const Topology&
     of_block_.resize(index_in_owner_.size() / static_cast<std::size_t>(block) + 1);
     for (Points* array : {&normal_, &residual_, &error_, &direction_, &product_, &swept_, &corrected_})
         array->setZero(size(), 3);
+}
+
+void DriftEstimate::list_surroundings(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kind)
+{
+    std::vector<Index> number(kind.size(), -1);
+    vertices_.resize(index_in_owner_.size());
+    for (std::size_t v = 0; v < kind.size(); ++v)
+        if (kind[v] >= 0)
+            vertices_[at(kind[v])] = static_cast<Index>(v);
+    std::vector<Index> around;
+    for (const Index v : vertices_) {
+        around.clear();
+        for (const Index corner : topology.corners_at(v))
+            for (const Index w : mesh.face(topology.face_of[at(corner)]))
+                if (kind[at(w)] == off_interface)
+                    around.push_back(w);
+        std::sort(around.begin(), around.end());
+        around.erase(std::unique(around.begin(), around.end()), around.end());
+        for (const Index w : around) {
+            if (number[at(w)] < 0) {
+                number[at(w)] = static_cast<Index>(surroundings_.size());
+                surroundings_.push_back(w);
+                n_shared_.push_back(0);
+            }
+            ++n_shared_[at(number[at(w)])];
+            around_.values.push_back(number[at(w)]);
+        }
+        around_.close();
+    }
+    residual_around_.resize(static_cast<Eigen::Index>(surroundings_.size()), 3);
+}
+
+/// What rows beside Γ leave is shared out to the vertices of Γ.
+void DriftEstimate::measure_around(const PolygonMesh& mesh, const Topology& topology, const Points& before,
+                                   const Points& after, const Loop& loop)
+{
+    for_each_part(loop, static_cast<Index>(surroundings_.size()), [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i)
+            residual_around_.row(i) =
+                ptackova_residual(mesh, topology, before, after, time_step_, surroundings_[at(i)]) / n_shared_[at(i)];
+    });
+    for_each_part(loop, size(), [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            residual_.row(i) = ptackova_residual(mesh, topology, before, after, time_step_, vertices_[at(i)]);
+            for (const Index w : around_[i])
+                residual_.row(i) += residual_around_.row(w);
+        }
+    });
 }
 
 void DriftEstimate::measure(Index s, const SubMeshState& state)

@@ -23,7 +23,7 @@ namespace seamflow {
 class DriftEstimate {
   public:
     /// @param decomposition must outlive this; its sub-meshes do not overlap.
-    DriftEstimate(const Decomposition& decomposition, const Topology& topology, Laplacian laplacian, double time_step);
+    DriftEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, double time_step);
 
     /// Evaluates the rows of a sub-mesh's own part of Γ, where it has not yet accepted Vᵏ⁺¹. Different sub-meshes may
     /// do so at the same time.
@@ -32,6 +32,11 @@ class DriftEstimate {
 
     /// Notes how far the sub-mesh's own part of Γ was moved when it accepted Vᵏ⁺¹.
     void note_correction(Index s, const SubMeshState& state);
+
+    /// Evaluates the rows of Δ_P around Γ, which reach too far for one sub-mesh to know; to be called before add_step.
+    /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved.
+    void measure_around(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                        const Loop& loop);
 
     /// Estimates the error of the step and adds it to that of the steps before.
     void add_step(const Loop& loop);
@@ -43,6 +48,7 @@ class DriftEstimate {
     [[nodiscard]] Index size() const { return static_cast<Index>(diagonal_.size()); }
     template <class Value>
     double add_up(const Loop& loop, Value&& value);
+    void list_surroundings(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kind);
     void stiffen(const Loop& loop);
     void carry_over(const Loop& loop);
     void solve(const Loop& loop);
@@ -71,6 +77,15 @@ class DriftEstimate {
     /// What all steps so far have left: errors of sweeps, and displacements by corrections.
     Points swept_;
     Points corrected_;
+    /// With Δ_P, the vertices of Γ and those around it, as indices into the whole mesh: those of faces that touch Γ, where
+    /// the rows of a sub-mesh are not those of the whole mesh. How many of Γ share a face with each, and per vertex of Γ
+    /// those with which it shares one.
+    std::vector<Index> vertices_;
+    std::vector<Index> surroundings_;
+    std::vector<Index> n_shared_;
+    IndexLists around_;
+    /// #surroundings by 3.
+    Points residual_around_;
     /// Per block of Γ.
     std::vector<double> of_block_;
 };
