@@ -38,9 +38,7 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                const FlowOptions& options, const std::vector<double>& curvature)
-    : mesh_(&mesh)
-    , topology_(&topology)
-    , decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get())
     , positions_(mesh.vertices)
@@ -52,9 +50,7 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
     if (options.conditions != Conditions::Schwarz)
-        drift_.emplace(decomposition_, mesh, topology, options.laplacian, options.time_step);
-    if (drift_ && options.laplacian == Laplacian::PtackovaVelho && decomposition_.n_interface_vertices > 0)
-        solved_ = mesh.vertices;
+        drift_.emplace(decomposition_, mesh, topology, options);
     plans_.push_back(make_plan(decomposition_, options, rank));
     if (alternates(options, states_.size()))
         plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
@@ -131,13 +127,11 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
                : solve(states_, s, plan.traces[at(s)], workspace);
     };
     const auto accept_one = [this, corrected](Index s, SolverWorkspace&) {
-        if (drift_) {
-            receive_solution(states_, s, decomposition_.halo[at(s)]);
-            drift_->measure(s, states_[at(s)]);
-        }
+        if (drift_)
+            drift_->measure(states_, s);
         corrected ? accept_corrected(states_, s, decomposition_.halo[at(s)]) : accept(states_, s);
         if (drift_)
-            drift_->note_correction(s, states_[at(s)]);
+            drift_->note_correction(states_, s);
     };
 
     const TaskGraph::Node root = graph_.add_root();
@@ -219,34 +213,20 @@ void DecomposedFlow::step()
     graph_.run(roots_[static_cast<std::size_t>(steps_done_) % roots_.size()]);
     ++steps_done_;
     if (drift_)
-        estimate_drift();
+        drift_->add_step(positions_);
     join();
     if (recorder_)
         recorder_->end_step();
 }
 
-void DecomposedFlow::gather(Points SubMeshState::*array, Points& whole) const
+void DecomposedFlow::join()
 {
     tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t s) {
         const SubMesh& sub_mesh = *states_[s].sub_mesh;
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             if (sub_mesh.owned[at(v)] != 0)
-                whole.row(sub_mesh.local_to_global[at(v)]) = (states_[s].*array).row(v);
+                positions_.row(sub_mesh.local_to_global[at(v)]) = states_[s].position.row(v);
     });
-}
-
-void DecomposedFlow::estimate_drift()
-{
-    if (solved_.rows() > 0) {
-        gather(&SubMeshState::solved, solved_);
-        drift_->measure_around(*mesh_, *topology_, positions_, solved_, run_in_parallel);
-    }
-    drift_->add_step(run_in_parallel);
-}
-
-void DecomposedFlow::join()
-{
-    gather(&SubMeshState::position, positions_);
     if (copies_)
         copies_->join(states_, positions_);
 }

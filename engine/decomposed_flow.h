@@ -68,12 +68,8 @@ class DecomposedFlow {
     void add_traces(const SweepPlan& plan, const std::vector<TaskGraph::Node>& solved);
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body, TaskGraph::Priority priority);
-    void estimate_drift();
-    void gather(Points SubMeshState::*array, Points& whole) const;
     void join();
 
-    const PolygonMesh* mesh_;
-    const Topology* topology_;
     FactorPool factors_;
     Workspaces workspaces_;
     Decomposition decomposition_;
@@ -86,8 +82,6 @@ class DecomposedFlow {
     std::optional<CopiesOfInterface> copies_;
     /// But for overlapping sub-meshes.
     std::optional<DriftEstimate> drift_;
-    /// #V by 3, Vᵏ⁺¹ as solved: with Δ_P alone.
-    Points solved_;
     /// nullptr: the schedule is not recorded.
     std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;

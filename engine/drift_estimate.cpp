@@ -2,256 +2,127 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
-#include "solvers/interface/ptackova_residual.h"
-#include "solvers/interface/residual_indicator.h"
+#include "engine/parallel_loop.h"
+#include "engine/stopwatch.h"
 
 namespace seamflow {
 
 namespace {
 
-/// How many vertices of Γ are taken together: what they add up to depends on their number alone.
-constexpr Index block = 1024;
+/// What the next step leaves of a difference between two flows.
+struct Carried {
+    /// Of what a correction did to single vertices, tangentially. Δ_A and Δ_P do not see how vertices lie in a surface;
+    /// Δ_F does, and half of it to all of it is left, the less the rougher. Normally nothing is left but what spreads.
+    double tangential_correction;
+    /// Of the error of a sweep, tangentially and normally. The latter is smooth over √dt: a half of it is left by the
+    /// first step, three quarters by the next, and so on.
+    double tangential_error;
+    double normal_error;
+};
 
-/// Runs body(number, begin, end) for each block.
-template <class Body>
-void for_each_part(const Loop& loop, Index n, Body&& body)
+Carried carried_by(Laplacian laplacian)
 {
-    for_each(loop, (n + block - 1) / block,
-             [&](Index number) { body(number, number * block, std::min(n, (number + 1) * block)); });
+    return laplacian == Laplacian::Fujiwara ? Carried{0.65, 0.8, 0.7} : Carried{1.0, 1.0, 0.7};
+}
+
+Point scaled(const Point& vector, const Point& normal, double tangentially, double normally)
+{
+    const Point along_normal = vector.dot(normal) * normal;
+    return tangentially * (vector - along_normal) + normally * along_normal;
 }
 
 }  // namespace
 
-DriftEstimate::DriftEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                             double time_step)
+DriftEstimate::DriftEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+                             const FlowOptions& options)
     : decomposition_(&decomposition)
-    , laplacian_(laplacian)
-    , time_step_(time_step)
-    , first_{0}
+    , mesh_(&mesh)
+    , topology_(&topology)
+    , laplacian_(options.laplacian)
+    , time_step_(options.time_step)
+    , has_copies_(is_classical(options.conditions))
+    , equation_(decomposition, mesh, topology, options.laplacian)
 {
-    std::vector<Index> kind(topology.kind.size());
-    std::transform(topology.kind.begin(), topology.kind.end(), kind.begin(),
-                   [](VertexKind k) { return k == VertexKind::Interior ? off_interface : held_fixed; });
-    for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
-        const auto& vertices = sub_mesh.interface.vertices;
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            if (sub_mesh.owned[at(vertices[i])] != 0) {
-                kind[at(sub_mesh.local_to_global[at(vertices[i])])] = static_cast<Index>(index_in_owner_.size());
-                index_in_owner_.push_back(static_cast<Index>(i));
-            }
-        first_.push_back(static_cast<Index>(index_in_owner_.size()));
-    }
-    for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
-        const SubMesh& sub_mesh = decomposition.sub_meshes[s];
-        for (Index n = first_[s]; n < first_[s + 1]; ++n) {
-            for (const Index neighbour : sub_mesh.seam.neighbours[index_in_owner_[at(n)]])
-                neighbours_.values.push_back(kind[at(sub_mesh.local_to_global[at(neighbour)])]);
-            neighbours_.close();
-        }
-    }
-    if (laplacian == Laplacian::PtackovaVelho)
-        list_surroundings(mesh, topology, kind);
-    couplings_.resize(neighbours_.values.size());
-    mass_.resize(index_in_owner_.size());
-    diagonal_.resize(index_in_owner_.size());
-    yielded_.resize(index_in_owner_.size());
-    of_block_.resize(index_in_owner_.size() / static_cast<std::size_t>(block) + 1);
-    for (Points* array : {&normal_, &residual_, &error_, &direction_, &product_, &swept_, &corrected_})
-        array->setZero(size(), 3);
+    for (Points* array : {&correction_, &corrected_, &swept_})
+        array->setZero(equation_.size(), 3);
+    if (laplacian_ == Laplacian::PtackovaVelho && equation_.size() > 0)
+        solved_ = mesh.vertices;
 }
 
-void DriftEstimate::list_surroundings(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kind)
+/// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
+const Points& DriftEstimate::joined(std::vector<SubMeshState>& states, Index s) const
 {
-    std::vector<Index> number(kind.size(), -1);
-    vertices_.resize(index_in_owner_.size());
-    for (std::size_t v = 0; v < kind.size(); ++v)
-        if (kind[v] >= 0)
-            vertices_[at(kind[v])] = static_cast<Index>(v);
-    std::vector<Index> around;
-    for (const Index v : vertices_) {
-        around.clear();
-        for (const Index corner : topology.corners_at(v))
-            for (const Index w : mesh.face(topology.face_of[at(corner)]))
-                if (kind[at(w)] == off_interface)
-                    around.push_back(w);
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
-        for (const Index w : around) {
-            if (number[at(w)] < 0) {
-                number[at(w)] = static_cast<Index>(surroundings_.size());
-                surroundings_.push_back(w);
-                n_shared_.push_back(0);
-            }
-            ++n_shared_[at(number[at(w)])];
-            around_.values.push_back(number[at(w)]);
-        }
-        around_.close();
+    SubMeshState& state = states[at(s)];
+    if (!has_copies_)
+        return state.solved;
+    state.other_side = state.solved;
+    const auto& interface = state.sub_mesh->interface;
+    for (Index i = 0; i < interface.size(); ++i) {
+        Point sum = Point::Zero();
+        for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
+            sum += states[at(interface.sharing[i][k])].solved.row(interface.index_in_sharing[i][k]);
+        state.other_side.row(interface.vertices[at(i)]) = sum / static_cast<double>(interface.sharing[i].size());
     }
-    residual_around_.resize(static_cast<Eigen::Index>(surroundings_.size()), 3);
+    return state.other_side;
 }
 
-/// What rows beside Γ leave is shared out to the vertices of Γ.
-void DriftEstimate::measure_around(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                                   const Points& after, const Loop& loop)
+void DriftEstimate::measure(std::vector<SubMeshState>& states, Index s)
 {
-    for_each_part(loop, static_cast<Index>(surroundings_.size()), [&](Index, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
-            residual_around_.row(i) =
-                ptackova_residual(mesh, topology, before, after, time_step_, surroundings_[at(i)]) / n_shared_[at(i)];
-    });
-    for_each_part(loop, size(), [&](Index, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            residual_.row(i) = ptackova_residual(mesh, topology, before, after, time_step_, vertices_[at(i)]);
-            for (const Index w : around_[i])
-                residual_.row(i) += residual_around_.row(w);
-        }
-    });
+    receive_solution(states, s, decomposition_->halo[at(s)]);
+    SubMeshState& state = states[at(s)];
+    Stopwatch watch;
+    const Points& after = joined(states, s);
+    equation_.assemble(s, state.position, after, time_step_);
+    if (solved_.rows() > 0)
+        for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
+            if (state.sub_mesh->owned[at(v)] != 0)
+                solved_.row(state.sub_mesh->local_to_global[at(v)]) = after.row(v);
+    state.seconds.correct += watch.lap();
 }
 
-void DriftEstimate::measure(Index s, const SubMeshState& state)
+void DriftEstimate::note_correction(const std::vector<SubMeshState>& states, Index s)
 {
-    for (Index n = first_[at(s)]; n < first_[at(s) + 1]; ++n) {
-        const Index begin = neighbours_.offsets[at(n)];
-        const IndicatorRow row =
-            indicator_row(*state.sub_mesh, laplacian_, index_in_owner_[at(n)], neighbours_[n], state.position,
-                          state.solved, time_step_, std::span(couplings_).subspan(at(begin), neighbours_[n].size()));
-        mass_[at(n)] = row.mass;
-        diagonal_[at(n)] = row.diagonal;
-        const auto kinds = neighbours_[n];
-        const auto along = std::count_if(kinds.begin(), kinds.end(), [](Index kind) { return kind >= 0; });
-        yielded_[at(n)] = row.yielded / static_cast<double>(std::max<std::ptrdiff_t>(along, 1));
-        normal_.row(n) = row.normal;
-        residual_.row(n) = row.residual;
-        error_.row(n).setZero();
+    const SubMeshState& state = states[at(s)];
+    for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i) {
+        const Index v = equation_.local_vertex(i);
+        correction_.row(i) = state.position.row(v) - state.solved.row(v);
     }
 }
 
-void DriftEstimate::note_correction(Index s, const SubMeshState& state)
+/// What the steps before left, as this one finds it: what it smooths away of single vertices spreads.
+void DriftEstimate::carry_over()
 {
-    const auto& vertices = state.sub_mesh->interface.vertices;
-    for (Index n = first_[at(s)]; n < first_[at(s) + 1]; ++n) {
-        const Index v = vertices[at(index_in_owner_[at(n)])];
-        error_.row(n) = state.position.row(v) - state.solved.row(v);
+    const Carried carried = carried_by(laplacian_);
+    for_each(run_in_parallel, equation_.size(), [&](Index i) {
+        const Point normal = equation_.normal(i);
+        const Point kept = scaled(corrected_.row(i), normal, carried.tangential_correction, 0.0);
+        equation_.add_displacement(i, corrected_.row(i) - kept);
+        corrected_.row(i) = kept + correction_.row(i);
+        swept_.row(i) = scaled(swept_.row(i), normal, carried.tangential_error, carried.normal_error);
+    });
+}
+
+void DriftEstimate::add_step(const Points& before)
+{
+    if (solved_.rows() > 0)
+        equation_.measure_whole_rows(*mesh_, *topology_, before, solved_, time_step_, run_in_parallel);
+    carry_over();
+    equation_.solve(run_in_parallel);
+    swept_ += equation_.error();
+}
+
+std::optional<double> DriftEstimate::largest() const
+{
+    double squared = 0.0;
+    for (Eigen::Index i = 0; i < swept_.rows(); ++i) {
+        const Point error = swept_.row(i);
+        const double here = std::max(error.squaredNorm(), (error + corrected_.row(i)).squaredNorm());
+        if (!std::isfinite(here))
+            return std::nullopt;
+        squared = std::max(squared, here);
     }
-}
-
-template <class Value>
-double DriftEstimate::add_up(const Loop& loop, Value&& value)
-{
-    for_each_part(loop, size(), [&](Index number, Index begin, Index end) {
-        double total = 0.0;
-        for (Index i = begin; i < end; ++i)
-            total += value(i);
-        of_block_[at(number)] = total;
-    });
-    double total = 0.0;
-    for (Index number = 0; number < (size() + block - 1) / block; ++number)
-        total += of_block_[at(number)];
-    return total;
-}
-
-/// T times the direction.
-Point DriftEstimate::product(Index i) const
-{
-    Point sum = diagonal_[at(i)] * direction_.row(i);
-    for (Index e = neighbours_.offsets[at(i)]; e < neighbours_.offsets[at(i) + 1]; ++e)
-        if (neighbours_.values[at(e)] >= 0)
-            sum -= couplings_[at(e)] * direction_.row(neighbours_.values[at(e)]);
-    return sum;
-}
-
-/// Conjugate gradients, x, y and z as one system, preconditioned by the diagonal. The error needs few digits.
-void DriftEstimate::solve(const Loop& loop)
-{
-    constexpr int most_iterations = 30;
-    constexpr double tolerance = 1e-4;
-    error_.setZero();
-    double before = add_up(loop, [&](Index i) {
-        direction_.row(i) = residual_.row(i) / diagonal_[at(i)];
-        return residual_.row(i).dot(direction_.row(i));
-    });
-    const double enough = tolerance * before;
-    for (int iteration = 0; iteration < most_iterations && before > enough; ++iteration) {
-        const double curvature = add_up(loop, [&](Index i) {
-            product_.row(i) = product(i);
-            return product_.row(i).dot(direction_.row(i));
-        });
-        const double length = before / curvature;
-        const double now = add_up(loop, [&](Index i) {
-            error_.row(i) += length * direction_.row(i);
-            residual_.row(i) -= length * product_.row(i);
-            return residual_.row(i).squaredNorm() / diagonal_[at(i)];
-        });
-        for_each_part(loop, size(), [&](Index, Index begin, Index end) {
-            for (Index i = begin; i < end; ++i)
-                direction_.row(i) = residual_.row(i) / diagonal_[at(i)] + now / before * direction_.row(i);
-        });
-        before = now;
-    }
-}
-
-void DriftEstimate::stiffen(const Loop& loop)
-{
-    constexpr double share = 0.75;
-    for_each_part(loop, size(), [&](Index, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
-            for (Index e = neighbours_.offsets[at(i)]; e < neighbours_.offsets[at(i) + 1]; ++e)
-                if (const Index other = neighbours_.values[at(e)]; other >= 0) {
-                    const double stiffness = share * std::min(yielded_[at(i)], yielded_[at(other)]);
-                    couplings_[at(e)] += stiffness;
-                    diagonal_[at(i)] += stiffness;
-                }
-    });
-}
-
-void DriftEstimate::carry_over(const Loop& loop)
-{
-    const double keep_t = laplacian_ == Laplacian::Fujiwara ? 0.5 : 1.0;
-    for_each_part(loop, size(), [&](Index, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            const Point correction = error_.row(i);
-            const Point normal = normal_.row(i);
-            const Point c = corrected_.row(i);
-            const Point cn = c.dot(normal) * normal;
-            const Point kept = keep_t * (c - cn);
-            residual_.row(i) += mass_[at(i)] * (c - kept);
-            corrected_.row(i) = kept + correction;
-            const Point f = swept_.row(i);
-            const Point fn = f.dot(normal) * normal;
-            swept_.row(i) = (0.5 + 0.5 * keep_t) * (f - fn) + 0.7 * fn;
-        }
-    });
-}
-
-void DriftEstimate::add_step(const Loop& loop)
-{
-    carry_over(loop);
-    stiffen(loop);
-    solve(loop);
-    for_each_part(loop, size(), [&](Index number, Index begin, Index end) {
-        double largest = 0.0;
-        for (Index i = begin; i < end; ++i) {
-            swept_.row(i) += error_.row(i);
-            largest = std::max({largest, swept_.row(i).norm(), (swept_.row(i) + corrected_.row(i)).norm()});
-        }
-        of_block_[at(number)] = largest;
-    });
-    largest_ = 0.0;
-    for (Index number = 0; number < (size() + block - 1) / block; ++number)
-        largest_ = std::max(largest_, of_block_[at(number)]);
-    if (std::getenv("SFD")) {
-        double a = 0, b = 0, c = 0, d = 0;
-        for (Index i = 0; i < size(); ++i) {
-            a = std::max(a, error_.row(i).norm());
-            b = std::max(b, corrected_.row(i).norm());
-            c = std::max(c, swept_.row(i).norm());
-            d = std::max(d, (swept_.row(i) + corrected_.row(i)).norm());
-        }
-        std::fprintf(stderr, "SFD e %g corr %g swept %g all %g\n", a, b, c, d);
-    }
+    return std::sqrt(squared);
 }
 
 }  // namespace seamflow
