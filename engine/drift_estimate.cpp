@@ -15,15 +15,15 @@ struct Carried {
     /// Of what a correction did to single vertices, tangentially. Δ_A and Δ_P do not see how vertices lie in a surface;
     /// Δ_F does, and half of it to all of it is left, the less the rougher. Normally nothing is left but what spreads.
     double tangential_correction;
-    /// Of the error of a sweep, tangentially and normally. The latter is smooth over √dt: a half of it is left by the
-    /// first step, three quarters by the next, and so on.
+    /// Of the error of a sweep, tangentially; and normally where it is smooth along Γ. Across Γ it is smooth over √dt:
+    /// of the largest the first step leaves a half, the next one three quarters, then five sixths, and so on.
     double tangential_error;
     double normal_error;
 };
 
 Carried carried_by(Laplacian laplacian)
 {
-    return laplacian == Laplacian::Fujiwara ? Carried{0.65, 0.8, 0.7} : Carried{1.0, 1.0, 0.7};
+    return laplacian == Laplacian::Fujiwara ? Carried{0.65, 0.8, 0.8} : Carried{1.0, 1.0, 0.8};
 }
 
 Point scaled(const Point& vector, const Point& normal, double tangentially, double normally)
@@ -99,7 +99,8 @@ void DriftEstimate::carry_over()
         const Point kept = scaled(corrected_.row(i), normal, carried.tangential_correction, 0.0);
         equation_.add_displacement(i, corrected_.row(i) - kept);
         corrected_.row(i) = kept + correction_.row(i);
-        swept_.row(i) = scaled(swept_.row(i), normal, carried.tangential_error, carried.normal_error);
+        equation_.add_error(i, scaled(swept_.row(i), normal, 0.0, carried.normal_error));
+        swept_.row(i) = scaled(swept_.row(i), normal, carried.tangential_error, 0.0);
     });
 }
 

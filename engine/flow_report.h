@@ -56,6 +56,9 @@ struct StepReport {
     /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
     std::optional<int> iterations;
     std::optional<double> residual;
+    /// How far the result may be from the undecomposed flow after this step: an estimate of VertexDistance::max from
+    /// what the step leaves of the rows of the whole mesh (see DriftEstimate), without Conditions::Schwarz, whose
+    /// sub-meshes overlap, and with backward Euler steps alone.
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;

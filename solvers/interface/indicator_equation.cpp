@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "solvers/interface/ptackova_residual.h"
 #include "solvers/interface/residual_indicator.h"
@@ -12,10 +13,6 @@ namespace {
 
 /// How many vertices of Γ are taken together, whatever the loop.
 constexpr Index block = 1024;
-
-/// Of what a vertex beyond Γ yields, this share belongs to the neighbours along Γ: it is 1/2 for regular triangles and
-/// 1 for Δ_A on regular quads; in between the estimate was best on the whole (38 meshes).
-constexpr double share_along = 0.75;
 
 Index n_blocks(Index n)
 {
@@ -63,7 +60,7 @@ IndicatorEquation::IndicatorEquation(const Decomposition& decomposition, const P
     if (laplacian == Laplacian::PtackovaVelho)
         list_surroundings(mesh, topology, kinds);
     couplings_.resize(neighbours_.values.size());
-    for (auto* array : {&mass_, &diagonal_, &yielded_})
+    for (auto* array : {&mass_, &diagonal_, &row_sum_, &yielded_})
         array->resize(local_vertex_.size());
     for (Points* array : {&normal_, &residual_, &error_, &direction_, &product_})
         array->setZero(size(), 3);
@@ -124,8 +121,9 @@ void IndicatorEquation::assemble(Index s, const Points& before, const Points& af
             indicator_row(sub_mesh, laplacian_, index_in_owner_[at(i)], kinds, before, after, time_step, couplings);
         mass_[at(i)] = row.mass;
         diagonal_[at(i)] = row.diagonal;
+        row_sum_[at(i)] = row.diagonal - std::accumulate(couplings.begin(), couplings.end(), 0.0);
         const auto along = std::count_if(kinds.begin(), kinds.end(), [](Index kind) { return kind >= 0; });
-        yielded_[at(i)] = along > 0 ? share_along * row.yielded / static_cast<double>(along) : 0.0;
+        yielded_[at(i)] = along > 0 ? row.yielded / static_cast<double>(along) : 0.0;
         normal_.row(i) = row.normal;
         residual_.row(i) = row.residual;
     }
@@ -144,13 +142,17 @@ void IndicatorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topolo
     });
 }
 
-/// What is beyond Γ also ties the vertices of Γ to each other, so that rough errors die away sooner.
+/// What is beyond Γ also ties the vertices of Γ to each other, so that rough errors die away sooner: on regular grids T
+/// grows with the wave number along Γ, and not with its square. A multiple of what is yielded to each other, the
+/// smaller the more the vertices are coupled already, comes near to that: with these numbers within a factor of 2 for
+/// Δ_F and Δ_A on regular quads and triangles at all wave numbers but the highest.
 void IndicatorEquation::stiffen(const Loop& loop)
 {
     for_each_in_blocks(loop, size(), [&](Index i) {
         for (Index e = neighbours_.offsets[at(i)]; e < neighbours_.offsets[at(i) + 1]; ++e)
             if (const Index other = neighbours_.values[at(e)]; other >= 0) {
-                const double tie = std::min(yielded_[at(i)], yielded_[at(other)]);
+                const double yielded = std::min(yielded_[at(i)], yielded_[at(other)]);
+                const double tie = 1.25 * yielded - 0.5 * std::min(yielded, couplings_[at(e)]);
                 couplings_[at(e)] += tie;
                 diagonal_[at(i)] += tie;
             }

@@ -41,8 +41,12 @@ class IndicatorEquation {
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Loop& loop);
 
-    /// Adds M d to the right-hand side.
+    /// Adds to the right-hand side what makes the step spread a displacement of single vertices of Γ.
     void add_displacement(Index i, const Point& d) { residual_.row(i) += mass_[at(i)] * d; }
+
+    /// The same for an error that dies away from Γ, so that it comes back where it is smooth along Γ, and smoothed
+    /// where it is rough.
+    void add_error(Index i, const Point& d) { residual_.row(i) += row_sum_[at(i)] * d; }
 
     /// Unit normal of the surface at Vᵏ; zero where it has none.
     [[nodiscard]] Point normal(Index i) const { return normal_.row(i); }
@@ -72,6 +76,7 @@ class IndicatorEquation {
     std::vector<double> couplings_;
     std::vector<double> mass_;
     std::vector<double> diagonal_;
+    std::vector<double> row_sum_;
     /// What the vertices beyond Γ yield to each neighbour along Γ.
     std::vector<double> yielded_;
     /// Each #Γ by 3.
