@@ -82,6 +82,7 @@ TEST_CASE("the other conditions")
         options.conditions = conditions;
         if (conditions != Conditions::Robin)
             options.q = 0.1;
+        options.steps = 2;
         require_within(3.0, report_of(mesh, options));
     }
     FlowOptions plain = FlowOptions::plain();
