@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "solvers/interface/ptackova_residual.h"
 #include "solvers/interface/residual_indicator.h"
 
 namespace seamflow {
@@ -57,14 +56,14 @@ IndicatorEquation::IndicatorEquation(const Decomposition& decomposition, const P
         first_.push_back(static_cast<Index>(local_vertex_.size()));
     }
     list_neighbours(kinds);
-    if (laplacian == Laplacian::PtackovaVelho)
-        list_surroundings(mesh, topology, kinds);
     couplings_.resize(neighbours_.values.size());
     for (auto* array : {&mass_, &diagonal_, &row_sum_, &yielded_})
         array->resize(local_vertex_.size());
     for (Points* array : {&normal_, &residual_, &error_, &direction_, &product_})
         array->setZero(size(), 3);
     of_block_.resize(at(n_blocks(size())));
+    if (laplacian == Laplacian::PtackovaVelho)
+        make_whole_rows(mesh, topology, kinds);
 }
 
 /// @param kinds #V: the number of a vertex of Γ, or see off_interface.
@@ -80,18 +79,17 @@ void IndicatorEquation::list_neighbours(std::span<const Index> kinds)
     }
 }
 
-void IndicatorEquation::list_surroundings(const PolygonMesh& mesh, const Topology& topology,
-                                          std::span<const Index> kinds)
+void IndicatorEquation::make_whole_rows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds)
 {
     std::vector<Index> number(kinds.size(), -1);
-    vertices_.resize(local_vertex_.size());
+    std::vector<Index> vertices(local_vertex_.size());
     for (std::size_t v = 0; v < kinds.size(); ++v)
         if (kinds[v] >= 0)
-            vertices_[at(kinds[v])] = static_cast<Index>(v);
+            vertices[at(kinds[v])] = static_cast<Index>(v);
     std::vector<Index> around;
-    for (const Index v : vertices_) {
+    for (Index i = 0; i < size(); ++i) {
         around.clear();
-        for (const Index corner : topology.corners_at(v))
+        for (const Index corner : topology.corners_at(vertices[at(i)]))
             for (const Index w : mesh.face(topology.face_of[at(corner)]))
                 if (kinds[at(w)] == off_interface)
                     around.push_back(w);
@@ -99,8 +97,8 @@ void IndicatorEquation::list_surroundings(const PolygonMesh& mesh, const Topolog
         around.erase(std::unique(around.begin(), around.end()), around.end());
         for (const Index w : around) {
             if (number[at(w)] < 0) {
-                number[at(w)] = static_cast<Index>(surroundings_.size());
-                surroundings_.push_back(w);
+                number[at(w)] = static_cast<Index>(n_shared_.size());
+                vertices.push_back(w);
                 n_shared_.push_back(0);
             }
             ++n_shared_[at(number[at(w)])];
@@ -108,7 +106,8 @@ void IndicatorEquation::list_surroundings(const PolygonMesh& mesh, const Topolog
         }
         around_.close();
     }
-    residual_around_.resize(static_cast<Eigen::Index>(surroundings_.size()), 3);
+    whole_rows_.emplace(mesh, topology, vertices);
+    whole_residual_.resize(static_cast<Eigen::Index>(vertices.size()), 3);
 }
 
 void IndicatorEquation::assemble(Index s, const Points& before, const Points& after, double time_step)
@@ -132,13 +131,11 @@ void IndicatorEquation::assemble(Index s, const Points& before, const Points& af
 void IndicatorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                                            const Points& after, double time_step, const Loop& loop)
 {
-    const auto residual = [&](Index v) { return ptackova_residual(mesh, topology, before, after, time_step, v); };
-    for_each_in_blocks(loop, static_cast<Index>(surroundings_.size()),
-                       [&](Index i) { residual_around_.row(i) = residual(surroundings_[at(i)]) / n_shared_[at(i)]; });
+    whole_rows_->evaluate(mesh, topology, before, after, time_step, loop, whole_residual_);
     for_each_in_blocks(loop, size(), [&](Index i) {
-        residual_.row(i) = residual(vertices_[at(i)]);
+        residual_.row(i) = whole_residual_.row(i);
         for (const Index w : around_[i])
-            residual_.row(i) += residual_around_.row(w);
+            residual_.row(i) += whole_residual_.row(size() + w) / n_shared_[at(w)];
     });
 }
 

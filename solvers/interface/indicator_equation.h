@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/geometry.h"
+#include "solvers/interface/ptackova_rows.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -59,7 +61,7 @@ class IndicatorEquation {
 
   private:
     void list_neighbours(std::span<const Index> kinds);
-    void list_surroundings(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds);
+    void make_whole_rows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds);
     void stiffen(const Loop& loop);
     template <class Value>
     double add_up(const Loop& loop, Value&& value);
@@ -88,14 +90,12 @@ class IndicatorEquation {
     /// Per block of Γ.
     std::vector<double> of_block_;
 
-    /// With Δ_P, as indices into the whole mesh: the vertices of Γ, and those that share a face with one of them.
-    std::vector<Index> vertices_;
-    std::vector<Index> surroundings_;
+    /// With Δ_P: the rows of the whole mesh at the vertices of Γ, and then at those that share a face with one of them.
+    std::optional<PtackovaRows> whole_rows_;
+    Points whole_residual_;
     /// With how many vertices of Γ each of the latter shares a face, and for each vertex of Γ their numbers.
     std::vector<Index> n_shared_;
     IndexLists around_;
-    /// #surroundings by 3.
-    Points residual_around_;
 };
 
 }  // namespace seamflow

@@ -44,6 +44,28 @@ void add_edges(double time_step, Draft& draft)
     draft.row.mass = length / static_cast<double>(draft.neighbours.size());
 }
 
+/// The coupling of the vertex to one of its edge neighbours.
+void add_coupling(Index neighbour, double coupling, Draft& draft)
+{
+    const auto place = std::find(draft.neighbours.begin(), draft.neighbours.end(), neighbour);
+    draft.couplings[static_cast<std::size_t>(place - draft.neighbours.begin())] += coupling;
+    draft.row.residual -= coupling * (draft.after.row(neighbour) - draft.after.row(draft.vertex));
+}
+
+/// A triangle has the cotangents of the angles opposite to its edges, and a third of its area.
+void add_triangle(Index next, Index previous, double time_step, Draft& draft)
+{
+    const Point first = draft.to(next);
+    const Point second = draft.to(previous);
+    const Point normal = first.cross(second);
+    const double double_area = normal.norm();
+    const double weight = 0.5 * time_step / double_area;
+    draft.row.normal += normal;
+    draft.row.mass += double_area / 6.0;
+    add_coupling(next, weight * second.dot(second - first), draft);
+    add_coupling(previous, weight * first.dot(first - second), draft);
+}
+
 void add_face(std::span<const Index> corners, std::size_t own, double time_step, Draft& draft)
 {
     const double face_area = area(corners, draft.before);
@@ -66,18 +88,14 @@ void add_face(std::span<const Index> corners, std::size_t own, double time_step,
     }
 }
 
-/// Calls action(corners, k) for every face at the i-th vertex of Γ, k being the place of the vertex in it.
+/// Calls action(corners, k) for every face of a fan, k being the place of vertex v in it.
 template <class Action>
-void for_each_face(const SubMesh& sub_mesh, Index i, Action&& action)
+void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v, Action&& action)
 {
-    const Index v = sub_mesh.interface.vertices[at(i)];
-    const auto visit = [&](std::span<const Index> corners) {
+    for (const Index f : fan) {
+        const auto corners = faces[f];
         action(corners, static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin()));
-    };
-    for (const Index f : sub_mesh.interface.own_faces[i])
-        visit(sub_mesh.face_vertices[f]);
-    for (const Index f : sub_mesh.interface.complement_faces[i])
-        visit(sub_mesh.interface.halo_faces[f]);
+    }
 }
 
 Point unit(const Point& vector)
@@ -133,12 +151,19 @@ IndicatorRow indicator_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i
     draft.along = unit(before.row(interface.after[at(i)]) - before.row(interface.before[at(i)]));
     if (laplacian == Laplacian::Fujiwara)
         add_edges(time_step, draft);
-    for_each_face(sub_mesh, i, [&](std::span<const Index> corners, std::size_t k) {
+    const auto visit = [&](std::span<const Index> corners, std::size_t k) {
+        const std::size_t p = corners.size();
+        const Index next = corners[k + 1 == p ? 0 : k + 1];
+        const Index previous = corners[k == 0 ? p - 1 : k - 1];
+        if (laplacian != Laplacian::Fujiwara && p == 3)
+            return add_triangle(next, previous, time_step, draft);
         if (laplacian != Laplacian::Fujiwara)
             add_face(corners, k, time_step, draft);
-        const std::size_t p = corners.size();
-        draft.row.normal += draft.to(corners[k + 1 == p ? 0 : k + 1]).cross(draft.to(corners[k == 0 ? p - 1 : k - 1]));
-    });
+        draft.row.normal += draft.to(next).cross(draft.to(previous));
+    };
+    for_each_face(interface.own_faces[i], sub_mesh.face_vertices, v, visit);
+    if (laplacian != Laplacian::Fujiwara)
+        for_each_face(interface.complement_faces[i], interface.halo_faces, v, visit);
     draft.row.normal = unit(draft.row.normal);
     draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));
     close_row(kinds, spread(draft, time_step), draft);

@@ -25,7 +25,7 @@ struct IndicatorRow {
     /// What the vertices beyond Γ yield, in the unit of T.
     double yielded = 0.0;
     Point residual = Point::Zero();
-    /// Unit normal of the surface at Vᵏ; zero where it has none.
+    /// Unit normal of the surface at Vᵏ, for Δ_F of the sub-mesh's own side; zero where it has none.
     Point normal = Point::Zero();
 };
 
