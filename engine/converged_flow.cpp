@@ -10,7 +10,6 @@
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "partition/errors.h"
-#include "partition/metrics/vertex_distance.h"
 
 namespace seamflow {
 
@@ -34,7 +33,6 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , equation_(decomposition_, balancing_for(mesh, cut.n_parts, options.time_step))
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
-    , mean_edge_(mean_edge_length(mesh))
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
     , condensed_(equation_.copies().n_copies(), 3)
@@ -154,8 +152,7 @@ void ConvergedFlow::describe(StepReport& report) const
 {
     report.iterations = result_.iterations;
     report.residual = result_.residual;
-    if (mean_edge_ > 0.0)
-        report.estimated_v_max = result_.estimated_distance / mean_edge_;
+    report.estimated_v_max = result_.estimated_distance;
 }
 
 void ConvergedFlow::describe(FlowReport& report) const

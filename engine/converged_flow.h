@@ -61,8 +61,6 @@ class ConvergedFlow {
     InterfaceStop stop_;
     InterfaceResult result_;
     double time_step_;
-    /// Of the mesh before the first step.
-    double mean_edge_;
     Points positions_;
     /// Vᵏ⁺¹, #V by 3: complete at the end of a step.
     Points next_;

@@ -49,6 +49,8 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     make_states(mesh, options);
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
+    if (options.conditions != Conditions::Schwarz)
+        drift_.emplace(decomposition_, mesh, topology, options);
     plans_.push_back(make_plan(decomposition_, options, rank));
     if (alternates(options, states_.size()))
         plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
@@ -125,7 +127,11 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
                : solve(states_, s, plan.traces[at(s)], workspace);
     };
     const auto accept_one = [this, corrected](Index s, SolverWorkspace&) {
+        if (drift_)
+            drift_->measure(states_, s);
         corrected ? accept_corrected(states_, s, decomposition_.halo[at(s)]) : accept(states_, s);
+        if (drift_)
+            drift_->note_correction(states_, s);
     };
 
     const TaskGraph::Node root = graph_.add_root();
@@ -206,6 +212,8 @@ void DecomposedFlow::step()
         recorder_->begin_step();
     graph_.run(roots_[static_cast<std::size_t>(steps_done_) % roots_.size()]);
     ++steps_done_;
+    if (drift_)
+        drift_->add_step(positions_);
     join();
     if (recorder_)
         recorder_->end_step();
@@ -227,6 +235,8 @@ void DecomposedFlow::describe(StepReport& report) const
 {
     if (copies_)
         report.gap = copies_->gap();
+    if (drift_)
+        report.estimated_v_max = drift_->largest();
 }
 
 void DecomposedFlow::describe(FlowReport& report) const

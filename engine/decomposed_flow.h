@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/copies_of_interface.h"
+#include "engine/drift_estimate.h"
 #include "engine/factor_pool.h"
 #include "engine/factor_window.h"
 #include "engine/flow_options.h"
@@ -79,6 +80,8 @@ class DecomposedFlow {
     std::vector<TaskGraph::Node> roots_;
     /// With the classical conditions.
     std::optional<CopiesOfInterface> copies_;
+    /// But for overlapping sub-meshes.
+    std::optional<DriftEstimate> drift_;
     /// nullptr: the schedule is not recorded.
     std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;

@@ -56,8 +56,11 @@ struct StepReport {
     /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
     std::optional<int> iterations;
     std::optional<double> residual;
-    /// Estimated largest distance of a vertex to where the exact step would have put it, where that is known.
-    std::optional<double> estimated_v_max;  ///< in mean edge lengths of the input
+    /// How far the result may be from the undecomposed flow after this step: an estimate of VertexDistance::max, of
+    /// sweeps from what they leave of the rows of the whole mesh (see DriftEstimate), of converged steps, each by itself,
+    /// from what is left of the residual. Not with Conditions::Schwarz, whose sub-meshes overlap, and with backward
+    /// Euler steps alone.
+    std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.

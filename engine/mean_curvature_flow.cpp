@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "partition/errors.h"
 #include "partition/topology.h"
 #include "solvers/degenerate.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {
 
@@ -82,6 +84,30 @@ void named(const std::string& name, Body&& body)
     }
 }
 
+/// @param estimate in units of length; empty where the edges have no length to measure by.
+void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, const Points& positions)
+{
+    if (!estimate || *estimate == 0.0)
+        return;
+    *estimate /= mean_edge_length(mesh, positions, run_in_parallel);
+    if (!std::isfinite(*estimate))
+        estimate.reset();
+}
+
+/// What the estimate after the last step means for the user.
+void remark_on_drift(const FlowOptions& options, FlowReport& report)
+{
+    if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)
+        return;
+    char estimate[32];
+    std::snprintf(estimate, sizeof estimate, "%.2g", *report.steps.back().estimated_v_max);
+    report.remarks.push_back("The result is, by estimate, up to " + std::string(estimate) +
+                             " mean edge lengths away from the undecomposed flow: fewer sub-meshes bring it closer" +
+                             (is_symmetric(options.laplacian) ? "; --converge (FlowOptions::tolerance) gives the "
+                                                                "undecomposed step itself."
+                                                              : "."));
+}
+
 template <class Flow>
 void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const StepObserver& on_step,
                std::vector<double> curvature, Flow& flow, DecomposedFlow* reference, FlowReport& report)
@@ -95,6 +121,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         of_step.seconds = watch.lap();
         report.seconds.step += of_step.seconds;
         flow.describe(of_step);
+        in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
         of_step.displacement = meter.add_step(mesh.vertices, flow.positions());
         mesh.vertices = flow.positions();
 
@@ -110,6 +137,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         if (on_step)
             on_step({step, flow.positions(), of_step, flow.pieces()});
     }
+    remark_on_drift(options, report);
     report.displacement = meter.total();
     if (flow.pieces() != nullptr)
         report.pieces = *flow.pieces();

@@ -123,6 +123,14 @@ void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<
     state.seconds.solve += watch.lap();
 }
 
+void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
+{
+    SubMeshState& state = states[at(s)];
+    Stopwatch watch;
+    receive(states, halo, &SubMeshState::solved, state.solved);
+    state.seconds.correct += watch.lap();
+}
+
 void accept(std::vector<SubMeshState>& states, Index s)
 {
     SubMeshState& state = states[at(s)];

@@ -61,6 +61,9 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
 void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
                   SolverWorkspace& workspace);
 
+/// Fetches Vᵏ⁺¹ as it was solved for the halo.
+void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
+
 /// Accepts Vᵏ⁺¹ as it was solved.
 void accept(std::vector<SubMeshState>& states, Index s);
 

@@ -13,15 +13,16 @@ double mean_edge_length(const PolygonMesh& mesh)
     return mean_edge_length(mesh, mesh.vertices);
 }
 
-double mean_edge_length(const PolygonMesh& mesh, const Points& positions)
+double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
 {
-    double sum = 0.0;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
+    const double total = sum(loop, mesh.n_faces(), [&](Index f) {
         const auto corners = mesh.face(f);
+        double around = 0.0;
         for (std::size_t k = 0; k < corners.size(); ++k)
-            sum += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
-    }
-    return mesh.n_corners() > 0 ? sum / mesh.n_corners() : 0.0;
+            around += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
+        return around;
+    });
+    return mesh.n_corners() > 0 ? total / mesh.n_corners() : 0.0;
 }
 
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate)

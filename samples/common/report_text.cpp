@@ -103,12 +103,13 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
         << digits(report.max_mean_curvature_before) << " -> " << digits(report.max_mean_curvature_after);
     if (report.iterations)
         out << "  iterations " << *report.iterations << ", residual " << digits(report.residual.value_or(0.0), 2);
-    if (report.estimated_v_max)
-        out << "  estimated V_max " << digits(*report.estimated_v_max, 2);
     if (report.gap) {
         const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
         out << "  gap mean " << digits(report.gap->mean / unit) << ", largest " << digits(report.gap->max / unit);
     }
+    if (report.estimated_v_max)
+        out << "  estimated distance to the undecomposed flow " << digits(*report.estimated_v_max, 2)
+            << " mean edge lengths";
     if (report.distance) {
         const VertexDistance& distance = *report.distance;
         const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;
