@@ -56,6 +56,8 @@ struct StepReport {
     /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
     std::optional<int> iterations;
     std::optional<double> residual;
+    /// About the largest distance of a vertex to the undecomposed step, as far as it can be told without one.
+    std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
     /// Wall-clock time of the undecomposed step, with FlowOptions::reference.

@@ -13,6 +13,7 @@
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
 #include "engine/explicit_flow.h"
+#include "engine/krylov_flow.h"
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
@@ -21,6 +22,7 @@
 #include "partition/errors.h"
 #include "partition/topology.h"
 #include "solvers/degenerate.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {
 
@@ -151,8 +153,10 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
     };
     if (options.scheme == Scheme::ExplicitEuler)
         run(ExplicitFlow(mesh, topology, options));
-    else if (options.tolerance)
+    else if (options.tolerance && is_symmetric(options.laplacian))
         run(ConvergedFlow(mesh, topology, cut, options));
+    else if (options.tolerance)
+        run(KrylovFlow(mesh, topology, cut, options));
     else
         run(DecomposedFlow(mesh, topology, cut, options, curvature));
 }
