@@ -19,7 +19,7 @@ namespace seamflow {
 namespace {
 
 /// Layers of faces by which sub-meshes overlap.
-constexpr int overlap_layers = 1;
+constexpr int overlap_layers = 2;
 
 }  // namespace
 
@@ -128,7 +128,7 @@ void KrylovFlow::solve_traces()
     result_ = equation_->solve(block_views_, stop_, next_, {run_in_parallel, [this]() -> SolverWorkspace& {
                                                                 return workspaces_.local();
                                                             }});
-    if (!result_.reached)
+    if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
     trace_seconds_ += watch.seconds();
 }
@@ -138,7 +138,7 @@ void KrylovFlow::describe(StepReport& report) const
     report.iterations = result_.iterations;
     report.residual = result_.residual;
     const double mean_edge = mean_edge_length(*mesh_, positions_);
-    report.estimated_v_max = mean_edge > 0.0 ? result_.largest / mean_edge : 0.0;
+    report.estimated_v_max = mean_edge > 0.0 ? result_.distance / mean_edge : 0.0;
 }
 
 void KrylovFlow::describe(FlowReport& report) const

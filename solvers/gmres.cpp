@@ -3,17 +3,41 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace seamflow {
 
 namespace {
 
-/// What rounding may leave of a direction that lies in the span of those before.
+using Eigen::Matrix3d;
+using Eigen::RowVector3d;
+
+/// What rounding may leave of a direction that lies in the span of others.
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-Index n_blocks_of(Index n)
+/// The sum of value(i), of some matrix type, always added up in the same order.
+template <class Sum, class Value>
+Sum sum_of(const Loop& loop, Index n, Value&& value)
 {
-    return n / block_size + (n % block_size > 0 ? 1 : 0);
+    std::vector<Sum> of_block(at(n / block_size) + 1, Sum::Zero());
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+        Sum total = Sum::Zero();
+        for (Index i = begin; i < end; ++i)
+            total += value(i);
+        of_block[at(block)] = total;
+    });
+    Sum total = Sum::Zero();
+    for (const Sum& part : of_block)
+        total += part;
+    return total;
+}
+
+RowVector3d column_norms(const Points& a, const Loop& loop)
+{
+    return sum_of<RowVector3d>(loop, static_cast<Index>(a.rows()),
+                               [&](Index i) { return a.row(i).array().square().matrix(); })
+        .cwiseSqrt();
 }
 
 }  // namespace
@@ -25,134 +49,205 @@ double norm(const Points& a, const Loop& loop)
 
 int Gmres::improve(const Multiply& multiply, const Points& residual, double goal, int most, Points& x, const Loop& loop)
 {
-    begin(residual, most, loop);
-    int j = 0;
-    while (j < most && right_hand_side_.back().matrix().norm() > goal) {
-        multiply(directions_[static_cast<std::size_t>(j)], product_);
-        orthogonalise(j, loop);
-        rotate(j);
-        ++j;
+    begin(residual, loop);
+    int iterations = 0;
+    for (; iterations < most && !has_reached(goal); ++iterations) {
+        if (directions_.size() == n_used_)
+            directions_.emplace_back();
+        directions_[n_used_++].swap(product_);
+        product_.resize(n_, 3);
+        multiply(directions_[n_used_ - 1], product_);
+        orthogonalise(loop);
     }
-    add_combination(j, x, loop);
-    return j;
+    add_combination(x, loop);
+    return iterations;
 }
 
-void Gmres::begin(const Points& residual, int most, const Loop& loop)
+void Gmres::begin(const Points& residual, const Loop& loop)
 {
+    n_used_ = 0;
     triangle_.clear();
     rotations_.clear();
-    right_hand_side_.assign(1, norms(residual, loop));
-    const Triple size = right_hand_side_.front();
-    const Triple scale = (size > 0.0).select(size.inverse(), 0.0);
-    if (directions_.empty() && most > 0)
-        directions_.emplace_back();
-    product_.resize(n_, 3);
-    if (directions_.empty())
-        return;
-    directions_.front().resize(n_, 3);
-    for_each(loop, n_,
-             [&](Index i) { directions_.front().row(i) = (residual.row(i).array() * scale).matrix(); });
+    right_hand_side_.clear();
+    product_ = residual;
+    const Matrix3d amounts = normalise(column_norms(product_, loop), loop);
+    for (Eigen::Index r = 0; r < 3; ++r)
+        right_hand_side_.emplace_back(amounts.row(r));
 }
 
-/// Makes the next direction of the product, and the next column of the Hessenberg matrices.
-void Gmres::orthogonalise(int j, const Loop& loop)
+/// Makes the next directions of the product, and with them three columns of the Hessenberg matrix.
+void Gmres::orthogonalise(const Loop& loop)
 {
-    const Triple before = norms(product_, loop);
-    std::vector<Triple> column = project(j + 1, loop);
-    take_away(j + 1, column, loop);
-    const std::vector<Triple> again = project(j + 1, loop);
-    take_away(j + 1, again, loop);
-    for (std::size_t i = 0; i < column.size(); ++i)
-        column[i] += again[i];
-    const Triple after = norms(product_, loop);
-    const Triple size = (after > rounding * before).select(after, 0.0);
-    const Triple scale = (size > 0.0).select(size.inverse(), 0.0);
-    column.push_back(size);
-    triangle_.push_back(std::move(column));
-    const auto next = static_cast<std::size_t>(j) + 1;
-    if (directions_.size() <= next)
-        directions_.emplace_back();
-    directions_[next].resize(n_, 3);
-    for_each(loop, n_, [&](Index i) { directions_[next].row(i) = (product_.row(i).array() * scale).matrix(); });
+    const RowVector3d sizes = column_norms(product_, loop);
+    std::vector<Matrix3d> amounts = project(loop);
+    take_away(amounts, loop);
+    const std::vector<Matrix3d> again = project(loop);
+    take_away(again, loop);
+    for (std::size_t k = 0; k < amounts.size(); ++k)
+        amounts[k] += again[k];
+    amounts.push_back(normalise(sizes, loop));
+    for (int r = 0; r < 3; ++r)
+        right_hand_side_.emplace_back(RowVector3d::Zero());
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        std::vector<double> column;
+        for (const Matrix3d& amount : amounts)
+            for (Eigen::Index r = 0; r < 3; ++r)
+                column.push_back(amount(r, c));
+        rotate(std::move(column));
+    }
 }
 
-/// The products of the first directions with `product_`.
-std::vector<Gmres::Triple> Gmres::project(int n_directions, const Loop& loop) const
+/// Makes the columns of the product orthonormal, or zero if they depend on others.
+/// @param sizes what the columns' norms were before anything was taken away from them.
+/// @returns the triangle by which they have to be multiplied to become what they were.
+Matrix3d Gmres::normalise(const RowVector3d& sizes, const Loop& loop)
 {
-    const auto n = static_cast<std::size_t>(n_directions);
-    std::vector<Triple> of_block(at(n_blocks_of(n_)) * n, Triple::Zero());
+    Matrix3d amounts = Matrix3d::Zero();
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        for (int pass = 0; pass < 2 && c > 0; ++pass) {
+            RowVector3d before = products_with_column(c, loop);
+            before.tail(3 - c).setZero();
+            for_each(loop, n_, [&](Index i) { product_(i, c) -= before.dot(product_.row(i)); });
+            amounts.col(c) += before.transpose();
+        }
+        const double length = std::sqrt(products_with_column(c, loop)[c]);
+        const bool is_new = length > rounding * sizes[c];
+        amounts(c, c) = is_new ? length : 0.0;
+        for_each(loop, n_, [&](Index i) { product_(i, c) = is_new ? product_(i, c) / length : 0.0; });
+    }
+    return amounts;
+}
+
+RowVector3d Gmres::products_with_column(Eigen::Index c, const Loop& loop) const
+{
+    return sum_of<RowVector3d>(loop, n_, [&](Index i) { return product_(i, c) * product_.row(i); });
+}
+
+/// The products of all directions with `product_`.
+std::vector<Matrix3d> Gmres::project(const Loop& loop) const
+{
+    const Index n_blocks = n_ / block_size + 1;
+    std::vector<Matrix3d> of_block(at(n_blocks) * n_used_, Matrix3d::Zero());
     for_each_block(loop, n_, [&](Index block, Index begin, Index end) {
-        for (std::size_t k = 0; k < n; ++k) {
-            Triple total = Triple::Zero();
+        for (std::size_t k = 0; k < n_used_; ++k) {
+            Matrix3d total = Matrix3d::Zero();
             for (Index i = begin; i < end; ++i)
-                total += directions_[k].row(i).array() * product_.row(i).array();
-            of_block[at(block) * n + k] = total;
+                total += directions_[k].row(i).transpose() * product_.row(i);
+            of_block[at(block) * n_used_ + k] = total;
         }
     });
-    std::vector<Triple> sums(n, Triple::Zero());
+    std::vector<Matrix3d> sums(n_used_, Matrix3d::Zero());
     for (std::size_t b = 0; b < of_block.size(); ++b)
-        sums[b % n] += of_block[b];
+        sums[b % n_used_] += of_block[b];
     return sums;
 }
 
-void Gmres::take_away(int n_directions, const std::vector<Triple>& amounts, const Loop& loop)
+void Gmres::take_away(const std::vector<Matrix3d>& amounts, const Loop& loop)
 {
     for_each_block(loop, n_, [&](Index, Index begin, Index end) {
-        for (std::size_t k = 0; k < static_cast<std::size_t>(n_directions); ++k)
+        for (std::size_t k = 0; k < amounts.size(); ++k)
             for (Index i = begin; i < end; ++i)
-                product_.row(i).array() -= amounts[k] * directions_[k].row(i).array();
+                product_.row(i) -= directions_[k].row(i) * amounts[k];
     });
 }
 
-Gmres::Triple Gmres::norms(const Points& a, const Loop& loop) const
+/// Takes in a column of the Hessenberg matrix: rotated like the ones before, then so that nothing is left below its
+/// diagonal.
+void Gmres::rotate(std::vector<double> column)
 {
-    std::vector<Triple> of_block(at(n_blocks_of(n_)), Triple::Zero());
-    for_each_block(loop, n_, [&](Index block, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
-            of_block[at(block)] += a.row(i).array().square();
-    });
-    Triple total = Triple::Zero();
-    for (const Triple& part : of_block)
-        total += part;
-    return total.sqrt();
-}
-
-/// Givens rotations.
-void Gmres::rotate(int j)
-{
-    std::vector<Triple>& column = triangle_.back();
-    const auto last = static_cast<std::size_t>(j);
-    for (std::size_t i = 0; i < last; ++i) {
-        const auto& [cosine, sine] = rotations_[i];
-        const Triple upper = cosine * column[i] + sine * column[i + 1];
-        column[i + 1] = cosine * column[i + 1] - sine * column[i];
-        column[i] = upper;
+    const auto turn = [](const Rotation& rotation, auto& first, auto& second) {
+        using Value = std::remove_cvref_t<decltype(first)>;
+        const Value turned = rotation.cosine * first + rotation.sine * second;
+        second = rotation.cosine * second - rotation.sine * first;
+        first = turned;
+    };
+    for (const Rotation& rotation : rotations_)
+        turn(rotation, column[rotation.first], column[rotation.second]);
+    const std::size_t diagonal = triangle_.size();
+    for (std::size_t below = diagonal + 1; below < column.size(); ++below) {
+        if (column[below] == 0.0)
+            continue;
+        const double length = std::hypot(column[diagonal], column[below]);
+        const Rotation rotation{diagonal, below, column[diagonal] / length, column[below] / length};
+        turn(rotation, column[diagonal], column[below]);
+        turn(rotation, right_hand_side_[diagonal], right_hand_side_[below]);
+        rotations_.push_back(rotation);
     }
-    const Triple length = (column[last].square() + column[last + 1].square()).sqrt();
-    const Triple scale = (length > 0.0).select(length.inverse(), 0.0);
-    Rotation rotation{(length > 0.0).select(column[last] * scale, 1.0), column[last + 1] * scale};
-    column[last] = length;
-    column.pop_back();
-    right_hand_side_.emplace_back(-rotation.sine * right_hand_side_[last]);
-    right_hand_side_[last] *= rotation.cosine;
-    rotations_.push_back(rotation);
+    column.resize(diagonal + 1);
+    triangle_.push_back(std::move(column));
 }
 
-/// Back substitution, then the directions as often as it says.
-void Gmres::add_combination(int n_directions, Points& x, const Loop& loop) const
+double Gmres::estimated_residual() const
 {
-    const auto n = static_cast<std::size_t>(n_directions);
-    std::vector<Triple> amounts(right_hand_side_.begin(), right_hand_side_.begin() + n_directions);
-    for (std::size_t j = n; j-- > 0;) {
-        const Triple pivot = triangle_[j][j];
-        amounts[j] = (pivot > 0.0).select(amounts[j] / pivot, 0.0);
+    double squares = 0.0;
+    for (std::size_t r = triangle_.size(); r < right_hand_side_.size(); ++r)
+        squares += right_hand_side_[r].squaredNorm();
+    return std::sqrt(squares);
+}
+
+bool Gmres::has_reached(double goal) const
+{
+    const double residual = estimated_residual();
+    return residual <= goal && residual * std::max(1.0, amplification() / most_amplification) <= goal;
+}
+
+/// By power iteration on (RᵀR)⁻¹, R the triangle.
+double Gmres::amplification() const
+{
+    constexpr int iterations = 6;
+    double inverse_square = 0.0;
+    Eigen::VectorXd z = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(triangle_.size()));
+    for (int iteration = 0; iteration < iterations && z.size() > 0 && z.norm() > 0.0; ++iteration) {
+        z /= z.norm();
+        divide_by_transpose(z);
+        divide(z);
+        inverse_square = z.norm();
+    }
+    return std::max(1.0, std::sqrt(inverse_square));
+}
+
+/// z becomes R⁻ᵀ z. Directions that were left out have empty columns and rows.
+void Gmres::divide_by_transpose(Eigen::VectorXd& z) const
+{
+    for (std::size_t j = 0; j < triangle_.size(); ++j) {
+        const std::vector<double>& column = triangle_[j];
+        double& entry = z[static_cast<Eigen::Index>(j)];
         for (std::size_t i = 0; i < j; ++i)
-            amounts[i] -= triangle_[j][i] * amounts[j];
+            entry -= column[i] * z[static_cast<Eigen::Index>(i)];
+        entry = column[j] == 0.0 ? 0.0 : entry / column[j];
+    }
+}
+
+/// z becomes R⁻¹ z.
+void Gmres::divide(Eigen::VectorXd& z) const
+{
+    for (std::size_t j = triangle_.size(); j-- > 0;) {
+        const std::vector<double>& column = triangle_[j];
+        double& entry = z[static_cast<Eigen::Index>(j)];
+        entry = column[j] == 0.0 ? 0.0 : entry / column[j];
+        for (std::size_t i = 0; i < j; ++i)
+            z[static_cast<Eigen::Index>(i)] -= column[i] * entry;
+    }
+}
+
+/// As much of each direction as the triangle says.
+void Gmres::add_combination(Points& x, const Loop& loop) const
+{
+    const auto n = static_cast<Eigen::Index>(triangle_.size());
+    Eigen::MatrixXd amounts(n, 3);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        Eigen::VectorXd column(n);
+        for (Eigen::Index r = 0; r < n; ++r)
+            column[r] = right_hand_side_[static_cast<std::size_t>(r)][c];
+        divide(column);
+        amounts.col(c) = column;
     }
     for_each_block(loop, n_, [&](Index, Index begin, Index end) {
-        for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t k = 0; k < n_used_; ++k) {
+            const Matrix3d of_directions = amounts.middleRows<3>(static_cast<Eigen::Index>(3 * k));
             for (Index i = begin; i < end; ++i)
-                x.row(i).array() += amounts[k] * directions_[k].row(i).array();
+                x.row(i) += directions_[k].row(i) * of_directions;
+        }
     });
 }
 

@@ -89,6 +89,8 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
             json["iterations"] = *step.iterations;
         if (step.residual)
             json["residual"] = number(*step.residual);
+        if (step.estimated_v_max)
+            json["estimated_v_max"] = number(*step.estimated_v_max);
         if (step.gap)
             add_statistics(json, "gap", *step.gap, mean_edge);
         if (step.distance)

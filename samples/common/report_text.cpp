@@ -103,6 +103,8 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
         << digits(report.max_mean_curvature_before) << " -> " << digits(report.max_mean_curvature_after);
     if (report.iterations)
         out << "  iterations " << *report.iterations << ", residual " << digits(report.residual.value_or(0.0), 2);
+    if (report.estimated_v_max)
+        out << "  estimated V_max " << digits(*report.estimated_v_max, 2);
     if (report.gap) {
         const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
         out << "  gap mean " << digits(report.gap->mean / unit) << ", largest " << digits(report.gap->max / unit);

@@ -3,17 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace seamflow {
 
 namespace {
 
-/// After so many iterations GMRES forgets its directions.
-constexpr int most_directions = 60;
+/// What the directions of GMRES may take before it forgets them and begins anew, but they are this many at least.
+constexpr std::size_t most_direction_bytes = std::size_t{1} << 30;
+constexpr std::size_t least_directions = 60;
 /// What is left of the residual after that must be less, or it will not get smaller.
 constexpr double least_progress = 0.95;
-/// The residual that is estimated is about the true one.
+/// The residual that GMRES estimates is about the true one.
 constexpr double safety = 0.8;
+/// What rounding makes of a residual, relative to the positions.
+constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
+
+int most_directions(Index n)
+{
+    const std::size_t affordable = most_direction_bytes / (3 * sizeof(double) * std::max<std::size_t>(at(n), 1));
+    return static_cast<int>(std::clamp<std::size_t>(affordable, least_directions, 1'000'000));
+}
 
 double longest_row(const Points& a)
 {
@@ -62,24 +72,26 @@ TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const Tr
                 x.row(block.sub_mesh().local_to_global[at(block.unknowns()[at(ends_[at(s)].outputs[i])])]);
     });
     renew(blocks, x, threads);
-    const double first = norm(residual_, threads.loop);
-    const double goal = std::max(stop.tolerance * first, 8.0 * std::numeric_limits<double>::epsilon() *
-                                                             norm(traces_, threads.loop));
-    double left = first;
     TraceResult result;
-    while (result.iterations < stop.iterations && left > goal) {
+    const Loop& loop = threads.loop;
+    double left = norm(residual_, loop);
+    const double unit = std::max(left, rounding * norm(traces_, loop) / stop.tolerance);
+    const double goal = stop.tolerance * unit;
+    double amplification = 1.0;
+    const auto excess = [&] { return std::max(1.0, amplification / Gmres::most_amplification); };
+    while (result.iterations < stop.iterations && left * excess() > goal) {
         result.iterations += gmres_.improve(
-            [&](const Points& p, Points& product) { multiply(blocks, p, product, threads); }, residual_, safety * goal,
-            std::min(most_directions, stop.iterations - result.iterations), traces_, threads.loop);
+            [&](const Points& p, Points& product) { multiply(blocks, p, product, threads); }, residual_,
+            safety * goal / excess(), std::min(most_directions(size()), stop.iterations - result.iterations), traces_,
+            loop);
+        amplification = std::max(amplification, gmres_.amplification());
         renew(blocks, x, threads);
-        const double before = left;
-        left = norm(residual_, threads.loop);
+        const double before = std::exchange(left, norm(residual_, loop));
         if (left > least_progress * before)
             break;
     }
-    result.residual = first > 0.0 ? left / first : 0.0;
-    result.largest = longest_row(residual_);
-    result.reached = left <= goal;
+    result.residual = unit > 0.0 ? left / unit : 0.0;
+    result.distance = amplification * longest_row(residual_);
     return result;
 }
 

@@ -12,7 +12,8 @@ namespace seamflow {
 
 /// When the iteration for the trace equation ends.
 struct TraceStop {
-    /// Residual relative to that at the beginning, in the Euclidean norm over x, y and z.
+    /// Residual relative to that at the beginning, in the Euclidean norm over x, y and z; or to what rounding alone
+    /// makes of the positions, whatever is larger. Positive.
     double tolerance = 0.0;
     /// Most iterations.
     int iterations = 0;
@@ -23,10 +24,9 @@ struct TraceResult {
     int iterations = 0;
     /// Relative, as in TraceStop.
     double residual = 0.0;
-    /// The longest row of the residual, in length: about how far a vertex is from where the exact step takes it.
-    double largest = 0.0;
-    /// Whether the residual is within the tolerance, or within what rounding makes of the positions.
-    bool reached = false;
+    /// The longest row of the residual times its amplification (see Gmres), in length: about as far as a vertex may be
+    /// from where the exact step takes it.
+    double distance = 0.0;
 };
 
 /// The whole backward Euler step as an equation on traces: g are the positions of those vertices that occur in the
