@@ -1,7 +1,6 @@
 #include "engine/krylov_flow.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -42,7 +41,7 @@ void KrylovFlow::cut_out(const Topology& topology, const Cut& cut)
 {
     // Everyone grows into everyone.
     const std::vector<Index> rank(at(cut.n_parts), 0);
-    const Overlap overlap{cut.labels, rank, getenv("OVL") ? atoi(getenv("OVL")) : overlap_layers};
+    const Overlap overlap{cut.labels, rank, overlap_layers};
     auto faces = faces_by_label(cut.labels, cut.n_parts);
     parts_.resize(faces.size());
     oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
