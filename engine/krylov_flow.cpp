@@ -45,8 +45,8 @@ void KrylovFlow::cut_out(const Topology& topology, const Cut& cut)
     auto faces = faces_by_label(cut.labels, cut.n_parts);
     parts_.resize(faces.size());
     oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
-        parts_[s] = make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, static_cast<Index>(s),
-                                    std::move(faces[s]));
+        parts_[s] =
+            make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, static_cast<Index>(s), std::move(faces[s]));
     });
     n_interface_vertices_ = static_cast<Index>(select(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
                                                    return is_on_interface(topology, cut.labels, v);
@@ -124,9 +124,8 @@ void KrylovFlow::solve_traces()
 {
     const Stopwatch watch;
     next_ = positions_;
-    result_ = equation_->solve(block_views_, stop_, next_, {run_in_parallel, [this]() -> SolverWorkspace& {
-                                                                return workspaces_.local();
-                                                            }});
+    result_ = equation_->solve(block_views_, stop_, next_,
+                               {run_in_parallel, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
     trace_seconds_ += watch.seconds();

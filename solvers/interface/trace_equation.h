@@ -24,8 +24,8 @@ struct TraceResult {
     int iterations = 0;
     /// Relative, as in TraceStop.
     double residual = 0.0;
-    /// The longest row of the residual times its amplification (see Gmres), in length: about as far as a vertex may be
-    /// from where the exact step takes it.
+    /// The longest row of the residual, as amplified (see Gmres) as residuals typically are, in length: about how far a
+    /// vertex is from where the exact step takes it, or less: the blocks' last solve lessens what is left.
     double distance = 0.0;
 };
 

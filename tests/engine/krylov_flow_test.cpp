@@ -37,8 +37,8 @@ FlowOptions undecomposed()
 
 TEST_CASE("converged, the flow of Ptáčková and Velho's Laplacian in many sub-meshes is the undecomposed flow")
 {
-    for (const PolygonMesh& mesh : {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900),
-                                    make_cylinder(900)}) {
+    for (const PolygonMesh& mesh :
+         {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900), make_cylinder(900)}) {
         const Points expected = flowed(mesh, undecomposed());
         for (const Index subdomains : {1, 2, 7, 30}) {
             CAPTURE(subdomains);
@@ -54,7 +54,7 @@ TEST_CASE("converged, the flow of Ptáčková and Velho's Laplacian in many sub-
     }
 }
 
-TEST_CASE("smooth flows take few iterations, and their distance is estimated well")
+TEST_CASE("smooth flows take few iterations, and their distance is estimated, rather too large than too small")
 {
     for (const PolygonMesh& mesh : {make_quads(2000), make_hexagons(2000), make_mixed_polygons(2000)})
         for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
@@ -66,8 +66,8 @@ TEST_CASE("smooth flows take few iterations, and their distance is estimated wel
             const StepReport step = mean_curvature_flow(moved, options).steps.front();
             CHECK(step.iterations.value() < 25);
             const double distance = step.distance.value().max / step.distance.value().mean_edge;
-            CHECK(step.estimated_v_max.value() > distance / 3.0);
-            CHECK(step.estimated_v_max.value() < 20.0 * distance);
+            CHECK(step.estimated_v_max.value() > distance / 5.0);
+            CHECK(step.estimated_v_max.value() < 100.0 * distance);
         }
 }
 

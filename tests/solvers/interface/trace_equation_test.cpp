@@ -46,21 +46,23 @@ TEST_CASE("where the blocks agree on the traces, they have the whole step")
 
 TEST_CASE("iterations that run out leave the residual and the distance that they leave")
 {
-    const CutMesh& cut = cut_meshes().front();
-    const Points expected = undecomposed_step(cut, Laplacian::PtackovaVelho, time_step_of_blocks);
-    double before = 2.0;
-    for (const int iterations : {0, 1, 2, 4}) {
-        CutMesh curved = cut;
-        curved.mesh.vertices.col(2) = curved.mesh.vertices.col(0).array().sin() * curved.mesh.vertices.col(1).array();
-        const Points exact = undecomposed_step(curved, Laplacian::PtackovaVelho, time_step_of_blocks);
-        const auto [result, positions] = solve(curved, Laplacian::PtackovaVelho, 1, {1e-14, iterations});
-        CHECK(result.iterations == iterations);
-        CHECK(result.residual < before);
-        before = result.residual;
-        const double distance = (positions - exact).rowwise().norm().maxCoeff();
-        CHECK(distance < 3.0 * result.distance);
+    for (const CutMesh& cut : cut_meshes()) {
+        if (cut.name != "hexagons, METIS" && cut.name != "quads, METIS")
+            continue;
+        CAPTURE(cut.name);
+        const Points exact = undecomposed_step(cut, Laplacian::PtackovaVelho, time_step_of_blocks);
+        double before = 2.0;
+        for (const int iterations : {0, 1, 2, 4}) {
+            const auto [result, positions] = solve(cut, Laplacian::PtackovaVelho, 1, {1e-14, iterations});
+            CHECK(result.iterations == iterations);
+            CHECK(result.residual < before);
+            before = result.residual;
+            const double distance = (positions - exact).rowwise().norm().maxCoeff();
+            CHECK(distance < 5.0 * result.distance);
+            CHECK(distance > 0.001 * result.distance);
+        }
+        CHECK(before > 1e-14);
     }
-    CHECK(before > 1e-14);
 }
 
 TEST_CASE("a mesh in one piece has no traces and its step at once")
