@@ -160,7 +160,8 @@ void KrylovFlow::describe(FlowReport& report) const
     if (steps_short_of_tolerance_ > 0)
         report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
                                  (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +
-                                 std::to_string(stop_.iterations) + " iterations at most.");
+                                 std::to_string(stop_.iterations) +
+                                 " iterations at most: use fewer sub-meshes or a smaller time step.");
     if (recorder_)
         report.schedule = recorder_->schedule();
 }

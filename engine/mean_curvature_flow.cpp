@@ -36,6 +36,13 @@ Cut uncut(const PolygonMesh& mesh)
     return cut;
 }
 
+const SubdomainNeeds& needs_of(const FlowOptions& options)
+{
+    if (!options.tolerance)
+        return needs_of_sweeps;
+    return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
+}
+
 Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
 {
     if (options.scheme == Scheme::ExplicitEuler)
@@ -44,8 +51,7 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
         return cut_by_labels(mesh, topology, options.labels, run_in_parallel);
     if (options.subdomains > 0)
         return cut_into(mesh, topology, options.subdomains, run_in_parallel);
-    const SubdomainChoice choice =
-        choose_subdomains(mesh, options.time_step, options.tolerance ? needs_of_converged_steps : needs_of_sweeps);
+    const SubdomainChoice choice = choose_subdomains(mesh, options.time_step, needs_of(options));
     Cut cut = cut_into(mesh, topology, choice.count, run_in_parallel);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
