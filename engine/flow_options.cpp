@@ -58,8 +58,6 @@ void require_valid_tolerance(const FlowOptions& options)
         return;
     require(positive_and_finite(*options.tolerance) && *options.tolerance < 1.0, "tolerance", *options.tolerance,
             "positive and below 1 (residual against that at the beginning of a step)");
-    if (options.laplacian == Laplacian::PtackovaVelho)
-        throw OptionError("tolerance is given, but only the Laplacians fujiwara and alexa-wardetzky can be converged");
     if (options.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler)
         throw OptionError("tolerance is given, which leaves no room for other conditions or an explicit scheme");
 }

@@ -133,8 +133,10 @@ struct FlowOptions {
     /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
     /// result is the same, bit for bit, for any number.
     int threads = 0;
-    /// The undecomposed step itself, to this residual on Γ relative to that of the positions before the step: for Δ_F
-    /// and Δ_A, in place of what `conditions` says.
+    /// The undecomposed step itself, to this residual relative to that of the positions before the step, in place of
+    /// what `conditions` says: the residual on Γ for Δ_F and Δ_A; for Δ_P the distance, where sub-meshes that overlap
+    /// end, between what they take from each other and what they find. Where the equations of Δ_P are indefinite (it
+    /// grows spikes then, undecomposed too) iterations are many, and fewer sub-meshes better.
     std::optional<double> tolerance;
     /// Most iterations of a step for that.
     int converge_iterations = 1000;

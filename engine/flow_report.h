@@ -22,7 +22,7 @@ struct PhaseSeconds {
     double factorise = 0.0;
     double solve = 0.0;
     double correct = 0.0;
-    /// The equation on Γ, with FlowOptions::tolerance: wall-clock time.
+    /// The equation on Γ, or of Δ_P on traces, with FlowOptions::tolerance: wall-clock time.
     double interface = 0.0;
     /// All steps.
     double step = 0.0;

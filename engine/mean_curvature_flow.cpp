@@ -14,6 +14,7 @@
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
 #include "engine/explicit_flow.h"
+#include "engine/krylov_flow.h"
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
@@ -36,6 +37,13 @@ Cut uncut(const PolygonMesh& mesh)
     return cut;
 }
 
+const SubdomainNeeds& needs_of(const FlowOptions& options)
+{
+    if (!options.tolerance)
+        return needs_of_sweeps;
+    return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
+}
+
 Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
 {
     if (options.scheme == Scheme::ExplicitEuler)
@@ -44,8 +52,7 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
         return cut_by_labels(mesh, topology, options.labels, run_in_parallel);
     if (options.subdomains > 0)
         return cut_into(mesh, topology, options.subdomains, run_in_parallel);
-    const SubdomainChoice choice =
-        choose_subdomains(mesh, options.time_step, options.tolerance ? needs_of_converged_steps : needs_of_sweeps);
+    const SubdomainChoice choice = choose_subdomains(mesh, options.time_step, needs_of(options));
     Cut cut = cut_into(mesh, topology, choice.count, run_in_parallel);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
@@ -102,10 +109,10 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report)
     char estimate[32];
     std::snprintf(estimate, sizeof estimate, "%.2g", *report.steps.back().estimated_v_max);
     report.remarks.push_back("The result is, by estimate, up to " + std::string(estimate) +
-                             " mean edge lengths away from the undecomposed flow: fewer sub-meshes bring it closer" +
-                             (is_symmetric(options.laplacian) ? "; --converge (FlowOptions::tolerance) gives the "
-                                                                "undecomposed step itself."
-                                                              : "."));
+                             " mean edge lengths away from the undecomposed flow: " +
+                             (options.tolerance ? "a smaller tolerance brings it closer."
+                                                : "fewer sub-meshes bring it closer; --converge "
+                                                  "(FlowOptions::tolerance) gives the undecomposed step itself."));
 }
 
 template <class Flow>
@@ -179,8 +186,10 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
     };
     if (options.scheme == Scheme::ExplicitEuler)
         run(ExplicitFlow(mesh, topology, options));
-    else if (options.tolerance)
+    else if (options.tolerance && is_symmetric(options.laplacian))
         run(ConvergedFlow(mesh, topology, cut, options));
+    else if (options.tolerance)
+        run(KrylovFlow(mesh, topology, cut, options));
     else
         run(DecomposedFlow(mesh, topology, cut, options, curvature));
 }

@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// What a task does for its sub-mesh (see sub_mesh_state.h; the last three: converged_flow.h).
+/// What a task does for its sub-mesh (see sub_mesh_state.h; the last three: converged_flow.h, krylov_flow.h).
 enum class Phase {
     AssembleAndFactorise,
     Predict,

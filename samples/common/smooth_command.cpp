@@ -80,7 +80,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
                       "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
     add_real(app, "--converge", options.tolerance, positive(),
-             "the undecomposed step itself, to this relative residual on the interface");
+             "the undecomposed step itself, to this relative residual");
     add_integer(app, "--converge-iterations", options.converge_iterations, 0, "most iterations for that [1000]");
     add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     add_bytes(app, "--memory-limit", options.memory_limit,

@@ -159,7 +159,6 @@ TEST_CASE("what cannot be converged is refused")
     PolygonMesh mesh = make_quads(100);
     for (const double tolerance : {0.0, -1.0, 1.0, std::numeric_limits<double>::quiet_NaN()})
         CHECK_THROWS_AS(mean_curvature_flow(mesh, converged(Laplacian::Fujiwara, 2, tolerance)), OptionError);
-    CHECK_THROWS_AS(mean_curvature_flow(mesh, converged(Laplacian::PtackovaVelho, 2)), OptionError);
     FlowOptions options = converged(Laplacian::Fujiwara, 2);
     options.conditions = Conditions::Schwarz;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);

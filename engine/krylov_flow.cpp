@@ -1,0 +1,167 @@
+#include "engine/krylov_flow.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "engine/on_behalf_of.h"
+#include "engine/parallel_loop.h"
+#include "engine/stopwatch.h"
+#include "partition/decomposition/local_mesh.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Layers of faces by which sub-meshes overlap.
+constexpr int overlap_layers = 2;
+
+}  // namespace
+
+KrylovFlow::KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options)
+    : mesh_(&mesh)
+    , stop_{options.tolerance.value(), options.converge_iterations}
+    , time_step_(options.time_step)
+    , positions_(mesh.vertices)
+    , next_(mesh.vertices)
+    , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
+    , graph_(recorder_.get())
+{
+    cut_out(topology, cut);
+    make_blocks(options);
+    equation_ = std::make_unique<TraceEquation>(block_views_, mesh.n_vertices());
+    make_graph();
+}
+
+void KrylovFlow::cut_out(const Topology& topology, const Cut& cut)
+{
+    // Everyone grows into everyone.
+    const std::vector<Index> rank(at(cut.n_parts), 0);
+    const Overlap overlap{cut.labels, rank, overlap_layers};
+    auto faces = faces_by_label(cut.labels, cut.n_parts);
+    parts_.resize(faces.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
+        parts_[s] =
+            make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, static_cast<Index>(s), std::move(faces[s]));
+    });
+    n_interface_vertices_ = static_cast<Index>(select(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+                                                   return is_on_interface(topology, cut.labels, v);
+                                               }).size());
+}
+
+void KrylovFlow::make_blocks(const FlowOptions& options)
+{
+    blocks_.resize(parts_.size());
+    seconds_.resize(parts_.size());
+    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(parts_.size()), [&](Index s) {
+        on_behalf_of(parts_[at(s)].sub_mesh, s,
+                     [&] { blocks_[at(s)] = std::make_unique<SchwarzBlock>(parts_[at(s)], options.laplacian); });
+    });
+    std::size_t largest = 1;
+    for (const auto& block : blocks_) {
+        block_views_.push_back(block.get());
+        largest = std::max(largest, block->factor_bytes());
+    }
+    const std::size_t all = blocks_.size() * largest;
+    if (options.memory_limit && *options.memory_limit < all)
+        throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) +
+                          " bytes, but a converged step keeps all factorisations at once, which take " +
+                          std::to_string(all) + ": raise it, or do without a tolerance");
+    factors_.use_blocks_of(largest);
+    workspaces_.use(factors_);
+}
+
+void KrylovFlow::make_graph()
+{
+    const auto add_task = [&](Phase phase, Index s, std::function<void()> body) {
+        const auto node = graph_.add_task(std::move(body), TaskGraph::Priority::Normal);
+        if (recorder_)
+            recorder_->add_task(node, {phase, s, TaskGraph::Priority::Normal});
+        return node;
+    };
+    root_ = graph_.add_root();
+    const auto solved = add_task(Phase::SolveInterface, -1, [this] { solve_traces(); });
+    graph_.add_dependency(root_, solved);
+    for (Index s = 0; s < static_cast<Index>(blocks_.size()); ++s) {
+        const auto factorised = add_task(Phase::AssembleAndFactorise, s, [this, s] {
+            on_behalf_of(parts_[at(s)].sub_mesh, s, [&] { assemble_and_factorise(s); });
+        });
+        graph_.add_dependency(root_, factorised);
+        graph_.add_dependency(factorised, solved);
+    }
+}
+
+void KrylovFlow::step()
+{
+    if (recorder_)
+        recorder_->begin_step();
+    graph_.run(root_);
+    positions_.swap(next_);
+    if (recorder_)
+        recorder_->end_step();
+}
+
+void KrylovFlow::assemble_and_factorise(Index s)
+{
+    Stopwatch watch;
+    SolverWorkspace& workspace = workspaces_.local();
+    const SubMesh& sub_mesh = parts_[at(s)].sub_mesh;
+    workspace.positions.resize(sub_mesh.n_vertices, 3);
+    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+        workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
+    blocks_[at(s)]->assemble(workspace.positions, time_step_);
+    seconds_[at(s)].assemble += watch.lap();
+    blocks_[at(s)]->factorise(workspace);
+    seconds_[at(s)].factorise += watch.lap();
+}
+
+void KrylovFlow::solve_traces()
+{
+    const Stopwatch watch;
+    next_ = positions_;
+    result_ = equation_->solve(block_views_, stop_, next_,
+                               {run_in_parallel, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
+    if (!(result_.residual <= stop_.tolerance))
+        ++steps_short_of_tolerance_;
+    trace_seconds_ += watch.seconds();
+}
+
+void KrylovFlow::describe(StepReport& report) const
+{
+    report.iterations = result_.iterations;
+    report.residual = result_.residual;
+    report.estimated_v_max = result_.distance;
+}
+
+void KrylovFlow::describe(FlowReport& report) const
+{
+    report.subdomains = static_cast<Index>(blocks_.size());
+    report.colors = blocks_.empty() ? 0 : 1;
+    report.interface_vertices = n_interface_vertices_;
+    report.subdomain_colors.assign(blocks_.size(), 0);
+    report.p.assign(blocks_.size(), 0.0);
+    report.live_factors = report.subdomains;
+    report.factor_memory_bytes = factors_.bytes();
+    for (const GrownPart& part : parts_) {
+        report.subdomain_faces.push_back(static_cast<Index>(part.sub_mesh.faces.size()));
+        report.subdomain_vertices.push_back(part.sub_mesh.n_vertices);
+    }
+    for (const PhaseSeconds& seconds : seconds_) {
+        report.seconds.assemble += seconds.assemble;
+        report.seconds.factorise += seconds.factorise;
+    }
+    report.seconds.interface = trace_seconds_;
+    report.steps_short_of_tolerance = steps_short_of_tolerance_;
+    if (steps_short_of_tolerance_ > 0)
+        report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
+                                 (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +
+                                 std::to_string(stop_.iterations) +
+                                 " iterations at most: use fewer sub-meshes or a smaller time step.");
+    if (recorder_)
+        report.schedule = recorder_->schedule();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,254 @@
+#include "solvers/gmres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace seamflow {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::RowVector3d;
+
+/// What rounding may leave of a direction that lies in the span of others.
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// The sum of value(i), of some matrix type, always added up in the same order.
+template <class Sum, class Value>
+Sum sum_of(const Loop& loop, Index n, Value&& value)
+{
+    std::vector<Sum> of_block(at(n / block_size) + 1, Sum::Zero());
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+        Sum total = Sum::Zero();
+        for (Index i = begin; i < end; ++i)
+            total += value(i);
+        of_block[at(block)] = total;
+    });
+    Sum total = Sum::Zero();
+    for (const Sum& part : of_block)
+        total += part;
+    return total;
+}
+
+RowVector3d column_norms(const Points& a, const Loop& loop)
+{
+    return sum_of<RowVector3d>(loop, static_cast<Index>(a.rows()),
+                               [&](Index i) { return a.row(i).array().square().matrix(); })
+        .cwiseSqrt();
+}
+
+}  // namespace
+
+double norm(const Points& a, const Loop& loop)
+{
+    return std::sqrt(sum(loop, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).squaredNorm(); }));
+}
+
+int Gmres::improve(const Multiply& multiply, const Points& residual, double goal, int most, Points& x, const Loop& loop)
+{
+    begin(residual, loop);
+    int iterations = 0;
+    for (; iterations < most && !has_reached(goal); ++iterations) {
+        if (directions_.size() == n_used_)
+            directions_.emplace_back();
+        directions_[n_used_++].swap(product_);
+        product_.resize(n_, 3);
+        multiply(directions_[n_used_ - 1], product_);
+        orthogonalise(loop);
+    }
+    add_combination(x, loop);
+    return iterations;
+}
+
+void Gmres::begin(const Points& residual, const Loop& loop)
+{
+    n_used_ = 0;
+    triangle_.clear();
+    rotations_.clear();
+    right_hand_side_.clear();
+    product_ = residual;
+    const Matrix3d amounts = normalise(column_norms(product_, loop), loop);
+    for (Eigen::Index r = 0; r < 3; ++r)
+        right_hand_side_.emplace_back(amounts.row(r));
+}
+
+/// Makes the next directions of the product, and with them three columns of the Hessenberg matrix.
+void Gmres::orthogonalise(const Loop& loop)
+{
+    const RowVector3d sizes = column_norms(product_, loop);
+    std::vector<Matrix3d> amounts = project(loop);
+    take_away(amounts, loop);
+    const std::vector<Matrix3d> again = project(loop);
+    take_away(again, loop);
+    for (std::size_t k = 0; k < amounts.size(); ++k)
+        amounts[k] += again[k];
+    amounts.push_back(normalise(sizes, loop));
+    for (int r = 0; r < 3; ++r)
+        right_hand_side_.emplace_back(RowVector3d::Zero());
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        std::vector<double> column;
+        for (const Matrix3d& amount : amounts)
+            for (Eigen::Index r = 0; r < 3; ++r)
+                column.push_back(amount(r, c));
+        rotate(std::move(column));
+    }
+}
+
+/// Makes the columns of the product orthonormal, or zero if they depend on others.
+/// @param sizes what the columns' norms were before anything was taken away from them.
+/// @returns the triangle by which they have to be multiplied to become what they were.
+Matrix3d Gmres::normalise(const RowVector3d& sizes, const Loop& loop)
+{
+    Matrix3d amounts = Matrix3d::Zero();
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        for (int pass = 0; pass < 2 && c > 0; ++pass) {
+            RowVector3d before = products_with_column(c, loop);
+            before.tail(3 - c).setZero();
+            for_each(loop, n_, [&](Index i) { product_(i, c) -= before.dot(product_.row(i)); });
+            amounts.col(c) += before.transpose();
+        }
+        const double length = std::sqrt(products_with_column(c, loop)[c]);
+        const bool is_new = length > rounding * sizes[c];
+        amounts(c, c) = is_new ? length : 0.0;
+        for_each(loop, n_, [&](Index i) { product_(i, c) = is_new ? product_(i, c) / length : 0.0; });
+    }
+    return amounts;
+}
+
+RowVector3d Gmres::products_with_column(Eigen::Index c, const Loop& loop) const
+{
+    return sum_of<RowVector3d>(loop, n_, [&](Index i) { return product_(i, c) * product_.row(i); });
+}
+
+/// The products of all directions with `product_`.
+std::vector<Matrix3d> Gmres::project(const Loop& loop) const
+{
+    const Index n_blocks = n_ / block_size + 1;
+    std::vector<Matrix3d> of_block(at(n_blocks) * n_used_, Matrix3d::Zero());
+    for_each_block(loop, n_, [&](Index block, Index begin, Index end) {
+        for (std::size_t k = 0; k < n_used_; ++k) {
+            Matrix3d total = Matrix3d::Zero();
+            for (Index i = begin; i < end; ++i)
+                total += directions_[k].row(i).transpose() * product_.row(i);
+            of_block[at(block) * n_used_ + k] = total;
+        }
+    });
+    std::vector<Matrix3d> sums(n_used_, Matrix3d::Zero());
+    for (std::size_t b = 0; b < of_block.size(); ++b)
+        sums[b % n_used_] += of_block[b];
+    return sums;
+}
+
+void Gmres::take_away(const std::vector<Matrix3d>& amounts, const Loop& loop)
+{
+    for_each_block(loop, n_, [&](Index, Index begin, Index end) {
+        for (std::size_t k = 0; k < amounts.size(); ++k)
+            for (Index i = begin; i < end; ++i)
+                product_.row(i) -= directions_[k].row(i) * amounts[k];
+    });
+}
+
+/// Takes in a column of the Hessenberg matrix: rotated like the ones before, then so that nothing is left below its
+/// diagonal.
+void Gmres::rotate(std::vector<double> column)
+{
+    const auto turn = [](const Rotation& rotation, auto& first, auto& second) {
+        using Value = std::remove_cvref_t<decltype(first)>;
+        const Value turned = rotation.cosine * first + rotation.sine * second;
+        second = rotation.cosine * second - rotation.sine * first;
+        first = turned;
+    };
+    for (const Rotation& rotation : rotations_)
+        turn(rotation, column[rotation.first], column[rotation.second]);
+    const std::size_t diagonal = triangle_.size();
+    for (std::size_t below = diagonal + 1; below < column.size(); ++below) {
+        if (column[below] == 0.0)
+            continue;
+        const double length = std::hypot(column[diagonal], column[below]);
+        const Rotation rotation{diagonal, below, column[diagonal] / length, column[below] / length};
+        turn(rotation, column[diagonal], column[below]);
+        turn(rotation, right_hand_side_[diagonal], right_hand_side_[below]);
+        rotations_.push_back(rotation);
+    }
+    column.resize(diagonal + 1);
+    triangle_.push_back(std::move(column));
+}
+
+double Gmres::estimated_residual() const
+{
+    double squares = 0.0;
+    for (std::size_t r = triangle_.size(); r < right_hand_side_.size(); ++r)
+        squares += right_hand_side_[r].squaredNorm();
+    return std::sqrt(squares);
+}
+
+bool Gmres::has_reached(double goal) const
+{
+    const double residual = estimated_residual();
+    return residual <= goal && residual * std::max(1.0, amplification() / most_amplification) <= goal;
+}
+
+/// By power iteration on (RᵀR)⁻¹, R the triangle.
+double Gmres::amplification() const
+{
+    constexpr int iterations = 6;
+    double inverse_square = 0.0;
+    Eigen::VectorXd z = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(triangle_.size()));
+    for (int iteration = 0; iteration < iterations && z.size() > 0 && z.norm() > 0.0; ++iteration) {
+        z /= z.norm();
+        divide_by_transpose(z);
+        divide(z);
+        inverse_square = z.norm();
+    }
+    return std::max(1.0, std::sqrt(inverse_square));
+}
+
+/// z becomes R⁻ᵀ z. Directions that were left out have empty columns and rows.
+void Gmres::divide_by_transpose(Eigen::VectorXd& z) const
+{
+    for (std::size_t j = 0; j < triangle_.size(); ++j) {
+        const std::vector<double>& column = triangle_[j];
+        double& entry = z[static_cast<Eigen::Index>(j)];
+        for (std::size_t i = 0; i < j; ++i)
+            entry -= column[i] * z[static_cast<Eigen::Index>(i)];
+        entry = column[j] == 0.0 ? 0.0 : entry / column[j];
+    }
+}
+
+/// z becomes R⁻¹ z.
+void Gmres::divide(Eigen::VectorXd& z) const
+{
+    for (std::size_t j = triangle_.size(); j-- > 0;) {
+        const std::vector<double>& column = triangle_[j];
+        double& entry = z[static_cast<Eigen::Index>(j)];
+        entry = column[j] == 0.0 ? 0.0 : entry / column[j];
+        for (std::size_t i = 0; i < j; ++i)
+            z[static_cast<Eigen::Index>(i)] -= column[i] * entry;
+    }
+}
+
+/// As much of each direction as the triangle says.
+void Gmres::add_combination(Points& x, const Loop& loop) const
+{
+    const auto n = static_cast<Eigen::Index>(triangle_.size());
+    Eigen::MatrixXd amounts(n, 3);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+        Eigen::VectorXd column(n);
+        for (Eigen::Index r = 0; r < n; ++r)
+            column[r] = right_hand_side_[static_cast<std::size_t>(r)][c];
+        divide(column);
+        amounts.col(c) = column;
+    }
+    for_each_block(loop, n_, [&](Index, Index begin, Index end) {
+        for (std::size_t k = 0; k < n_used_; ++k) {
+            const Matrix3d of_directions = amounts.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+            for (Index i = begin; i < end; ++i)
+                x.row(i) += directions_[k].row(i) * of_directions;
+        }
+    });
+}
+
+}  // namespace seamflow

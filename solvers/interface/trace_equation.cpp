@@ -1,0 +1,147 @@
+#include "solvers/interface/trace_equation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace seamflow {
+
+namespace {
+
+/// What the directions of GMRES may take before it forgets them and begins anew, but they are this many at least.
+constexpr std::size_t most_direction_bytes = std::size_t{1} << 30;
+constexpr std::size_t least_directions = 60;
+/// What is left of the residual after that must be less, or it will not get smaller.
+constexpr double least_progress = 0.95;
+/// The residual that GMRES estimates is about the true one.
+constexpr double safety = 0.8;
+/// What rounding makes of a residual, relative to the positions.
+constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
+
+/// About as much of a residual is amplified most (measured on real meshes).
+constexpr double amplified_share = 0.1;
+
+int most_directions(Index n)
+{
+    const std::size_t affordable = most_direction_bytes / (3 * sizeof(double) * std::max<std::size_t>(at(n), 1));
+    return static_cast<int>(std::clamp<std::size_t>(affordable, least_directions, 1'000'000));
+}
+
+double longest_row(const Points& a)
+{
+    return a.rows() > 0 ? std::sqrt(a.rowwise().squaredNorm().maxCoeff()) : 0.0;
+}
+
+}  // namespace
+
+TraceEquation::TraceEquation(std::span<SchwarzBlock* const> blocks, Index n_vertices)
+    : ends_(blocks.size())
+    , gmres_(0)
+{
+    constexpr Index unmarked = -1;
+    std::vector<Index> number_of(at(n_vertices), unmarked);
+    for (const SchwarzBlock* block : blocks)
+        for (const Index v : block->beyond())
+            number_of[at(block->sub_mesh().local_to_global[at(v)])] = 0;
+    Index n = 0;
+    for (std::size_t s = 0; s < blocks.size(); ++s) {
+        const SubMesh& sub_mesh = blocks[s]->sub_mesh();
+        const std::vector<Index>& unknowns = blocks[s]->unknowns();
+        for (std::size_t u = 0; u < unknowns.size(); ++u) {
+            Index& number = number_of[at(sub_mesh.local_to_global[at(unknowns[u])])];
+            if (number == unmarked || sub_mesh.owned[at(unknowns[u])] == 0)
+                continue;
+            number = n++;
+            ends_[s].outputs.push_back(static_cast<Index>(u));
+        }
+        first_.push_back(n);
+    }
+    for (std::size_t s = 0; s < blocks.size(); ++s)
+        for (const Index v : blocks[s]->beyond())
+            ends_[s].inputs.push_back(number_of[at(blocks[s]->sub_mesh().local_to_global[at(v)])]);
+    traces_.resize(n, 3);
+    residual_.resize(n, 3);
+    gmres_ = Gmres(n);
+}
+
+TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const TraceStop& stop, Points& x,
+                                 const Threads& threads)
+{
+    for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
+        const SchwarzBlock& block = *blocks[at(s)];
+        for (std::size_t i = 0; i < ends_[at(s)].outputs.size(); ++i)
+            traces_.row(first_[at(s)] + static_cast<Index>(i)) =
+                x.row(block.sub_mesh().local_to_global[at(block.unknowns()[at(ends_[at(s)].outputs[i])])]);
+    });
+    renew(blocks, x, threads);
+    TraceResult result;
+    const Loop& loop = threads.loop;
+    double left = norm(residual_, loop);
+    const double unit = std::max(left, rounding * norm(traces_, loop) / stop.tolerance);
+    const double goal = stop.tolerance * unit;
+    double amplification = 1.0;
+    const auto excess = [&] { return std::max(1.0, amplification / Gmres::most_amplification); };
+    while (result.iterations < stop.iterations && left * excess() > goal) {
+        result.iterations +=
+            gmres_.improve([&](const Points& p, Points& product) { multiply(blocks, p, product, threads); }, residual_,
+                           safety * goal / excess(),
+                           std::min(most_directions(size()), stop.iterations - result.iterations), traces_, loop);
+        amplification = std::max(amplification, gmres_.amplification());
+        renew(blocks, x, threads);
+        const double before = std::exchange(left, norm(residual_, loop));
+        if (left > least_progress * before)
+            break;
+    }
+    result.residual = unit > 0.0 ? left / unit : 0.0;
+    result.distance = std::max(1.0, amplified_share * amplification) * longest_row(residual_);
+    return result;
+}
+
+/// All vertices from the traces, and the traces' residual T g + c - g.
+void TraceEquation::renew(std::span<SchwarzBlock* const> blocks, Points& x, const Threads& threads)
+{
+    for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
+        SchwarzBlock& block = *blocks[at(s)];
+        SolverWorkspace& workspace = threads.workspace();
+        solve_block(block, ends_[at(s)], traces_, SchwarzBlock::RightHandSide::Step, workspace);
+        const SubMesh& sub_mesh = block.sub_mesh();
+        for (std::size_t u = 0; u < block.unknowns().size(); ++u)
+            if (sub_mesh.owned[at(block.unknowns()[u])] != 0)
+                x.row(sub_mesh.local_to_global[at(block.unknowns()[u])]) =
+                    workspace.solution.row(static_cast<Eigen::Index>(u));
+        Index trace = first_[at(s)];
+        for (const Index u : ends_[at(s)].outputs) {
+            residual_.row(trace) = workspace.solution.row(u) - traces_.row(trace);
+            ++trace;
+        }
+    });
+}
+
+/// (I - T) p.
+void TraceEquation::multiply(std::span<SchwarzBlock* const> blocks, const Points& p, Points& product,
+                             const Threads& threads) const
+{
+    for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
+        SolverWorkspace& workspace = threads.workspace();
+        solve_block(*blocks[at(s)], ends_[at(s)], p, SchwarzBlock::RightHandSide::Zero, workspace);
+        Index trace = first_[at(s)];
+        for (const Index u : ends_[at(s)].outputs) {
+            product.row(trace) = p.row(trace) - workspace.solution.row(u);
+            ++trace;
+        }
+    });
+}
+
+/// The result is in workspace.solution.
+void TraceEquation::solve_block(SchwarzBlock& block, const Ends& ends, const Points& traces,
+                                SchwarzBlock::RightHandSide right_hand_side, SolverWorkspace& workspace) const
+{
+    Points& given = workspace.positions;
+    given.resize(static_cast<Eigen::Index>(ends.inputs.size()), 3);
+    for (std::size_t i = 0; i < ends.inputs.size(); ++i)
+        given.row(static_cast<Eigen::Index>(i)) = traces.row(ends.inputs[i]);
+    block.solve(given, right_hand_side, workspace.solution, workspace);
+}
+
+}  // namespace seamflow

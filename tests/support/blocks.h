@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "solvers/systems/schwarz_block.h"
+#include "tests/support/cut_meshes.h"
+#include "tests/support/matrices.h"
+
+namespace seamflow::test {
+
+inline constexpr double time_step_of_blocks = 0.002;
+
+/// The whole step, dense.
+inline Points undecomposed_step(const CutMesh& cut, Laplacian laplacian, double time_step)
+{
+    Eigen::MatrixXd A = time_step * dense_laplacian(laplacian, cut.mesh, cut.topology);
+    for (Index v = 0; v < cut.mesh.n_vertices(); ++v)
+        if (cut.topology.kind[at(v)] != VertexKind::Interior)
+            A.row(v).setZero();
+    A += Eigen::MatrixXd::Identity(A.rows(), A.cols());
+    return A.partialPivLu().solve(cut.mesh.vertices);
+}
+
+/// Overlapping blocks of a whole cut mesh, assembled and factorised.
+struct Blocks {
+    std::deque<GrownPart> parts;
+    std::vector<std::unique_ptr<SchwarzBlock>> blocks;
+    std::vector<SchwarzBlock*> views;
+
+    Blocks(const CutMesh& cut, Laplacian laplacian, int layers, SolverWorkspace& workspace)
+    {
+        const std::vector<Index> rank(at(cut.n_parts), 0);
+        auto faces = faces_by_label(cut.labels, cut.n_parts);
+        for (Index s = 0; s < cut.n_parts; ++s) {
+            parts.push_back(make_grown_part(cut.mesh, cut.topology, {cut.labels, rank, layers}, SchwarzBlock::reach, s,
+                                            std::move(faces[at(s)])));
+            blocks.push_back(std::make_unique<SchwarzBlock>(parts.back(), laplacian));
+            views.push_back(blocks.back().get());
+            views.back()->assemble(localised(parts.back().sub_mesh, cut.mesh.vertices), time_step_of_blocks);
+            views.back()->factorise(workspace);
+        }
+    }
+};
+
+}  // namespace seamflow::test
