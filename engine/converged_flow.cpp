@@ -1,6 +1,7 @@
 #include "engine/converged_flow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -59,7 +60,8 @@ void ConvergedFlow::make_systems(const FlowOptions& options)
     if (options.memory_limit && *options.memory_limit < factor_bytes_)
         throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) +
                           " bytes, but a converged step keeps all factorisations at once, which take " +
-                          std::to_string(factor_bytes_) + ": raise it, or do without a tolerance");
+                          std::to_string(factor_bytes_) +
+                          ": raise it, or take sweeps (Approach::Sweep, --converge never)");
 }
 
 template <class Body>
@@ -126,6 +128,7 @@ void ConvergedFlow::solve_interface()
         ++steps_short_of_tolerance_;
     if (result_.stagnated)
         ++steps_stagnated_;
+    distance_ = std::hypot(distance_, result_.estimated_distance);
     interface_seconds_ += watch.seconds();
 }
 
@@ -152,7 +155,7 @@ void ConvergedFlow::describe(StepReport& report) const
 {
     report.iterations = result_.iterations;
     report.residual = result_.residual;
-    report.estimated_v_max = result_.estimated_distance;
+    report.estimated_v_max = distance_;
 }
 
 void ConvergedFlow::describe(FlowReport& report) const

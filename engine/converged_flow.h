@@ -60,6 +60,9 @@ class ConvergedFlow {
     InterfaceEquation equation_;
     InterfaceStop stop_;
     InterfaceResult result_;
+    /// Estimated, of the positions to those of the undecomposed flow: what the steps leave adds up like errors that
+    /// know nothing of each other.
+    double distance_ = 0.0;
     double time_step_;
     Points positions_;
     /// Vᵏ⁺¹, #V by 3: complete at the end of a step.

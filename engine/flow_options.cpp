@@ -77,6 +77,7 @@ bool is_classical(Conditions conditions)
 FlowOptions FlowOptions::plain()
 {
     FlowOptions options;
+    options.approach = Approach::Sweep;
     options.sweep = Sweep::Fixed;
     options.transmission = Transmission::Derivative;
     options.p_edge = PEdge::Minimum;

@@ -84,6 +84,14 @@ enum class Correction {
     None,
 };
 
+/// How a backward Euler step is taken where no tolerance is asked for.
+enum class Approach {
+    /// Converged to a loose tolerance where that is worth it (see choose_tolerance), else a sweep.
+    Automatic,
+    /// One sweep over the colours.
+    Sweep,
+};
+
 /// Everything that decides about a flow.
 struct FlowOptions {
     static constexpr int most_steps = 1'000'000'000;
@@ -136,8 +144,10 @@ struct FlowOptions {
     /// The undecomposed step itself, to this residual relative to that of the positions before the step, in place of
     /// what `conditions` says: the residual on Γ for Δ_F and Δ_A; for Δ_P the distance, where sub-meshes that overlap
     /// end, between what they take from each other and what they find. Where the equations of Δ_P are indefinite (it
-    /// grows spikes then, undecomposed too) iterations are many, and fewer sub-meshes better.
+    /// grows spikes then, undecomposed too) iterations are many, and fewer sub-meshes better. Empty: `approach` says.
     std::optional<double> tolerance;
+    /// How steps are taken without one.
+    Approach approach = Approach::Automatic;
     /// Most iterations of a step for that.
     int converge_iterations = 1000;
     /// Most bytes that the factorisations of sub-meshes may take at once, at least 1, and what one step needs: with

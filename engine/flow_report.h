@@ -53,13 +53,13 @@ struct StepReport {
     /// With the classical conditions, how far the copies of Γ are apart after this step: over the vertices of Γ, the
     /// largest distance between two copies, in units of length.
     std::optional<LengthStatistics> gap;
-    /// With FlowOptions::tolerance, the iterations of this step, and the residual that they left.
+    /// Of a converged step: its iterations, and the residual that they left.
     std::optional<int> iterations;
     std::optional<double> residual;
     /// How far the result may be from the undecomposed flow after this step: an estimate of VertexDistance::max, of
-    /// sweeps from what they leave of the rows of the whole mesh (see DriftEstimate), of converged steps, each by itself,
-    /// from what is left of the residual. Not with Conditions::Schwarz, whose sub-meshes overlap, and with backward
-    /// Euler steps alone.
+    /// sweeps from what they leave of the rows of the whole mesh (see DriftEstimate), of converged steps
+    /// from what they leave of the residual. Not with Conditions::Schwarz, whose sub-meshes overlap, and with
+    /// backward Euler steps alone.
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with FlowOptions::reference.
     std::optional<VertexDistance> distance;
@@ -107,8 +107,9 @@ struct FlowReport {
     std::optional<PolygonMesh> pieces;
     /// With FlowOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
-    /// With FlowOptions::tolerance, the steps that did not reach it, and those of them where more iterations would not
-    /// have helped.
+    /// What steps were converged to, asked for or chosen; empty: they were sweeps.
+    std::optional<double> tolerance;
+    /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.
     int steps_short_of_tolerance = 0;
     int steps_stagnated = 0;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.

@@ -1,6 +1,7 @@
 #include "engine/krylov_flow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -69,7 +70,7 @@ void KrylovFlow::make_blocks(const FlowOptions& options)
     if (options.memory_limit && *options.memory_limit < all)
         throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) +
                           " bytes, but a converged step keeps all factorisations at once, which take " +
-                          std::to_string(all) + ": raise it, or do without a tolerance");
+                          std::to_string(all) + ": raise it, or take sweeps (Approach::Sweep, --converge never)");
     factors_.use_blocks_of(largest);
     workspaces_.use(factors_);
 }
@@ -126,6 +127,7 @@ void KrylovFlow::solve_traces()
                                {run_in_parallel, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
+    distance_ = std::hypot(distance_, result_.distance);
     trace_seconds_ += watch.seconds();
 }
 
@@ -133,7 +135,7 @@ void KrylovFlow::describe(StepReport& report) const
 {
     report.iterations = result_.iterations;
     report.residual = result_.residual;
-    report.estimated_v_max = result_.distance;
+    report.estimated_v_max = distance_;
 }
 
 void KrylovFlow::describe(FlowReport& report) const

@@ -60,6 +60,8 @@ class KrylovFlow {
     std::unique_ptr<TraceEquation> equation_;
     TraceStop stop_;
     TraceResult result_;
+    /// Estimated, to the undecomposed flow (see ConvergedFlow).
+    double distance_ = 0.0;
     double time_step_;
     Index n_interface_vertices_ = 0;
     Points positions_;

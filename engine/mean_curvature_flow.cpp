@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "engine/choose_subdomains.h"
+#include "engine/choose_tolerance.h"
 #include "engine/converged_flow.h"
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
@@ -157,11 +158,13 @@ FlowOptions without_limit(FlowOptions options)
     return options;
 }
 
-void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
+void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, const StepObserver& on_step,
                FlowReport& report)
 {
     Stopwatch watch;
     require_valid(mesh, run_in_parallel);
+    const ToleranceChoice choice = choose_tolerance(mesh, options);
+    options.tolerance = choice.tolerance;
     const Topology topology = make_topology(mesh, run_in_parallel);
     require_sound_geometry(mesh, topology, options.laplacian, run_in_parallel);
     Cut cut;
@@ -170,6 +173,12 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, const FlowOptions& opt
     oneapi::tbb::parallel_invoke(
         [&] { cut = make_cut(mesh, topology, options); },
         [&] { curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian); });
+    // A whole mesh is solved exactly either way.
+    if (cut.n_parts == 1 && !choice.reason.empty())
+        options.tolerance.reset();
+    else if (!choice.reason.empty())
+        cut.remarks.insert(cut.remarks.begin(), "Steps are converged: " + choice.reason + ".");
+    report.tolerance = options.tolerance;
     describe_input(mesh, topology, cut, options, report);
     report.threads = workers.threads();
     report.seconds.cut = watch.lap();

@@ -79,7 +79,7 @@ ExitStatus require_converged(const SmoothCommand& command, const FlowReport& rep
     const int missed = command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
     if (missed == 0)
         return ExitStatus::Success;
-    std::cerr << "smooth: the tolerance " << command.options.tolerance.value_or(0.0) << " was missed in " << missed
+    std::cerr << "smooth: the tolerance " << report.tolerance.value_or(0.0) << " was missed in " << missed
               << (missed == 1 ? " step; " : " steps; ") << command.output.string() << " has the last state\n";
     return ExitStatus::ComputationFailed;
 }

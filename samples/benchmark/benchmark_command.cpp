@@ -61,7 +61,9 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
     add_bytes(app, "--memory-limit", flow.memory_limit,
               "most that the factorisations of ours may take at once, in bytes or with K, M, G, KiB, MiB, GiB [as "
               "little as keeps all threads busy; with --simulate-threads without limit]");
-    add_real(app, "--converge", flow.tolerance, positive(), "ours by converged steps, to this relative residual");
+    add_converge(app, flow,
+                 "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
+                 "[auto]");
     add_integer(app, "--threads", flow.threads, 0,
                 "number of threads, at most 1024; 0: all cores [0; with --simulate-threads 1]");
 }
@@ -192,6 +194,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         return end;
     if (app.count("--simulate-threads") > 0)
         prepare_simulation(app, simulated_threads, command);
+    if (app.count("--conditions") > 0)
+        command.options.flow.approach = Approach::Sweep;
     const bool sweeps = command.mode != BenchmarkMode::Case;
     command.options.peers = peers_named(!peers.empty() ? peers : sweeps ? "none" : "all");
     if (sweeps && command.options.peers.empty() && reference->count() == 0)

@@ -58,6 +58,7 @@ Json task_json(const MethodTask& task)
             {"conditions", options.conditions},
             {"q", optional_json(options.q)},
             {"converge", optional_json(options.tolerance)},
+            {"approach", options.approach},
             {"memory_limit", optional_json(options.memory_limit)},
             {"threads", options.threads},
             {"tolerance", task.tolerance},
@@ -75,6 +76,7 @@ MethodTask task_of(const Json& json)
     json.at("conditions").get_to(task.options.conditions);
     task.options.q = optional_of<double>(json.at("q"));
     task.options.tolerance = optional_of<double>(json.at("converge"));
+    json.at("approach").get_to(task.options.approach);
     task.options.memory_limit = optional_of<std::size_t>(json.at("memory_limit"));
     json.at("threads").get_to(task.options.threads);
     json.at("tolerance").get_to(task.tolerance);

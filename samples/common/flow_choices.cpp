@@ -1,5 +1,10 @@
 #include "samples/common/flow_choices.h"
 
+#include <CLI/Error.hpp>
+
+#include "partition/errors.h"
+#include "samples/common/command_line.h"
+
 namespace seamflow {
 
 const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices()
@@ -19,6 +24,22 @@ const std::vector<std::pair<std::string, Conditions>>& conditions_choices()
         {"ventcell", Conditions::Ventcell},
         {"schwarz", Conditions::Schwarz}};
     return choices;
+}
+
+CLI::Option* add_converge(CLI::App& app, FlowOptions& options, const std::string& description)
+{
+    const auto store = [&options](const std::string& text) {
+        options.approach = text == "never" ? Approach::Sweep : Approach::Automatic;
+        options.tolerance.reset();
+        if (text == "auto" || text == "never")
+            return;
+        try {
+            options.tolerance = parse_real(text, positive());
+        } catch (const OptionError& error) {
+            throw CLI::ValidationError("--converge", std::string(error.what()) + ", \"auto\" or \"never\"");
+        }
+    };
+    return app.add_option_function<std::string>("--converge", store, description)->type_name("auto|never|NUMBER");
 }
 
 }  // namespace seamflow

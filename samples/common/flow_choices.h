@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/App.hpp>
+
 #include "engine/flow_options.h"
 
 /// The words by which programs know the values of FlowOptions (see add_choice).
@@ -11,6 +13,9 @@ namespace seamflow {
 
 /// "fujiwara", "alexa-wardetzky", "ptackova-velho".
 const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices();
+
+/// Adds --converge: "auto", "never", or a tolerance below 1, for FlowOptions::tolerance and approach.
+CLI::Option* add_converge(CLI::App& app, FlowOptions& options, const std::string& description);
 
 /// "adapted-robin", "adapted-ventcell", "robin", "ventcell", "schwarz".
 const std::vector<std::pair<std::string, Conditions>>& conditions_choices();

@@ -129,6 +129,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["non_manifold_vertices"] = report.non_manifold_vertices;
     json["laplacian"] = run.laplacian;
     json["time_step"] = number(report.time_step);
+    if (report.tolerance)
+        json["tolerance"] = number(*report.tolerance);
     json["threads"] = report.threads;
     json["p"] = numbers(report.p);
     json["live_factors"] = report.live_factors;

@@ -79,9 +79,12 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                  "write the sub-meshes as they are, each with its own copy of the interface; for robin and ventcell");
     add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
                       "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
-    add_real(app, "--converge", options.tolerance, positive(),
-             "the undecomposed step itself, to this relative residual");
-    add_integer(app, "--converge-iterations", options.converge_iterations, 0, "most iterations for that [1000]");
+    add_converge(
+        app, options,
+        "the undecomposed step itself, to this relative residual; never: one sweep each step; auto: to 1e-2 where "
+        "sweeps would stray, unless another option speaks of sweeps [auto]");
+    add_integer(app, "--converge-iterations", options.converge_iterations, 0,
+                "most iterations of a converged step [1000]");
     add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     add_bytes(app, "--memory-limit", options.memory_limit,
               "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, KiB, MiB, GiB; "
@@ -166,6 +169,9 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
         return end;
     command.arguments.assign(argv + 1, argv + argc);
     command.limits_iterations = app.count("--converge-iterations") > 0;
+    for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
+        if (app.count(of_sweeps) > 0)
+            command.options.approach = Approach::Sweep;
     command.options.record_schedule = !command.trace.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);

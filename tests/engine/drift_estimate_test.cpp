@@ -14,6 +14,7 @@ namespace {
 FlowOptions options_for(const PolygonMesh& mesh, Laplacian laplacian, double step_in_edges, Index subdomains)
 {
     FlowOptions options;
+    options.approach = Approach::Sweep;
     options.laplacian = laplacian;
     options.time_step = step_in_edges * mean_edge_length(mesh) * mean_edge_length(mesh);
     options.steps = 5;

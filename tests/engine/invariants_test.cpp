@@ -30,6 +30,7 @@ std::vector<PolygonMesh> height_fields()
 FlowOptions options_for(Laplacian laplacian, Index subdomains)
 {
     FlowOptions options;
+    options.approach = Approach::Sweep;
     options.laplacian = laplacian;
     options.time_step = 0.002;
     options.steps = 3;

@@ -24,6 +24,7 @@ bool same_bits(const Points& a, const Points& b)
 FlowOptions options_for(Conditions conditions, int threads = 1)
 {
     FlowOptions options;
+    options.approach = Approach::Sweep;
     options.conditions = conditions;
     options.time_step = 0.001;
     options.steps = 3;

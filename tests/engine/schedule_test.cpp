@@ -19,6 +19,7 @@ namespace {
 FlowOptions recorded(int threads, int steps = 4)
 {
     FlowOptions options;
+    options.approach = Approach::Sweep;
     options.time_step = 0.001;
     options.steps = steps;
     options.subdomains = 24;

@@ -109,7 +109,7 @@ TEST_CASE("benchmark takes all conditions, and a limit of memory")
         distances.push_back(w.json("case.json")["ours"]["v_max"].get<double>());
         CHECK(std::count(distances.begin(), distances.end(), distances.back()) == 1);
     }
-    REQUIRE(w.run(ours + "--memory-limit 1GiB") == 0);
+    REQUIRE(w.run(ours + "--converge never --memory-limit 1GiB") == 0);
     CHECK(w.json("case.json")["ours"]["v_max"] == distances[3]);
     CHECK(w.run(ours + "--memory-limit 1K") != 0);
     CHECK(w.said().find("memory_limit is 1000 bytes") != std::string::npos);

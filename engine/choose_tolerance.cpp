@@ -1,0 +1,63 @@
+#include "engine/choose_tolerance.h"
+
+#include <cmath>
+
+#include "engine/choose_subdomains.h"
+#include "engine/parallel_loop.h"
+#include "partition/metrics/vertex_distance.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Leaves a hundredth of a mean edge length at most, in one to four iterations (measured: see README, Accuracy).
+constexpr double loose_tolerance = 1e-2;
+/// In squared mean edge lengths: with longer steps, what a sweep leaves comes near a mean edge length.
+constexpr double longest_step_of_sweeps = 16.0;
+
+/// Whether an option is set that means nothing to converged steps.
+bool speaks_of_sweeps(const FlowOptions& options)
+{
+    const FlowOptions defaults;
+    return options.approach == Approach::Sweep || options.scheme != defaults.scheme ||
+           options.conditions != defaults.conditions || options.transmission != defaults.transmission || options.p ||
+           options.p_rule != defaults.p_rule || options.p_edge != defaults.p_edge || options.q ||
+           options.sweep != defaults.sweep || options.correction != defaults.correction ||
+           options.coloring != defaults.coloring;
+}
+
+/// Whether sweeps would take two sub-meshes at most.
+bool has_few_sub_meshes(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    if (!options.labels.empty())
+        return false;
+    return options.subdomains > 0 ? options.subdomains <= 2 : mesh.n_vertices() < 3 * needs_of_sweeps.vertices;
+}
+
+bool has_polygons(const PolygonMesh& mesh)
+{
+    return mesh.n_corners() != 3 * mesh.n_faces();
+}
+
+}  // namespace
+
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    if (options.tolerance)
+        return {options.tolerance, ""};
+    if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
+        mesh.n_faces() == 0)
+        return {};
+    const double edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel);
+    if (options.time_step > longest_step_of_sweeps * edge * edge)
+        return {loose_tolerance, "steps as long as these would stray in single sweeps"};
+    if (options.subdomains > 0 &&
+        width_in_diffusion_lengths(mesh, options.subdomains, options.time_step) < needs_of_sweeps.width)
+        return {loose_tolerance, "in sub-meshes as narrow as these single sweeps would stray"};
+    if (options.laplacian == Laplacian::AlexaWardetzky && has_polygons(mesh))
+        return {loose_tolerance, "on polygons it costs no more than single sweeps"};
+    return {};
+}
+
+}  // namespace seamflow

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/flow_options.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Whether steps are converged, and why if nobody asked for it.
+struct ToleranceChoice {
+    /// Empty: steps are sweeps.
+    std::optional<double> tolerance;
+    /// Empty where the options decide.
+    std::string reason;
+};
+
+/// The tolerance of the options, if they have one. With Approach::Automatic, and unless another option speaks of
+/// sweeps, steps are also converged, loosely, where a sweep would stray from the undecomposed step or cost more.
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options);
+
+}  // namespace seamflow
