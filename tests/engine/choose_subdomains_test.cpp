@@ -31,11 +31,11 @@ TEST_CASE("sub-meshes get a few thousand vertices each, but are no narrower than
 TEST_CASE("converged steps like smaller sub-meshes, which may be narrower")
 {
     const PolygonMesh mesh = make_quads(50000);
-    CHECK(choose_subdomains(mesh, 1e-8, needs_of_converged_steps).count == mesh.n_vertices() / 400);
+    CHECK(choose_subdomains(mesh, 1e-8, needs_of_converged_steps).count == mesh.n_vertices() / 1000);
     CHECK(choose_subdomains(mesh, 1e-8, needs_of_krylov_steps).count == mesh.n_vertices() / 1000);
-    const Index count = choose_subdomains(mesh, 5e-3, needs_of_converged_steps).count;
-    CHECK(width_in_diffusion_lengths(mesh, count, 5e-3) >= needs_of_converged_steps.width);
-    CHECK(width_in_diffusion_lengths(mesh, count + 1, 5e-3) < needs_of_converged_steps.width);
+    const Index count = choose_subdomains(mesh, 2e-2, needs_of_converged_steps).count;
+    CHECK(width_in_diffusion_lengths(mesh, count, 2e-2) >= needs_of_converged_steps.width);
+    CHECK(width_in_diffusion_lengths(mesh, count + 1, 2e-2) < needs_of_converged_steps.width);
 }
 
 TEST_CASE("the choice and its reason are in the report, and so is a warning of narrow sub-meshes")
