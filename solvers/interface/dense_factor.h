@@ -38,8 +38,19 @@ class DenseFactor {
     [[nodiscard]] std::size_t bytes() const { return (values_.capacity() + 2 * root_.capacity()) * sizeof(float); }
 
   private:
+    void add_multiple(Index column, float sign, FloatColumns v) const;
+    void add_product(Index column, float sign, FloatColumns v) const;
+
+    /// A column of L from the row below the diagonal on.
+    [[nodiscard]] const float* below(Index column) const { return values_.data() + begin_of(column); }
+    [[nodiscard]] float* below(Index column) { return values_.data() + begin_of(column); }
+    [[nodiscard]] std::size_t begin_of(Index column) const
+    {
+        return at(column) * at(n_) - at(column) * (at(column) + 1) / 2;
+    }
+
     Index n_ = 0;
-    /// n by n by columns: below the diagonal L, above it Lᵀ, so that a column of either is contiguous.
+    /// L by columns, below the diagonal.
     std::vector<float> values_;
     /// √D, and the inverses of D.
     std::vector<float> root_;
