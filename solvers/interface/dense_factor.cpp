@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "solvers/interface/power_of_two.h"
 #include "solvers/wide.h"
 
 namespace seamflow {
@@ -59,7 +60,7 @@ SEAMFLOW_WIDE void multiply_column(const float* __restrict column, std::size_t n
     result[2] = sum_of(sums_z);
 }
 
-void scale(const std::vector<float>& diagonal, FloatColumns v)
+void multiply_by_diagonal(const std::vector<float>& diagonal, FloatColumns v)
 {
     for (std::size_t i = 0; i < diagonal.size(); ++i) {
         v.x[i] *= diagonal[i];
@@ -76,11 +77,13 @@ void DenseFactor::take(const DenseLdl& factor)
     values_.resize(begin_of(n_));
     root_.resize(at(n_));
     inverse_.resize(at(n_));
+    scale_ = n_ > 0 ? power_of_two_near(factor.diagonal().maxCoeff()) : 1.0;
     for (Index row = 0; row < n_; ++row) {
         for (Index column = 0; column < row; ++column)
             below(column)[row - column - 1] = static_cast<float>(factor(row, column));
-        root_[at(row)] = static_cast<float>(std::sqrt(factor(row, row)));
-        inverse_[at(row)] = static_cast<float>(1.0 / factor(row, row));
+        const double pivot = factor(row, row) / scale_;
+        root_[at(row)] = static_cast<float>(std::sqrt(pivot));
+        inverse_[at(row)] = static_cast<float>(1.0 / pivot);
     }
 }
 
@@ -114,12 +117,12 @@ void DenseFactor::multiply_by_root_transposed(FloatColumns v) const
     // Row j of Lᵀ v needs those after it, so that columns in ascending order may write over it.
     for (Index column = 0; column < n_; ++column)
         add_product(column, 1.0F, v);
-    scale(root_, v);
+    multiply_by_diagonal(root_, v);
 }
 
 void DenseFactor::multiply_by_root(FloatColumns v) const
 {
-    scale(root_, v);
+    multiply_by_diagonal(root_, v);
     for (Index column = n_ - 1; column >= 0; --column)
         add_multiple(column, 1.0F, v);
 }
@@ -128,7 +131,7 @@ void DenseFactor::solve(FloatColumns v) const
 {
     for (Index column = 0; column < n_; ++column)
         add_multiple(column, -1.0F, v);
-    scale(inverse_, v);
+    multiply_by_diagonal(inverse_, v);
     for (Index column = n_ - 1; column >= 0; --column)
         add_product(column, -1.0F, v);
 }
@@ -137,7 +140,7 @@ std::vector<double> DenseFactor::diagonal() const
 {
     std::vector<double> sums(at(n_));
     for (Index column = 0; column < n_; ++column) {
-        const double pivot = 1.0 / static_cast<double>(inverse_[at(column)]);
+        const double pivot = scale_ / static_cast<double>(inverse_[at(column)]);
         sums[at(column)] += pivot;
         for (Index row = column + 1; row < n_; ++row) {
             const auto value = static_cast<double>(below(column)[row - column - 1]);
