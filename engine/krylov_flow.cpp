@@ -127,6 +127,8 @@ void KrylovFlow::solve_traces()
                                {run_in_parallel, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
+    if (result_.stagnated)
+        ++steps_stagnated_;
     distance_ = std::hypot(distance_, result_.distance);
     trace_seconds_ += watch.seconds();
 }
@@ -157,6 +159,7 @@ void KrylovFlow::describe(FlowReport& report) const
     }
     report.seconds.interface = trace_seconds_;
     report.steps_short_of_tolerance = steps_short_of_tolerance_;
+    report.steps_stagnated = steps_stagnated_;
     if (steps_short_of_tolerance_ > 0)
         report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
                                  (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +

@@ -72,6 +72,8 @@ class KrylovFlow {
     double trace_seconds_ = 0.0;
     /// Where the tolerance was missed.
     int steps_short_of_tolerance_ = 0;
+    /// Where more iterations would not have helped.
+    int steps_stagnated_ = 0;
     /// nullptr: the schedule is not recorded.
     std::unique_ptr<ScheduleRecorder> recorder_;
     TaskGraph graph_;

@@ -15,8 +15,7 @@ class PositionTable {
   public:
     /// @param expected about how many there will be; it grows if there are more.
     explicit PositionTable(std::size_t expected = 0)
-        : mask_(std::bit_ceil(2 * expected + 2) - 1)
-        , slots_(mask_ + 1, Slot{-1, -1})
+        : slots_(std::bit_ceil(2 * expected + 2), Slot{-1, -1})
     {
     }
 
@@ -73,25 +72,28 @@ class PositionTable {
         Index position;
     };
 
-    /// Where `value` is, or the free slot for it.
+    /// Where `value` is, or the free slot for it. The upper bits of the product are those that all bits of the value
+    /// have a say in: on a grid the indices of a part are a few runs that are a power of two apart.
     [[nodiscard]] std::size_t slot_of(Index value) const
     {
-        std::size_t slot = static_cast<std::size_t>(static_cast<std::uint32_t>(value) * 2654435769U) & mask_;
+        std::size_t slot = static_cast<std::size_t>(static_cast<std::uint64_t>(value) * 0x9E3779B97F4A7C15U >> shift_);
         while (slots_[slot].value != value && slots_[slot].value >= 0)
-            slot = (slot + 1) & mask_;
+            slot = (slot + 1) & (slots_.size() - 1);
         return slot;
     }
 
     void grow()
     {
-        mask_ = 2 * mask_ + 1;
-        for (const Slot& slot : std::exchange(slots_, std::vector<Slot>(mask_ + 1, Slot{-1, -1})))
+        --shift_;
+        for (const Slot& slot : std::exchange(slots_, std::vector<Slot>(2 * slots_.size(), Slot{-1, -1})))
             if (slot.value >= 0)
                 slots_[slot_of(slot.value)] = slot;
     }
 
-    std::size_t mask_;
+    /// A power of two.
     std::vector<Slot> slots_;
+    /// 64 less the number of bits of a slot's number.
+    int shift_ = 64 - std::countr_zero(slots_.size());
     std::size_t n_values_ = 0;
 };
 

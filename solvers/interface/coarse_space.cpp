@@ -60,6 +60,7 @@ SEAMFLOW_WIDE Point multiply_column(const float* __restrict column, const Column
 CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
     : copies_(copies)
     , products_(at(copies.n_sub_meshes()))
+    , scales_(at(copies.n_sub_meshes()))
     , energies_(at(copies.n_sub_meshes()))
 {
     find_functions();
@@ -199,6 +200,8 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
                                                                     static_cast<Eigen::Index>(functions.size()))
                                       .cast<double>();
     energies_[at(s)].noalias() = roots.transpose() * roots;
+    scales_[at(s)] = schur.scale();
+    energies_[at(s)] *= scales_[at(s)];
     on_each_three([&](FloatColumns v) { schur.multiply_by_root(v); });
 }
 
@@ -249,6 +252,7 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
         local.row(i) = y.row(copies_.vertex[at(copies_.first[at(s)] + i)]);
     for (Index place = functions_at_.offsets[at(s)]; place < functions_at_.offsets[at(s) + 1]; ++place)
         shares_.row(place) =
+            scales_[at(s)] *
             multiply_column(products_[at(s)].data() + at(place - functions_at_.offsets[at(s)]) * at(n), local);
 }
 

@@ -73,6 +73,8 @@ class CoarseSpace {
     /// Per sub-mesh, its share of S Z: a column for each function there, and zeros to make their number a multiple of
     /// three.
     std::vector<std::vector<float>> products_;
+    /// Per sub-mesh, by what that has to be multiplied (see DenseFactor).
+    std::vector<double> scales_;
     /// Per sub-mesh, its share of E: functions there by functions there.
     std::vector<Eigen::MatrixXd> energies_;
     /// Per value of `functions_at_`, the sub-mesh's share of Zᵀ S y.

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "partition/errors.h"
+#include "solvers/interface/power_of_two.h"
+#include "solvers/systems/messages.h"
+
 namespace seamflow {
 
 namespace {
@@ -16,12 +20,13 @@ constexpr double largest_to_measure = 1e-3;
 /// Residuals measured one after the other, none below half of the one before it: the end.
 constexpr int most_stalls = 3;
 
+/// Not a number where a norm is none.
 double largest_ratio(const std::array<double, 3>& norms, const std::array<double, 3>& first)
 {
     double largest = 0.0;
     for (std::size_t c = 0; c < 3; ++c)
-        if (first[c] > 0.0)
-            largest = std::max(largest, norms[c] / first[c]);
+        if (const double ratio = norms[c] / first[c]; first[c] != 0.0 && !(ratio <= largest))
+            largest = std::isnan(largest) ? largest : ratio;
     return largest;
 }
 
@@ -61,11 +66,12 @@ InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> s
     if (coarse_)
         coarse_->prepare(systems, weights_, loop);
     sum_copies(right_hand_sides, right_hand_side_, loop);
+    const Point unit = measure_right_hand_side();
     residual_ = right_hand_side_;
     const Sums first = norms(loop);
     step_length_.setOnes();
     if (stop.iterations > 0)
-        start(systems, guess, x, loop);
+        start(systems, guess.array().rowwise() / unit.array(), x, loop);
     Sums present = norms(loop);
     const auto measure_anew = [&] {
         if (largest_ratio(present, first) > largest_to_measure)
@@ -92,18 +98,32 @@ InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> s
             curvature_ = {};
     }
     result.residual = largest_ratio(present, first);
+    if (!std::isfinite(result.residual))
+        throw ComputationError(result_not_finite);
     result.stagnated = result.stagnated && result.residual > stop.tolerance;
-    result.estimated_distance = estimate_distance(systems, loop);
+    result.estimated_distance = estimate_distance(systems, unit, loop);
+    x.array().rowwise() *= unit.array();
     return result;
 }
 
+/// Columns are in units of their own while they are solved for, so that squares of their rows have room.
+Point InterfaceEquation::measure_right_hand_side()
+{
+    Point unit = Point::Ones();
+    if (right_hand_side_.rows() > 0)
+        unit = Point(right_hand_side_.cwiseAbs().colwise().maxCoeff()).unaryExpr(&power_of_two_near);
+    right_hand_side_.array().rowwise() /= unit.array();
+    return unit;
+}
+
 /// As far as the next iteration would go if it were as long as the last one, not being conjugate to any.
-double InterfaceEquation::estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop)
+double InterfaceEquation::estimate_distance(std::span<const NeumannSystem* const> systems, const Point& unit,
+                                            const Loop& loop)
 {
     precondition(systems, loop);
     double largest = 0.0;
     for (Index v = 0; v < copies_.n_vertices(); ++v)
-        largest = std::max(largest, preconditioned_.row(v).cwiseProduct(step_length_).norm());
+        largest = std::max(largest, preconditioned_.row(v).cwiseProduct(step_length_).cwiseProduct(unit).norm());
     return largest;
 }
 
@@ -205,19 +225,25 @@ void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, P
 
 void InterfaceEquation::multiply(std::span<const NeumannSystem* const> systems, const Loop& loop)
 {
-    on_each(systems, direction_, false, product_, loop,
-            [](const DenseFactor& schur, FloatColumns columns) { schur.multiply(columns); });
+    on_each(systems, direction_, false, product_, loop, [](const DenseFactor& schur, FloatColumns columns) {
+        schur.multiply(columns);
+        return schur.scale();
+    });
 }
 
 void InterfaceEquation::precondition(std::span<const NeumannSystem* const> systems, const Loop& loop)
 {
-    on_each(systems, residual_, true, preconditioned_, loop,
-            [](const DenseFactor& schur, FloatColumns columns) { schur.solve(columns); });
+    on_each(systems, residual_, true, preconditioned_, loop, [](const DenseFactor& schur, FloatColumns columns) {
+        schur.solve(columns);
+        return 1.0 / schur.scale();
+    });
     if (coarse_)
         coarse_->correct(residual_, preconditioned_, loop);
 }
 
-/// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted.
+/// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted. Applied to columns in units of
+/// their own, so that single precision has room for lengths of any unit; `apply` returns by what its result is to be
+/// multiplied.
 template <class Apply>
 void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, const Points& source, bool weighted,
                                 Points& target, const Loop& loop, Apply&& apply)
@@ -228,15 +254,22 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
         const Index first = copies_.first[at(s)];
         float* begin = products_.data() + 3 * static_cast<std::ptrdiff_t>(first);
         const FloatColumns columns{begin, begin + n, begin + 2 * static_cast<std::ptrdiff_t>(n)};
+        Point largest = Point::Zero();
         for (Index i = 0; i < n; ++i) {
             const Point value = weight(first + i) * source.row(copies_.vertex[at(first + i)]);
+            residual_copies_.row(first + i) = value;
+            largest = largest.cwiseMax(value.cwiseAbs());
+        }
+        const Point unit = largest.unaryExpr(&power_of_two_near);
+        for (Index i = 0; i < n; ++i) {
+            const Point value = residual_copies_.row(first + i).cwiseQuotient(unit);
             columns.x[i] = static_cast<float>(value[0]);
             columns.y[i] = static_cast<float>(value[1]);
             columns.z[i] = static_cast<float>(value[2]);
         }
-        apply(systems[at(s)]->schur(), columns);
+        const Point factor = apply(systems[at(s)]->schur(), columns) * unit;
         for (Index i = 0; i < n; ++i)
-            residual_copies_.row(first + i) << columns.x[i], columns.y[i], columns.z[i];
+            residual_copies_.row(first + i) = Point(columns.x[i], columns.y[i], columns.z[i]).cwiseProduct(factor);
     });
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();

@@ -43,8 +43,8 @@ enum class Balancing {
 /// The whole backward Euler step as an equation for x = Vᵏ⁺¹ - Vᵏ on Γ alone: S x = Σ S_i x = Σ g_i over the
 /// sub-meshes' Schur complements. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
 /// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
-/// single precision; the residual is renewed in double precision without beginning anew. Sums are taken in a fixed
-/// order: the bits do not depend on how loops are run.
+/// single precision, in units that leave it room; the residual is renewed in double precision without beginning anew.
+/// Sums are taken in a fixed order: the bits do not depend on how loops are run.
 class InterfaceEquation {
   public:
     /// @param decomposition without overlap; needed only during the call.
@@ -58,6 +58,7 @@ class InterfaceEquation {
     /// @param right_hand_sides one row per copy: each sub-mesh's share g_i.
     /// @param guess one row per vertex of Γ: a direction in which the solution may be expected, or no rows.
     /// @param x receives the solution, one row per vertex of Γ.
+    /// @throws ComputationError if the right-hand side or the result is not finite.
     InterfaceResult solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
                           const Points& guess, const InterfaceStop& stop, Points& x, const Loop& loop);
 
@@ -70,7 +71,8 @@ class InterfaceEquation {
     void start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x, const Loop& loop);
     int iterate(std::span<const NeumannSystem* const> systems, const Sums& goals, int most, Points& x,
                 const Loop& loop);
-    double estimate_distance(std::span<const NeumannSystem* const> systems, const Loop& loop);
+    Point measure_right_hand_side();
+    double estimate_distance(std::span<const NeumannSystem* const> systems, const Point& unit, const Loop& loop);
     void advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop);
     void multiply(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void precondition(std::span<const NeumannSystem* const> systems, const Loop& loop);

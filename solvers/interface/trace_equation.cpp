@@ -90,8 +90,10 @@ TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const Tr
         amplification = std::max(amplification, gmres_.amplification());
         renew(blocks, x, threads);
         const double before = std::exchange(left, norm(residual_, loop));
-        if (left > least_progress * before)
+        if (left > least_progress * before) {
+            result.stagnated = left > goal && result.iterations < stop.iterations;
             break;
+        }
     }
     result.residual = unit > 0.0 ? left / unit : 0.0;
     result.distance = std::max(1.0, amplified_share * amplification) * longest_row(residual_);

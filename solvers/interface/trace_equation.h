@@ -24,6 +24,8 @@ struct TraceResult {
     int iterations = 0;
     /// Relative, as in TraceStop.
     double residual = 0.0;
+    /// Whether it ended because iterations no longer made the residual smaller.
+    bool stagnated = false;
     /// The longest row of the residual, as amplified (see Gmres) as residuals typically are, in length: about how far a
     /// vertex is from where the exact step takes it, or less: the blocks' last solve lessens what is left.
     double distance = 0.0;

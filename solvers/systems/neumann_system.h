@@ -65,7 +65,6 @@ class NeumannSystem {
   private:
     void number_unknowns(const std::vector<VertexPair>& pairs);
     void list_couplings(const std::vector<VertexPair>& pairs);
-    [[nodiscard]] Index n_interior() const { return static_cast<Index>(vertex_of_.size()) - n_interface(); }
 
     const SubMesh* sub_mesh_;
     std::unique_ptr<SymmetricLaplacian> laplacian_;

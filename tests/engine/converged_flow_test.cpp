@@ -142,6 +142,26 @@ TEST_CASE("converged steps give the same bits for every number of threads")
     }
 }
 
+TEST_CASE("the unit of length changes no bit of the result")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Laplacian laplacian : symmetric)
+        for (const double time_step : {0.002, 0.1}) {
+            FlowOptions options = converged(laplacian, 24, 1e-8);
+            options.time_step = time_step;
+            const Points expected = flowed(mesh, options);
+            for (const double unit : {0x1p-220, 0x1p-30, 0x1p30, 0x1p220}) {
+                CAPTURE(unit);
+                PolygonMesh scaled = mesh;
+                scaled.vertices *= unit;
+                options.time_step = time_step * unit * unit;
+                const FlowReport report = mean_curvature_flow(scaled, options);
+                CHECK(report.steps_short_of_tolerance == 0);
+                CHECK(scaled.vertices == unit * expected);
+            }
+        }
+}
+
 TEST_CASE("the boundary keeps its bits, a flat mesh stays flat, and one with nothing to move as it is")
 {
     PolygonMesh mesh = make_quads(900);

@@ -43,6 +43,20 @@ TEST_CASE("a table knows where each index of a list is, however few were expecte
     }
 }
 
+TEST_CASE("a table knows the indices of a part of a grid whose rows are a power of two apart")
+{
+    std::vector<Index> values;
+    for (Index row = 0; row < 50; ++row)
+        for (Index column = 0; column < 50; ++column)
+            values.push_back(65536 * row + column);
+    PositionTable table(values.size());
+    table.insert_list(values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        CHECK(table[values[i]] == static_cast<Index>(i));
+    CHECK(table[65536 * 50] == -1);
+    CHECK(table[50] == -1);
+}
+
 TEST_CASE("a table appends what it does not have yet, and tells where everything is")
 {
     std::mt19937 random(4);

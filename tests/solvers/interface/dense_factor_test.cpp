@@ -29,10 +29,10 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
         const auto columns = [](auto& m) { return FloatColumns{m.col(0).data(), m.col(1).data(), m.col(2).data()}; };
         auto product = v;
         factor.multiply(columns(product));
-        CHECK((product.cast<double>() - S * v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm()));
+        CHECK((factor.scale() * product.cast<double>() - S * v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm()));
         auto halves = v;
         factor.multiply_by_root_transposed(columns(halves));
-        CHECK(halves.cast<double>().squaredNorm() ==
+        CHECK(factor.scale() * halves.cast<double>().squaredNorm() ==
               doctest::Approx((v.cast<double>().transpose() * S * v.cast<double>()).trace()).epsilon(1e-4));
         factor.multiply_by_root(columns(halves));
         CHECK(halves == product);
@@ -41,7 +41,33 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
             CHECK(of_product[at(i)] == doctest::Approx(S(i, i)).epsilon(1e-5));
         auto solution = v;
         factor.solve(columns(solution));
-        CHECK((S * solution.cast<double>() - v.cast<double>()).norm() <
-              1e-5 * (1.0 + S.norm() * solution.cast<double>().norm()));
+        const Eigen::MatrixXd exact = solution.cast<double>() / factor.scale();
+        CHECK((S * exact - v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm() * exact.norm()));
+    }
+}
+
+TEST_CASE("a factorisation in any unit is the same but for its scale")
+{
+    Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stored;
+    stored << 3.0, 0.0, 0.0, 0.5, 0.2, 0.0, -0.25, 0.7, 1.0;
+    DenseFactor factor;
+    factor.take(DenseLdl(stored.data(), 3, 3));
+    CHECK(factor.scale() == 2.0);
+    for (const double unit : {0x1p-300, 0x1p-100, 0x1p100, 0x1p300}) {
+        auto scaled = stored;
+        scaled.diagonal() *= unit;
+        DenseFactor other;
+        other.take(DenseLdl(scaled.data(), 3, 3));
+        CHECK(other.scale() == 2.0 * unit);
+        const Eigen::Matrix3f v = Eigen::Matrix3f::Identity();
+        const auto applied = [&](const DenseFactor& to, auto function) {
+            Eigen::Matrix3f result = v;
+            (to.*function)({result.col(0).data(), result.col(1).data(), result.col(2).data()});
+            return result;
+        };
+        CHECK(applied(other, &DenseFactor::multiply) == applied(factor, &DenseFactor::multiply));
+        CHECK(applied(other, &DenseFactor::solve) == applied(factor, &DenseFactor::solve));
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(other.diagonal()[i] == unit * factor.diagonal()[i]);
     }
 }

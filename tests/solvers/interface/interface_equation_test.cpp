@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
+#include "partition/errors.h"
 #include "solvers/interface/interface_equation.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
@@ -156,6 +158,16 @@ TEST_CASE("what cannot be reached ends in stagnation, with what can")
     CHECK(result.stagnated);
     CHECK(result.iterations < 500);
     CHECK(result.residual < 1e-12);
+}
+
+TEST_CASE("what is not finite is refused")
+{
+    Equation problem(chessboard(), Laplacian::Fujiwara, 2.0);
+    Points x;
+    problem.right_hand_sides(3, 1) = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_AS(problem.solve({1e-8, 100}, x), ComputationError);
+    problem.right_hand_sides(3, 1) = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(problem.solve({1e-8, 100}, x), ComputationError);
 }
 
 TEST_CASE("the estimated distance is that to the solution within a factor of 3")
