@@ -161,7 +161,8 @@ TEST_CASE("the report of smooth has its keys")
 TEST_CASE("--memory-limit bounds the factors, which the summary tells, and changes nothing else")
 {
     const Workshop w;
-    const std::string flow = " --time-step-edges 2 --subdomains 12 --converge never --steps 2 --threads 1 --report report.json";
+    const std::string flow =
+        " --time-step-edges 2 --subdomains 12 --converge never --steps 2 --threads 1 --report report.json";
     REQUIRE(w.smooth("mesh.obj free.obj" + flow + " --memory-limit 1GiB") == 0);
     CHECK(w.json("report.json")["live_factors"] == 12);
     CHECK(w.count_lines("said", "factors    at most 12 at once, ") == 1);
@@ -193,6 +194,17 @@ TEST_CASE("a missed tolerance ends with 4 and the last state, fewer iterations o
     REQUIRE(w.smooth("mesh.obj early.obj" + flow + "1e-9 --converge-iterations 2") == 0);
     CHECK(w.json("report.json")["steps"][1]["iterations"] == 2);
     CHECK(w.said().find("not reached in 2 steps") != std::string::npos);
+}
+
+TEST_CASE("to miss a tolerance that nobody asked for is a remark, and no failure")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere sphere.ply --vertices 400") == 0);
+    // The sphere shrinks to what rounding leaves of it.
+    const std::string flow = "sphere.ply out.ply --time-step-edges 200 --steps 3 --subdomains 5";
+    CHECK(w.smooth(flow) == 0);
+    CHECK(w.said().find("The tolerance was not reached in ") != std::string::npos);
+    CHECK(w.smooth(flow + " --converge 1e-2") == 4);
 }
 
 TEST_CASE("--trace writes which task ran when, and changes nothing else")
