@@ -10,7 +10,9 @@ std::optional<Point> on_the_side_of(const Point& given, const Point& before, con
 {
     if (after == before || after == Point::Zero())
         return std::nullopt;
-    return given.dot(before) < 0.0 ? Point(-after) : after;
+    const double side = given.dot(before) < 0.0 ? -1.0 : 1.0;
+    // The sum has no negative zeros, which nobody likes to read.
+    return Point(side * after + Point::Zero());
 }
 
 }  // namespace
