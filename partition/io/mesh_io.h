@@ -14,8 +14,8 @@ namespace seamflow {
 /// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
 enum class FileFormat { Obj, Off, Ply, Stl };
 
-/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, whose binary files are read, but not written;
-/// STL is Ascii or BinaryLittleEndian.
+/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, of whose binary files only write_mesh_like
+/// makes others; STL is Ascii or BinaryLittleEndian.
 enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 
 /// Format and encoding of one file.
@@ -40,9 +40,9 @@ struct MeshFile {
 /// Reads OBJ, OFF, PLY or STL; the format follows from the extension (upper or lower case), the encoding from the file
 /// itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal coordinates
 /// become one vertex, numbered in order of appearance. What a file holds besides a surface (texture coordinates,
-/// normals, colours, materials, groups, points and lines) is passed over, but can be written again (see
-/// write_mesh_like). A file with vertices but without faces is
-/// read.
+/// normals, colours, materials, groups, points and lines) is passed over here, but write_mesh_like copies it. A file
+/// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
+/// memory.
 /// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
