@@ -9,12 +9,15 @@
 //        that it takes values from
 
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/stopwatch.h"
 #include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
+#include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -41,26 +44,26 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double me
 /// Prints every step, and writes it where --every-step asks for that.
 StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds)
 {
-    const FileKind kind = command.every_step ? kind_for_writing(command.every_step->path(1), input.kind) : FileKind{};
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &write_seconds, kind, mean_edge, snapshot](const StepState& state) mutable {
+    return [&command, &input, &write_seconds, mean_edge, snapshot](const StepState& state) mutable {
         print_step(std::cout, state.report, state.step, command.options.steps, mean_edge);
         if (!command.every_step)
             return;
         const Stopwatch watch;
         if (state.pieces == nullptr)
             snapshot.vertices = state.positions;
-        write_mesh(command.every_step->path(state.step), state.pieces == nullptr ? snapshot : *state.pieces, kind);
+        write_state(command.every_step->path(state.step), snapshot, state.pieces, input);
         write_seconds += watch.seconds();
     };
 }
 
-void write_results(const SmoothCommand& command, const PolygonMesh& mesh, const FileKind& kind,
-                   const FlowReport& report)
+/// @returns remarks for the user.
+std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report)
 {
-    write_mesh(command.output, report.pieces ? *report.pieces : mesh, kind);
+    auto remarks = write_state(command.output, file.mesh, report.pieces ? &*report.pieces : nullptr, file);
     if (!command.parts.empty())
-        write_labelled_ply(command.parts, mesh, report.labels);
+        write_labelled_ply(command.parts, file.mesh, report.labels);
+    return remarks;
 }
 
 /// Runs the flow; what is wrong with the mesh comes out with the name of its file.
@@ -101,17 +104,18 @@ ExitStatus smooth(int argc, char** argv)
     complete_options(command, file.mesh, run.mean_edge);
     run.read_seconds = reading.seconds();
     print_input(std::cout, run, file.mesh);
-    const FileKind kind = kind_for_writing(command.output, file.kind);
-    require_storable(file.mesh, command.output, kind);
+    require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
     if (command.every_step)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
+    const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
     const StepObserver on_step = make_observer(command, file, run.mean_edge, run.write_seconds);
-    const FlowReport report = run_flow(command, file.mesh, on_step);
+    FlowReport report = run_flow(command, file.mesh, on_step);
 
     const Stopwatch writing;
-    write_results(command, file.mesh, kind, report);
+    for (const auto& remarks : {losses, write_results(command, file, report)})
+        report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     if (!command.report.empty())
         write_text(command.report, smooth_report_json(run, report));

@@ -41,6 +41,9 @@ class ByteScanner final : public InputPosition {
         return file_.data() + last_;
     }
 
+    /// The next n bytes, of which the caller knows that they are there.
+    [[nodiscard]] std::string_view peek(std::size_t n) const { return file_.substr(next_, n); }
+
     [[nodiscard]] std::size_t remaining() const { return file_.size() - next_; }
 
     /// @throws InputError if anything but padding (zeros, blanks, line ends) is left.

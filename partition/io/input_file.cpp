@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -21,28 +22,8 @@ namespace {
                      "; check the name and the permissions of the file");
 }
 
-/// An open file, closed at the end of its scope.
-class Descriptor {
-  public:
-    explicit Descriptor(const std::filesystem::path& path)
-        : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC))
-    {
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor()
-    {
-        if (number_ >= 0)
-            ::close(number_);
-    }
-    [[nodiscard]] int number() const { return number_; }
-
-  private:
-    int number_;
-};
-
 /// Asked before the file is opened, for opening a pipe would wait for somebody to write into it.
-std::size_t size_of(const std::filesystem::path& path)
+void require_regular(const std::filesystem::path& path)
 {
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0)
@@ -53,26 +34,60 @@ std::size_t size_of(const std::filesystem::path& path)
         throw InputError(path.string() + ": is not a regular file; save the mesh in a file and name that");
     if (status.st_size == 0)
         throw InputError(path.string() + ": the file is empty; export the mesh again");
-    return static_cast<std::size_t>(status.st_size);
 }
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& path)
+OpenFile::OpenFile(const std::filesystem::path& path)
+    : path_(path)
 {
-    const std::size_t expected = size_of(path);
-    const Descriptor file(path);
-    if (file.number() < 0)
+    require_regular(path);
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0)
         fail(path, errno);
+}
+
+OpenFile::OpenFile(OpenFile&& other) noexcept
+    : path_(std::move(other.path_))
+    , descriptor_(std::exchange(other.descriptor_, -1))
+{
+}
+
+OpenFile::~OpenFile()
+{
+    if (descriptor_ >= 0)
+        ::close(descriptor_);
+}
+
+std::size_t OpenFile::size() const
+{
+    struct stat status = {};
+    if (::fstat(descriptor_, &status) != 0)
+        fail(path_, errno);
+    return static_cast<std::size_t>(status.st_size);
+}
+
+std::size_t OpenFile::read(char* bytes, std::size_t n, std::size_t offset) const
+{
+    while (true) {
+        const ssize_t done = ::pread(descriptor_, bytes, n, static_cast<off_t>(offset));
+        if (done >= 0)
+            return static_cast<std::size_t>(done);
+        if (errno != EINTR)
+            fail(path_, errno);
+    }
+}
+
+InputFile::InputFile(const OpenFile& file)
+{
+    const std::size_t expected = file.size();
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
     constexpr std::size_t block = std::size_t{1} << 26;
     while (size_ < expected) {
-        const ssize_t n = ::read(file.number(), bytes_.get() + size_, std::min(block, expected - size_));
-        if (n < 0 && errno != EINTR)
-            fail(path, errno);
+        const std::size_t n = file.read(bytes_.get() + size_, std::min(block, expected - size_), size_);
         if (n == 0)
             break;
-        size_ += n > 0 ? static_cast<std::size_t>(n) : 0;
+        size_ += n;
     }
 }
 

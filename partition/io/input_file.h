@@ -7,11 +7,38 @@
 
 namespace seamflow {
 
+/// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed.
+class OpenFile {
+  public:
+    /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
+    explicit OpenFile(const std::filesystem::path& path);
+    OpenFile(OpenFile&& other) noexcept;
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(OpenFile&&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    ~OpenFile();
+
+    /// As it was opened, for messages.
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// In bytes, as it is now.
+    /// @throws InputError
+    [[nodiscard]] std::size_t size() const;
+
+    /// Reads n bytes from `offset` on, or a few less; 0 at the end of the file.
+    /// @throws InputError
+    std::size_t read(char* bytes, std::size_t n, std::size_t offset) const;
+
+  private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+};
+
 /// The whole of a file in memory.
 class InputFile {
   public:
-    /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
-    explicit InputFile(const std::filesystem::path& path);
+    /// @throws InputError
+    explicit InputFile(const OpenFile& file);
 
     /// The bytes of the file; valid as long as this object.
     [[nodiscard]] std::string_view content() const { return {bytes_.get(), size_}; }

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "partition/io/extras.h"
 #include "partition/io/input_file.h"
+#include "partition/io/mesh_source.h"
 #include "partition/io/obj.h"
 #include "partition/io/off.h"
 #include "partition/io/output_file.h"
@@ -39,21 +41,29 @@ std::string unknown_extension(const std::filesystem::path& path)
            "' is none of .obj, .off, .ply, .stl; give the file the extension of its format";
 }
 
-MeshFile read_known(const std::filesystem::path& path, FileFormat format)
+MeshFile parse(const std::filesystem::path& path, std::string_view content, FileFormat format)
 {
-    const InputFile file(path);
     switch (format) {
     case FileFormat::Obj:
-        return {read_obj(path, file.content()), {format, Encoding::Ascii}};
+        return {read_obj(path, content), {format, Encoding::Ascii}};
     case FileFormat::Off:
-        return {read_off(path, file.content()), {format, Encoding::Ascii}};
+        return {read_off(path, content), {format, Encoding::Ascii}};
     case FileFormat::Ply:
-        return read_ply(path, file.content());
+        return read_ply(path, content);
     case FileFormat::Stl:
         break;
     }
-    const Encoding encoding = stl_encoding(file.content());
-    return {read_stl(path, file.content(), encoding), {FileFormat::Stl, encoding}};
+    const Encoding encoding = stl_encoding(content);
+    return {read_stl(path, content, encoding), {FileFormat::Stl, encoding}};
+}
+
+MeshFile read_known(const std::filesystem::path& path, FileFormat format)
+{
+    OpenFile open(path);
+    const InputFile input(open);
+    MeshFile file = parse(path, input.content(), format);
+    file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind);
+    return file;
 }
 
 void require_kind_exists(const FileKind& kind)
@@ -125,6 +135,44 @@ void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, cons
         break;
     }
     file.commit();
+}
+
+std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
+                                         const PolygonMesh& mesh)
+{
+    require_readable(path, mesh);
+    source.require_same_faces(path, mesh);
+    if (source.kind().format == FileFormat::Stl) {
+        write_mesh(path, mesh, source.kind());
+        return {};
+    }
+    const InputFile input = source.read_again();
+    OutputFile file(path);
+    std::vector<std::string> remarks;
+    if (source.kind().format == FileFormat::Obj)
+        remarks = rewrite_obj(file, source.path(), input.content(), mesh);
+    else if (source.kind().format == FileFormat::Off)
+        remarks = rewrite_off(file, source.path(), input.content(), mesh);
+    else
+        remarks = rewrite_ply(file, source.path(), input.content(), mesh);
+    file.commit();
+    return remarks;
+}
+
+std::vector<std::string> extras_of(const MeshSource& source)
+{
+    const InputFile input = source.read_again();
+    switch (source.kind().format) {
+    case FileFormat::Obj:
+        return extras_of_obj(source.path(), input.content());
+    case FileFormat::Off:
+        return extras_of_off(source.path(), input.content());
+    case FileFormat::Ply:
+        return extras_of_ply(source.path(), input.content());
+    case FileFormat::Stl:
+        break;
+    }
+    return {};
 }
 
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels)

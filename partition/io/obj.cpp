@@ -6,7 +6,6 @@
 
 #include "partition/errors.h"
 #include "partition/io/mesh_builder.h"
-#include "partition/io/text_scanner.h"
 
 namespace seamflow {
 
@@ -24,7 +23,7 @@ Statement statement_of(std::string_view keyword)
 {
     if (keyword == "v")
         return Statement::Vertex;
-    if (keyword == "f" || keyword == "fo")
+    if (is_obj_face(keyword))
         return Statement::Face;
     return Statement::Other;
 }
@@ -38,7 +37,7 @@ struct ForwardReference {
 class ObjReader {
   public:
     ObjReader(const std::filesystem::path& path, std::string_view text)
-        : scanner_(path, text, {.comment = '#', .continuation = true})
+        : scanner_(path, text, obj_syntax)
         , builder_(scanner_, 1)
     {
     }

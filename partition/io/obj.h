@@ -1,12 +1,23 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/io/output_file.h"
+#include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
+
+inline constexpr TextSyntax obj_syntax = {.comment = '#', .continuation = true};
+
+/// Whether a line that begins with this word describes a face.
+inline bool is_obj_face(std::string_view keyword)
+{
+    return keyword == "f" || keyword == "fo";
+}
 
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
@@ -18,5 +29,14 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text);
 /// Writes Wavefront OBJ.
 /// @throws OutputError
 void write_obj(OutputFile& file, const PolygonMesh& mesh);
+
+/// Writes a file again that `read_obj` has read, with the positions of `mesh` in the lines `v`: coordinates that are
+/// the same, bit for bit, and everything else keep their characters. Normals (`vn`) that one vertex or one face has for
+/// itself become those of its faces that name them; others stay.
+/// @param path of the text, for messages only. @param mesh with the faces of the file.
+/// @returns what a user should know about it, in sentences.
+/// @throws OutputError
+std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
+                                     const PolygonMesh& mesh);
 
 }  // namespace seamflow

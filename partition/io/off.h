@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/io/output_file.h"
 #include "partition/polygon_mesh.h"
@@ -18,5 +22,16 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text);
 /// Writes text OFF.
 /// @throws OutputError
 void write_off(OutputFile& file, const PolygonMesh& mesh);
+
+/// Writes a file again that `read_off` has read, with the positions of `mesh`: in a text, coordinates that are the
+/// same, bit for bit, and everything else but normals keep their characters; binary files hold floats.
+/// @param path of the content, for messages only. @param mesh with the faces of the file.
+/// @returns what a user should know about it, in sentences.
+/// @throws OutputError; also for coordinates beyond single precision in a binary file.
+std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                     const PolygonMesh& mesh);
+
+/// Where the data begin if the first line is `OFF BINARY`, else nothing.
+std::optional<std::size_t> start_of_binary_off(std::string_view content);
 
 }  // namespace seamflow

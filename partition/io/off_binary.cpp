@@ -3,8 +3,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "partition/errors.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
 
@@ -105,17 +109,45 @@ PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std
     return builder.finish();
 }
 
+/// The first layout that fits the length of the data.
+std::optional<Layout> layout_of(std::string_view data)
+{
+    for (const Layout& layout : layouts)
+        if (Skimmer(data, layout).fits())
+            return layout;
+    return std::nullopt;
+}
+
 }  // namespace
 
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset)
 {
-    for (const Layout& layout : layouts)
-        if (Skimmer(file.substr(offset), layout).fits())
-            return read_as(layout, path, file, offset);
+    if (const auto layout = layout_of(file.substr(offset)))
+        return read_as(*layout, path, file, offset);
     ByteScanner(path, file, offset, std::endian::big)
         .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, or "
               "holds more "
               "than coordinates and faces: convert the mesh to text OFF or to PLY");
+}
+
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh)
+{
+    const std::endian order = layout_of(file.substr(offset)).value_or(Layout{}).order;
+    const std::size_t first = offset + 3 * word;
+    bool rounded = false;
+    output.text(file.substr(0, first));
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        for (const double coordinate : mesh.vertices.row(v)) {
+            if (std::abs(coordinate) > std::numeric_limits<float>::max())
+                throw OutputError(output.path().string() + ": cannot be written: vertex " + std::to_string(v) +
+                                  " (numbered from 0) has a coordinate too large for the single precision of binary "
+                                  "OFF; write another format");
+            const auto number = static_cast<float>(coordinate);
+            rounded = rounded || static_cast<double>(number) != coordinate;
+            output.binary(number, order);
+        }
+    output.text(file.substr(first + 3 * word * at(mesh.n_vertices())));
+    return rounded;
 }
 
 }  // namespace seamflow

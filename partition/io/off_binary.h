@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "partition/io/output_file.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -16,5 +17,11 @@ namespace seamflow {
 /// @param offset where the binary data begin.
 /// @throws InputError naming the byte.
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset);
+
+/// Writes such a file again, with the positions of `mesh`, rounded to floats; every other byte stays.
+/// @param mesh with the faces of the file.
+/// @returns whether rounding changed any coordinate.
+/// @throws OutputError; also for coordinates beyond single precision.
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh);
 
 }  // namespace seamflow

@@ -24,6 +24,9 @@ class OutputFile {
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();
 
+    /// As it was named, for messages.
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
     /// @throws OutputError, as all functions of this class, if the file cannot be written.
     void text(std::string_view text);
 

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/io/mesh_io.h"
 #include "partition/io/output_file.h"
@@ -30,5 +32,15 @@ struct PlyExtras {
 /// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.
 /// @throws OutputError
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras = {});
+
+/// Writes a file again that `read_ply` has read, with the positions of `mesh`. The properties nx, ny, nz of the
+/// vertices, if they are float or double, become the normals of the surface; everything else stays byte for byte, as do
+/// coordinates in a text that are the same bit for bit. Coordinates keep their type, which may mean rounding to float;
+/// where it cannot hold the results at all (whole numbers, or beyond single precision) it becomes double.
+/// @param path of the content, for messages only. @param mesh with the faces of the file.
+/// @returns what a user should know about it, in sentences.
+/// @throws OutputError
+std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                     const PolygonMesh& mesh);
 
 }  // namespace seamflow

@@ -98,6 +98,7 @@ PlyProperty read_property(TextScanner& scanner, PlyHeader& header)
         if (!is_integer(*property.length_type))
             scanner.fail("the length of a list must have a whole-number type such as uchar; correct the header");
     }
+    property.type_word = scanner.peek();
     property.type = read_type(scanner);
     property.name = read_new_name(scanner, header.elements.back().properties, "property");
     return property;

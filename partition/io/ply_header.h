@@ -13,6 +13,8 @@
 
 namespace seamflow {
 
+inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decides = true};
+
 /// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64.
 enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
@@ -29,6 +31,8 @@ struct PlyProperty {
     std::optional<PlyType> length_type;
     /// The line that declares it.
     std::size_t line = 0;
+    /// The word for `type` in the header; valid as long as the file.
+    std::string_view type_word = {};
 };
 
 /// A kind of elements: vertices, faces, or anything else.

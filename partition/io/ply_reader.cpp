@@ -196,7 +196,7 @@ PolygonMesh read_elements(Source source, const PlyHeader& header)
 
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file)
 {
-    TextScanner scanner(path, file, {.comment = '\0', .first_line_end_decides = true});
+    TextScanner scanner(path, file, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_surface(scanner, header);
     const FileKind kind{FileFormat::Ply, header.encoding};

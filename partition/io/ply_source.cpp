@@ -44,12 +44,17 @@ PlyBinarySource::PlyBinarySource(const std::filesystem::path& path, std::string_
 
 double PlyBinarySource::real(PlyType type)
 {
-    const double value = type == PlyType::Float64   ? scanner_.read<double>()
-                         : type == PlyType::Float32 ? double{scanner_.read<float>()}
-                                                    : static_cast<double>(integer(type));
+    const double value = number(type);
     if (!std::isfinite(value))
         scanner_.fail("a coordinate is not a finite number; remove the vertex or mend it");
     return value;
+}
+
+double PlyBinarySource::number(PlyType type)
+{
+    if (type == PlyType::Float64)
+        return scanner_.read<double>();
+    return type == PlyType::Float32 ? double{scanner_.read<float>()} : static_cast<double>(integer(type));
 }
 
 std::int64_t PlyBinarySource::integer(PlyType type)

@@ -29,6 +29,12 @@ class PlyTextSource {
     /// The next number, which is finite. In text its type does not matter.
     double real(PlyType) { return scanner_.real("a coordinate"); }
 
+    /// The next number, be it finite or not; what is none is NaN.
+    double number(PlyType) { return scanner_.number_or_nan(); }
+
+    /// The characters of the next number.
+    std::string_view peek(PlyType) { return scanner_.peek(); }
+
     std::int64_t integer(PlyType) { return scanner_.integer("a whole number"); }
 
     /// Passes over n numbers.
@@ -58,6 +64,8 @@ class PlyBinarySource {
     void begin_element(const PlyElement& element, std::uint64_t i) { scanner_.enter(element.name, i); }
     void end_element() {}
     double real(PlyType type);
+    double number(PlyType type);
+    std::string_view peek(PlyType type) const { return scanner_.peek(size_in_bytes(type)); }
     std::int64_t integer(PlyType type);
     void pass_over(PlyType type, std::int64_t n);
 

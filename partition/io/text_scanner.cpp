@@ -156,6 +156,16 @@ double TextScanner::real(const char* what)
     return value;
 }
 
+double TextScanner::number_or_nan()
+{
+    const std::string_view text = token();
+    const char* const last = text.data() + text.size();
+    double value = 0;
+    const auto [end, error] = parse(after_plus(text.data(), last), last, value);
+    const bool is_number = error == std::errc() && end == last && std::isfinite(value);
+    return is_number ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::int64_t TextScanner::integer_before_slash(const char* what)
 {
     skip_blanks();

@@ -52,6 +52,9 @@ class TextScanner final : public InputPosition {
     /// @throws InputError if there is no token left or it is no finite number.
     double real(const char* what);
 
+    /// The next token as a number; what is none, or not finite, or missing, is NaN.
+    double number_or_nan();
+
     /// The next token, or its beginning up to a slash, as a whole number.
     /// @throws InputError as for `real`.
     std::int64_t integer_before_slash(const char* what);

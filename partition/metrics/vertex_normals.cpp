@@ -47,8 +47,13 @@ VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
 
 Point VertexNormals::operator()(Index v, const Points& positions) const
 {
+    return (*this)(topology_.corners_at(v), positions);
+}
+
+Point VertexNormals::operator()(std::span<const Index> corners, const Points& positions) const
+{
     Point sum = Point::Zero();
-    for (const Index corner : topology_.corners_at(v))
+    for (const Index corner : corners)
         sum += (sense_.empty() ? 1 : sense_[at(corner)]) *
                vector_area(mesh_.face(topology_.face_of[at(corner)]), positions);
     sum.stableNormalize();

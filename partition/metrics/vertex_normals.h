@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "partition/topology.h"
@@ -20,6 +21,9 @@ class VertexNormals {
     /// Of length 1, or 0 where there is none: without faces, or if their vector areas add up to nothing.
     /// @param positions #V by 3, not necessarily those of the mesh.
     [[nodiscard]] Point operator()(Index v, const Points& positions) const;
+
+    /// The same of the faces of some corners alone, which are all at one vertex.
+    [[nodiscard]] Point operator()(std::span<const Index> corners, const Points& positions) const;
 
   private:
     const PolygonMesh& mesh_;

@@ -296,6 +296,23 @@ TEST_CASE("--every-step writes the mesh after each step, the last as OUTPUT")
     CHECK_FALSE(w.has("step_04.obj"));
 }
 
+TEST_CASE("smooth keeps what a file holds besides positions, over the file itself, too")
+{
+    const Workshop w;
+    static_cast<void>(w.directory.with("a.obj", "# theirs\n" + test::content_of(w.directory / "mesh.obj") +
+                                                    "vt 0 1\r\ng last # group"));
+    REQUIRE(w.smooth("a.obj b.obj --time-step-edges 1 --every-step step-%d.obj") == 0);
+    CHECK(w.run("diff a.obj b.obj | grep '^[<>]' | grep -qv '^[<>] v '") == 1);
+    CHECK(w.run("diff a.obj b.obj | grep -q '^> v '") == 0);
+    CHECK(w.run("cmp step-1.obj b.obj") == 0);
+    REQUIRE(w.smooth("a.obj a.obj --time-step-edges 1") == 0);
+    CHECK(w.run("cmp a.obj b.obj") == 0);
+    REQUIRE(w.smooth("a.obj c.off --time-step-edges 1 --report report.json") == 0);
+    CHECK(w.said().find("c.off does not have what the input holds besides the surface: texture coordinates, groups") !=
+          std::string::npos);
+    CHECK(w.json("report.json")["remarks"].dump().find("texture coordinates, groups") != std::string::npos);
+}
+
 TEST_CASE("--labels cuts as told and --parts writes the cut")
 {
     const Workshop w;

@@ -59,6 +59,20 @@ MeshFile round_trip(const PolygonMesh& mesh, const std::string& name, const File
     return read_mesh(folder.path() / name);
 }
 
+Rewritten rewritten(const std::string& name, std::string_view content, const std::function<void(Points&)>& change)
+{
+    const TemporaryDirectory folder;
+    MeshFile file = read_mesh(folder.with(name, content));
+    change(file.mesh.vertices);
+    const auto copy = folder / ("copy of " + name);
+    Rewritten result;
+    result.remarks = write_mesh_like(*file.source, copy, file.mesh);
+    for (std::string& remark : result.remarks)
+        remark = without_folder(remark, folder);
+    result.content = content_of(copy);
+    return result;
+}
+
 bool identical(const PolygonMesh& a, const PolygonMesh& b)
 {
     const auto n_bytes = static_cast<std::size_t>(a.vertices.size()) * sizeof(double);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
@@ -21,6 +23,15 @@ std::string complaint_of_writing(const PolygonMesh& mesh, const std::string& nam
 /// Writes and reads again.
 MeshFile round_trip(const PolygonMesh& mesh, const std::string& name, const FileKind& kind);
 
+/// A file that was written in the form of another.
+struct Rewritten {
+    std::string content;
+    std::vector<std::string> remarks;
+};
+
+/// Reads a file of this name and content, changes the positions and writes it again in its own form.
+Rewritten rewritten(const std::string& name, std::string_view content, const std::function<void(Points&)>& change);
+
 /// Whether all bits of the coordinates, and all faces, are the same.
 bool identical(const PolygonMesh& a, const PolygonMesh& b);
 
@@ -32,6 +43,13 @@ PolygonMesh make_mesh(const Points& vertices, std::initializer_list<std::initial
 
 /// One triangle.
 PolygonMesh make_triangle();
+
+/// The text with the first `old` in it exchanged.
+inline std::string with(const std::string& text, std::string_view old, std::string_view now)
+{
+    const auto begin = text.find(old);
+    return text.substr(0, begin).append(now).append(text.substr(begin + old.size()));
+}
 
 inline bool contains(std::string_view text, std::string_view part)
 {

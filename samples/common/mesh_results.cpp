@@ -1,0 +1,38 @@
+#include "samples/common/mesh_results.h"
+
+namespace seamflow {
+
+namespace {
+
+bool has_format_of(const MeshFile& input, const std::filesystem::path& path)
+{
+    return kind_for_writing(path, input.kind).format == input.kind.format;
+}
+
+}  // namespace
+
+std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
+                                     const PolygonMesh* pieces, const MeshFile& input)
+{
+    if (pieces == nullptr && has_format_of(input, path))
+        return write_mesh_like(*input.source, path, mesh);
+    write_mesh(path, pieces == nullptr ? mesh : *pieces, kind_for_writing(path, input.kind));
+    return {};
+}
+
+std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input)
+{
+    if (joined && has_format_of(input, path))
+        return {};
+    std::string list;
+    for (const std::string& extra : extras_of(*input.source)) {
+        list += list.empty() ? "" : ", ";
+        list += extra;
+    }
+    if (list.empty())
+        return {};
+    return {path.string() + " does not have what the input holds besides the surface: " + list +
+            (joined ? "; an output of the input's format has" : "; joined sub-meshes, in the input's format, have")};
+}
+
+}  // namespace seamflow

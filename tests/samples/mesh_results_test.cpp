@@ -1,0 +1,47 @@
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "samples/common/mesh_results.h"
+#include "tests/support/temporary_directory.h"
+
+using namespace seamflow;
+using test::TemporaryDirectory;
+
+namespace {
+
+const std::string textured = "v 0 0 0\nv 1.0 0 0\nv 0 1 0\nvt 0 1\ng half\nf 1/1 2/1 3/1\n";
+
+}  // namespace
+
+TEST_CASE("a result has the form of the input where the format is the same and the sub-meshes are joined")
+{
+    const TemporaryDirectory folder;
+    const MeshFile input = read_mesh(folder.with("a.obj", textured));
+    CHECK(write_state(folder / "b.OBJ", input.mesh, nullptr, input).empty());
+    CHECK(test::content_of(folder / "b.OBJ") == textured);
+    write_state(folder / "b.off", input.mesh, nullptr, input);
+    CHECK(test::content_of(folder / "b.off") == "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    PolygonMesh pieces = input.mesh;
+    pieces.add_face(std::vector<Index>{2, 1, 0});
+    write_state(folder / "c.obj", input.mesh, &pieces, input);
+    CHECK(test::content_of(folder / "c.obj") == "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n");
+}
+
+TEST_CASE("a remark says what a result in another format, or unjoined, does not have")
+{
+    using List = std::vector<std::string>;
+    const TemporaryDirectory folder;
+    const MeshFile input = read_mesh(folder.with("a.obj", textured));
+    CHECK(remarks_on_losses("b.obj", true, input).empty());
+    CHECK(
+        remarks_on_losses("b.ply", true, input) ==
+        List{"b.ply does not have what the input holds besides the surface: texture coordinates, groups; an output of "
+             "the input's format has"});
+    CHECK(remarks_on_losses("b.obj", false, input) ==
+          List{"b.obj does not have what the input holds besides the surface: texture coordinates, groups; joined "
+               "sub-meshes, in the input's format, have"});
+    const MeshFile plain = read_mesh(folder.with("p.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+    CHECK(remarks_on_losses("b.ply", true, plain).empty());
+}
