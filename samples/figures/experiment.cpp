@@ -29,7 +29,7 @@ std::vector<Variant> in_halves(std::span<const Laplacian> laplacians, std::initi
     return variants;
 }
 
-MeshSource teaser_source()
+FigureSource teaser_source()
 {
     return {.file = "quad_cili_7280_23_65.obj",
             .authors = AuthorsRun{.faces = 7150, .first_part = 1430, .p = 6.2993055940947205},
@@ -39,7 +39,7 @@ MeshSource teaser_source()
 }
 
 /// Cut as the authors' own two files of its sub-meshes are: the lower one has 1,609 faces, the upper one overlaps it.
-MeshSource schwarz_source()
+FigureSource schwarz_source()
 {
     return {.file = "poly_C1_scaled_6558.obj",
             .authors = AuthorsRun{.faces = 3221, .first_part = 1609, .p = {}},
@@ -47,7 +47,7 @@ MeshSource schwarz_source()
             .vertices = 6558};
 }
 
-MeshSource source(std::string_view file, PolygonMesh (*generate)(Index), Index vertices, Eigen::Index axis = 1)
+FigureSource source(std::string_view file, PolygonMesh (*generate)(Index), Index vertices, Eigen::Index axis = 1)
 {
     return {.file = file, .authors = {}, .generate = generate, .vertices = vertices, .axis = axis};
 }

@@ -44,7 +44,7 @@ std::string_view name_of(Settings settings);
 /// An experiment of the paper, as data.
 struct Experiment {
     std::string_view name;
-    MeshSource source;
+    FigureSource source;
     /// dt, in length².
     double time_step = 0.0;
     int steps = 1;

@@ -21,7 +21,7 @@ fs::path find_file(std::string_view name, const fs::path& folder)
     return {};
 }
 
-FigureMesh read_file(const MeshSource& source, const fs::path& path)
+FigureMesh read_file(const FigureSource& source, const fs::path& path)
 {
     FigureMesh result{.name = path.filename().string(), .mesh = read_mesh(path).mesh, .labels = {}, .authors = {}};
     if (source.authors && source.authors->faces == result.mesh.n_faces())
@@ -33,7 +33,7 @@ FigureMesh read_file(const MeshSource& source, const fs::path& path)
 
 }  // namespace
 
-FigureMesh load(const MeshSource& source, const fs::path& folder)
+FigureMesh load(const FigureSource& source, const fs::path& folder)
 {
     if (const fs::path path = find_file(source.file, folder); !path.empty())
         return read_file(source, path);

@@ -22,7 +22,7 @@ struct AuthorsRun {
 };
 
 /// Where the mesh of a figure comes from.
-struct MeshSource {
+struct FigureSource {
     /// Name of the authors' file.
     std::string_view file;
     std::optional<AuthorsRun> authors;
@@ -48,7 +48,7 @@ struct FigureMesh {
 /// else. A file is cut in two as the authors did, or else after the first half of its faces; the stand-in by rows.
 /// @param folder empty: the stand-in.
 /// @throws InputError for a file that cannot be read.
-FigureMesh load(const MeshSource& source, const std::filesystem::path& folder);
+FigureMesh load(const FigureSource& source, const std::filesystem::path& folder);
 
 /// Label 0 for the faces whose centroid lies in the lower half of the mesh along an axis, 1 for the others.
 std::vector<Index> halves_by_rows(const PolygonMesh& mesh, Eigen::Index axis);

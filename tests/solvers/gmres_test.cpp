@@ -11,12 +11,12 @@ using namespace seamflow;
 namespace {
 
 struct System {
-    Eigen::MatrixXd A;
+    Eigen::MatrixXd matrix;
     Points right;
 
     [[nodiscard]] Gmres::Multiply multiply() const
     {
-        return [this](const Points& p, Points& product) { product = A * p; };
+        return [this](const Points& p, Points& product) { product = matrix * p; };
     }
 };
 
@@ -39,7 +39,7 @@ System random_system(Index n, RandomNumbers& random)
 
 double residual_of(const System& system, const Points& x)
 {
-    return (system.right - system.A * x).norm();
+    return (system.right - system.matrix * x).norm();
 }
 
 }  // namespace
@@ -65,10 +65,10 @@ TEST_CASE("GMRES may begin anywhere, and improves however few products it may ha
     Points x = random_points(90, random);
     Gmres gmres(90);
     double before = residual_of(system, x);
-    CHECK(gmres.improve(system.multiply(), system.right - system.A * x, 0.0, 0, x, run_serially) == 0);
+    CHECK(gmres.improve(system.multiply(), system.right - system.matrix * x, 0.0, 0, x, run_serially) == 0);
     CHECK(residual_of(system, x) == before);
     for (const int most : {1, 5, 20, 30}) {
-        CHECK(gmres.improve(system.multiply(), system.right - system.A * x, 1e-8, most, x, run_serially) == most);
+        CHECK(gmres.improve(system.multiply(), system.right - system.matrix * x, 1e-8, most, x, run_serially) == most);
         CHECK(residual_of(system, x) < before);
         before = residual_of(system, x);
     }
@@ -88,10 +88,11 @@ TEST_CASE("right-hand sides that depend on each other, or vanish, and invariant 
         else if (kind == 2)
             system.right.setZero();
         else if (kind == 3)
-            system.A.setIdentity();
+            system.matrix.setIdentity();
         else
-            system.A = Eigen::VectorXd::LinSpaced(40, -4.0, 5.0).array().round().matrix().asDiagonal().toDenseMatrix() +
-                       0.5 * Eigen::MatrixXd::Identity(40, 40);
+            system.matrix =
+                Eigen::VectorXd::LinSpaced(40, -4.0, 5.0).array().round().matrix().asDiagonal().toDenseMatrix() +
+                0.5 * Eigen::MatrixXd::Identity(40, 40);
         Points x = Points::Zero(40, 3);
         const int products = Gmres(40).improve(system.multiply(), system.right, 1e-10, 40, x, run_serially);
         CHECK(x.allFinite());
@@ -105,7 +106,7 @@ TEST_CASE("a regular matrix whose powers lead nowhere for long is solved in the 
     constexpr Index n = 30;
     System system{Eigen::MatrixXd::Zero(n, n), Points::Zero(n, 3)};
     for (Index i = 0; i < n; ++i)
-        system.A((i + 1) % n, i) = 1.0;
+        system.matrix((i + 1) % n, i) = 1.0;
     system.right(0, 0) = 1.0;
     Points x = Points::Zero(n, 3);
     Gmres gmres(n);
@@ -121,18 +122,18 @@ TEST_CASE("the amplification is the norm of the inverse, and tightens the goal w
 {
     RandomNumbers random(4);
     System system = random_system(60, random);
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(60, 2.0, 1.0);
     for (const double smallest : {0.5, 1e-3, 1e-5}) {
         values[59] = smallest;
-        system.A = svd.matrixU() * values.asDiagonal() * svd.matrixV().transpose();
+        system.matrix = svd.matrixU() * values.asDiagonal() * svd.matrixV().transpose();
         Points x = Points::Zero(60, 3);
         Gmres gmres(60);
         gmres.improve(system.multiply(), system.right, 1e-6, 100, x, run_serially);
         const double expected = 1.0 / smallest;
         CHECK(gmres.amplification() <= doctest::Approx(expected));
         CHECK(gmres.amplification() > 0.5 * expected);
-        const double error = (x - Points(system.A.partialPivLu().solve(system.right))).norm();
+        const double error = (x - Points(system.matrix.partialPivLu().solve(system.right))).norm();
         CHECK(error < 1e-6 * Gmres::most_amplification);
     }
 }

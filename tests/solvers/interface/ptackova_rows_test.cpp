@@ -23,8 +23,10 @@ double vertex_area(const PolygonMesh& mesh, const Topology& topology, Index v)
 TEST_CASE("the residuals are rows of the whole system times the areas of their vertices, without allocations")
 {
     constexpr double time_step = 0.03;
-    for (const auto& [name, mesh, topology] : test::sound_meshes()) {
-        CAPTURE(name);
+    for (const auto& sound : test::sound_meshes()) {
+        CAPTURE(sound.name);
+        const PolygonMesh& mesh = sound.mesh;
+        const Topology& topology = sound.topology;
         const Points& before = mesh.vertices;
         const Points after = before + 0.05 * Points::Random(before.rows(), 3);
         const Eigen::MatrixXd laplacian = test::dense_laplacian(Laplacian::PtackovaVelho, mesh, topology);
