@@ -11,7 +11,8 @@ namespace seamflow {
 
 namespace {
 
-/// Leaves a hundredth of a mean edge length at most, in one to four iterations (measured: see README, Accuracy).
+/// Leaves a few hundredths of a mean edge length on most meshes, and took one to four iterations with Δ_F on regular
+/// ones, up to 34 on a scan with slivers (measured: see README, Accuracy).
 constexpr double loose_tolerance = 1e-2;
 /// In squared mean edge lengths: with longer steps, what a sweep leaves comes near a mean edge length.
 constexpr double longest_step_of_sweeps = 16.0;
