@@ -17,10 +17,12 @@
 #include "engine/explicit_flow.h"
 #include "engine/krylov_flow.h"
 #include "engine/parallel_loop.h"
+#include "engine/rescaling.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
 #include "partition/cut/cut.h"
+#include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
 #include "partition/topology.h"
 #include "solvers/degenerate.h"
@@ -72,6 +74,7 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
     if (report.non_manifold_vertices > 0)
         report.remarks.push_back(std::to_string(report.non_manifold_vertices) +
                                  " vertices are held fixed because the mesh is not manifold there.");
+    report.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
     if (cut.n_parts > 1 && options.steps > 0 && !options.tolerance) {
         const double width = width_in_diffusion_lengths(mesh, cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
@@ -79,6 +82,37 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
                                      " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
                                      "use fewer sub-meshes.");
     }
+}
+
+/// How the mesh hangs together, with what the options say of its vertices.
+Topology make_topology(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    Topology topology = make_topology(mesh, run_in_parallel);
+    if (options.boundary == Boundary::Free)
+        free_boundary(topology);
+    hold(topology, options.fixed_vertices);
+    return topology;
+}
+
+bool moves_on_boundary(const Topology& topology, Index v)
+{
+    return topology.kind[at(v)] == VertexKind::Boundary && topology.moves(v);
+}
+
+bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)
+{
+    return !select(run_in_parallel, mesh.n_vertices(), [&](Index v) { return moves_on_boundary(topology, v); }).empty();
+}
+
+/// What holds on Γ between sweeps is not defined where it meets a boundary that moves.
+void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
+{
+    const auto shared = select(run_in_parallel, mesh.n_vertices(), [&](Index v) {
+        return moves_on_boundary(topology, v) && is_on_interface(topology, cut.labels, v);
+    });
+    if (!shared.empty())
+        throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
+                          "what speaks of sweeps (conditions, sweep, p, …), or use one sub-mesh");
 }
 
 /// Failures of `body` come out with a name before them.
@@ -122,6 +156,8 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
 {
     double curvature_before = largest_curvature(curvature);
     DisplacementMeter meter(mesh, topology);
+    const Rescaling rescaling(mesh, topology, options.rescale);
+    Points rescaled;
     for (int step = 1; step <= options.steps; ++step) {
         Stopwatch watch;
         named("step " + std::to_string(step), [&] { flow.step(); });
@@ -130,10 +166,12 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
         report.seconds.step += of_step.seconds;
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
-        of_step.displacement = meter.add_step(mesh.vertices, flow.positions());
-        mesh.vertices = flow.positions();
+        rescaled = flow.positions();
+        named("step " + std::to_string(step), [&] { rescaling.apply(rescaled); });
+        of_step.displacement = meter.add_step(mesh.vertices, rescaled);
+        mesh.vertices.swap(rescaled);
 
-        curvature = measure_curvature(mesh, topology, flow.positions(), options.laplacian);
+        curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
         of_step.max_mean_curvature_before = curvature_before;
         of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
         report.seconds.total += of_step.seconds + watch.lap();
@@ -143,7 +181,7 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
             of_step.distance = vertex_distance(mesh, reference->positions(), flow.positions());
         }
         if (on_step)
-            on_step({step, flow.positions(), of_step, flow.pieces()});
+            on_step({step, mesh.vertices, of_step, flow.pieces()});
     }
     remark_on_drift(options, report);
     report.displacement = meter.total();
@@ -163,9 +201,9 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
 {
     Stopwatch watch;
     require_valid(mesh, run_in_parallel);
-    const ToleranceChoice choice = choose_tolerance(mesh, options);
+    const Topology topology = make_topology(mesh, options);
+    const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
     options.tolerance = choice.tolerance;
-    const Topology topology = make_topology(mesh, run_in_parallel);
     require_sound_geometry(mesh, topology, options.laplacian, run_in_parallel);
     Cut cut;
     std::vector<double> curvature;
@@ -178,6 +216,8 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
         options.tolerance.reset();
     else if (!choice.reason.empty())
         cut.remarks.insert(cut.remarks.begin(), "Steps are converged: " + choice.reason + ".");
+    if (!options.tolerance && options.scheme == Scheme::BackwardEuler)
+        require_boundary_unshared(mesh, topology, cut);
     report.tolerance = options.tolerance;
     describe_input(mesh, topology, cut, options, report);
     report.threads = workers.threads();

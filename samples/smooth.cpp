@@ -17,6 +17,7 @@
 #include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
+#include "partition/io/vertex_set.h"
 #include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
@@ -29,16 +30,17 @@ using namespace seamflow;
 namespace {
 
 /// What the command line leaves to be taken from the input.
-void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double mean_edge)
+void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale)
 {
     if (!command.labels.empty())
         command.options.labels = read_labels(command.labels, mesh.n_faces());
-    if (!command.time_step_edges)
-        return;
-    if (mean_edge <= 0.0)
-        throw InputError(command.input.string() +
-                         ": has no edges of any length to measure --time-step-edges by; use --time-step");
-    command.options.time_step = *command.time_step_edges * mean_edge * mean_edge;
+    if (!command.fix.empty())
+        command.options.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+    try {
+        command.options.time_step = time_step_of(command.amount, scale, command.options.steps);
+    } catch (const InputError& error) {
+        throw InputError(command.input.string() + ": " + error.what());
+    }
 }
 
 /// Prints every step, and writes it where --every-step asks for that.
@@ -100,17 +102,18 @@ ExitStatus smooth(int argc, char** argv)
 
     const Stopwatch reading;
     MeshFile file = read_mesh(command.input);
-    run.mean_edge = mean_edge_length(file.mesh);
-    complete_options(command, file.mesh, run.mean_edge);
+    run.scale = measure_scale(file.mesh);
+    complete_options(command, file.mesh, run.scale);
     run.read_seconds = reading.seconds();
     print_input(std::cout, run, file.mesh);
+    print_amount(std::cout, run.scale, command.options);
     require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
     if (command.every_step)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
-    const StepObserver on_step = make_observer(command, file, run.mean_edge, run.write_seconds);
+    const StepObserver on_step = make_observer(command, file, run.scale.mean_edge, run.write_seconds);
     FlowReport report = run_flow(command, file.mesh, on_step);
 
     const Stopwatch writing;
