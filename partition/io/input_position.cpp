@@ -9,6 +9,13 @@ void InputPosition::fail(const std::string& complaint) const
     throw InputError(position() + ": " + complaint);
 }
 
+void InputPosition::fault_at(const std::string& place, const std::string& complaint) const
+{
+    if (log_ == nullptr)
+        throw InputError(place + ": " + complaint);
+    log_->add(place + ": " + complaint);
+}
+
 std::string printable(std::string_view text)
 {
     constexpr std::size_t longest = 40;

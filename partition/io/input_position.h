@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "partition/io/fault_log.h"
+
 namespace seamflow {
 
 /// Where a reader stands in its file; every complaint about the file begins with it.
@@ -16,6 +18,15 @@ class InputPosition {
     /// @throws InputError "path:line: complaint" for text, "path: element, byte: complaint" for binary data.
     [[noreturn]] void fail(const std::string& complaint) const;
 
+    /// Says a fault after which reading can go on.
+    /// @throws InputError as `fail` does, unless faults are noted.
+    void fault(const std::string& complaint) const { fault_at(position(), complaint); }
+    void fault_at(const std::string& place, const std::string& complaint) const;
+
+    /// From now on faults are noted there; it has to outlive the reading.
+    void note_faults_in(FaultLog* log) { log_ = log; }
+    [[nodiscard]] bool notes_faults() const { return log_ != nullptr; }
+
   protected:
     InputPosition() = default;
     InputPosition(const InputPosition&) = default;
@@ -23,6 +34,8 @@ class InputPosition {
 
   private:
     [[nodiscard]] virtual std::string position() const = 0;
+
+    FaultLog* log_ = nullptr;
 };
 
 /// A piece of a file for a message: shortened, and with '?' for what cannot be printed.

@@ -35,43 +35,65 @@ void MeshBuilder::add_vertex(double x, double y, double z)
 
 Index MeshBuilder::vertex(std::int64_t index, std::int64_t n) const
 {
-    if (index < 0 || index >= n)
-        position_.fail("names vertex " + std::to_string(index + first_number_) + ", but the file has " +
-                       (n == 0 ? std::string("no vertices")
-                               : "only the vertices " + std::to_string(first_number_) + " to " +
-                                     std::to_string(n - 1 + first_number_)) +
-                       "; correct the face or export the mesh again");
+    if (index < 0 || index >= n) {
+        position_.fault("names vertex " + std::to_string(index + first_number_) + ", but the file has " +
+                        (n == 0 ? std::string("no vertices")
+                                : "only the vertices " + std::to_string(first_number_) + " to " +
+                                      std::to_string(n - 1 + first_number_)) +
+                        "; correct the face or export the mesh again");
+        return -1;
+    }
     return static_cast<Index>(index);
 }
 
-void MeshBuilder::require_distinct(std::span<const Index> corners)
+bool MeshBuilder::are_distinct(std::span<const Index> corners)
 {
     sorted_.assign(corners.begin(), corners.end());
     std::sort(sorted_.begin(), sorted_.end());
     const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());
-    if (twice != sorted_.end())
-        position_.fail("the face names vertex " + std::to_string(std::int64_t{*twice} + first_number_) +
-                       " twice; remove the face, or split it at that vertex");
+    if (twice == sorted_.end())
+        return true;
+    position_.fault("the face names vertex " + std::to_string(std::int64_t{*twice} + first_number_) +
+                    " twice; remove the face, or split it at that vertex");
+    return false;
 }
 
 void MeshBuilder::add_face(std::span<const Index> corners)
 {
-    if (corners.size() < 3)
-        position_.fail("the face has " + counted(corners.size(), "corner", "corners") +
-                       ", but needs at least 3; remove it or add what is missing");
+    if (corners.size() < 3) {
+        position_.fault("the face has " + counted(corners.size(), "corner", "corners") +
+                        ", but needs at least 3; remove it or add what is missing");
+        return;
+    }
+    if (position_.notes_faults() && std::find(corners.begin(), corners.end(), -1) != corners.end())
+        return;
     if (corners.size() > most - mesh_.face_vertices.size())
         position_.fail("the faces have more than " + std::to_string(most) +
                        " corners together; divide the mesh into several files");
     const bool triangle = corners.size() == 3;
-    if (!triangle || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-        require_distinct(corners);
-    mesh_.add_face(corners);
+    const bool suspicious =
+        !triangle || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+    if (!suspicious || are_distinct(corners))
+        mesh_.add_face(corners);
+}
+
+/// Those that named vertices which never came.
+void MeshBuilder::leave_out_faces_without_vertices()
+{
+    const PolygonMesh all = std::exchange(mesh_, {});
+    for (Index f = 0; f < all.n_faces(); ++f) {
+        const auto corners = all.face(f);
+        if (std::all_of(corners.begin(), corners.end(), [&](Index v) { return v < n_vertices(); }))
+            mesh_.add_face(corners);
+    }
 }
 
 PolygonMesh MeshBuilder::finish()
 {
     if (coordinates_.empty())
         position_.fail("the file has no vertices; export the mesh again");
+    if (position_.notes_faults())
+        leave_out_faces_without_vertices();
     mesh_.vertices = Eigen::Map<const Points>(coordinates_.data(), n_vertices(), 3);
     coordinates_ = {};
     return std::exchange(mesh_, {});

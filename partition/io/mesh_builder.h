@@ -9,7 +9,8 @@
 
 namespace seamflow {
 
-/// Collects the vertices and faces that a reader finds, and checks each face on its way in.
+/// Collects the vertices and faces that a reader finds, and checks each face on its way in. Where faults are noted
+/// instead of thrown, faces that have any are left out.
 class MeshBuilder {
   public:
     /// @param position of the reader, for messages; has to outlive the builder.
@@ -22,7 +23,8 @@ class MeshBuilder {
     /// @throws InputError if there are 2^31 - 1 vertices already.
     void add_vertex(double x, double y, double z);
 
-    /// @param corners vertices from 0, that need not have been added yet.
+    /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
+    /// with.
     /// @throws InputError for less than three corners, for a vertex named twice, and for more than 2^31 - 1 corners in
     ///         all.
     void add_face(std::span<const Index> corners);
@@ -32,6 +34,7 @@ class MeshBuilder {
     /// Checks that 0 <= index < n.
     /// @param n number of vertices that there are to choose from.
     /// @throws InputError
+    /// @returns the index; -1 if that is not so and faults are noted.
     [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const;
 
     /// The mesh; the builder is empty afterwards.
@@ -39,7 +42,8 @@ class MeshBuilder {
     PolygonMesh finish();
 
   private:
-    void require_distinct(std::span<const Index> corners);
+    [[nodiscard]] bool are_distinct(std::span<const Index> corners);
+    void leave_out_faces_without_vertices();
 
     const InputPosition& position_;
     Index first_number_;

@@ -41,29 +41,44 @@ std::string unknown_extension(const std::filesystem::path& path)
            "' is none of .obj, .off, .ply, .stl; give the file the extension of its format";
 }
 
-MeshFile parse(const std::filesystem::path& path, std::string_view content, FileFormat format)
+MeshFile parse(const std::filesystem::path& path, std::string_view content, FileFormat format, FaultLog* faults)
 {
     switch (format) {
     case FileFormat::Obj:
-        return {read_obj(path, content), {format, Encoding::Ascii}};
+        return {read_obj(path, content, faults), {format, Encoding::Ascii}};
     case FileFormat::Off:
-        return {read_off(path, content), {format, Encoding::Ascii}};
+        return {read_off(path, content, faults), {format, Encoding::Ascii}};
     case FileFormat::Ply:
-        return read_ply(path, content);
+        return read_ply(path, content, faults);
     case FileFormat::Stl:
         break;
     }
     const Encoding encoding = stl_encoding(content);
-    return {read_stl(path, content, encoding), {FileFormat::Stl, encoding}};
+    return {read_stl(path, content, encoding, faults), {FileFormat::Stl, encoding}};
 }
 
 MeshFile read_known(const std::filesystem::path& path, FileFormat format)
 {
     OpenFile open(path);
     const InputFile input(open);
-    MeshFile file = parse(path, input.content(), format);
+    MeshFile file = parse(path, input.content(), format, nullptr);
     file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind);
     return file;
+}
+
+/// Finds the format and reads; a lack of memory is told as what is wrong with the file.
+template <class Read>
+MeshFile read_with(const std::filesystem::path& path, Read&& read)
+{
+    const auto format = format_of(path);
+    if (!format)
+        throw InputError(unknown_extension(path));
+    try {
+        return read(*format);
+    } catch (const std::bad_alloc&) {
+        throw InputError(path.string() + ": there is not enough memory for this mesh; close other programs or use a "
+                                         "machine with more");
+    }
 }
 
 void require_kind_exists(const FileKind& kind)
@@ -91,15 +106,13 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
 
 MeshFile read_mesh(const std::filesystem::path& path)
 {
-    const auto format = format_of(path);
-    if (!format)
-        throw InputError(unknown_extension(path));
-    try {
-        return read_known(path, *format);
-    } catch (const std::bad_alloc&) {
-        throw InputError(path.string() + ": there is not enough memory for this mesh; close other programs or use a "
-                                         "machine with more");
-    }
+    return read_with(path, [&](FileFormat format) { return read_known(path, format); });
+}
+
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults)
+{
+    return read_with(
+        path, [&](FileFormat format) { return parse(path, InputFile(OpenFile(path)).content(), format, &faults); });
 }
 
 FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "partition/io/fault_log.h"
 #include "partition/io/palette.h"
 #include "partition/polygon_mesh.h"
 
@@ -47,6 +48,11 @@ struct MeshFile {
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
 MeshFile read_mesh(const std::filesystem::path& path);
+
+/// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
+/// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
+/// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults);
 
 /// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
 /// same format, else binary little-endian where the format has it.

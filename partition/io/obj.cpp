@@ -36,10 +36,11 @@ struct ForwardReference {
 
 class ObjReader {
   public:
-    ObjReader(const std::filesystem::path& path, std::string_view text)
+    ObjReader(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
         : scanner_(path, text, obj_syntax)
         , builder_(scanner_, 1)
     {
+        scanner_.note_faults_in(faults);
     }
 
     PolygonMesh read()
@@ -102,13 +103,17 @@ Index ObjReader::read_corner()
     const std::int64_t number = scanner_.integer_before_slash("a vertex number (as in 7, 7/1, 7//2 or 7/1/2)");
     pass_over_attributes();
     const std::int64_t n = builder_.n_vertices();
-    if (number < -n)
-        scanner_.fail("names vertex " + std::to_string(number) + ", counted back from this line, but only " +
-                      counted(static_cast<std::uint64_t>(n), "vertex precedes", "vertices precede") +
-                      " it; correct the face or export the mesh again");
-    if (number == 0)
-        scanner_.fail("names vertex 0, but the vertices of an OBJ file are numbered from 1; add 1 to all of them or "
-                      "export the mesh again");
+    if (number < -n) {
+        scanner_.fault("names vertex " + std::to_string(number) + ", counted back from this line, but only " +
+                       counted(static_cast<std::uint64_t>(n), "vertex precedes", "vertices precede") +
+                       " it; correct the face or export the mesh again");
+        return -1;
+    }
+    if (number == 0) {
+        scanner_.fault("names vertex 0, but the vertices of an OBJ file are numbered from 1; add 1 to all of them or "
+                       "export the mesh again");
+        return -1;
+    }
     if (number < 0)
         return static_cast<Index>(number + n);
     const Index vertex = builder_.vertex(number - 1, std::int64_t{1} << 31);
@@ -136,16 +141,17 @@ void ObjReader::require_no_open_reference() const
     const Index n = builder_.n_vertices();
     for (const auto& [vertex, line] : forward_references_)
         if (vertex >= n)
-            throw InputError(scanner_.position_of(line) + ": names vertex " + std::to_string(std::int64_t{vertex} + 1) +
-                             ", but the file has only " + counted(static_cast<std::uint64_t>(n), "vertex", "vertices") +
-                             "; correct the face or export the mesh again");
+            scanner_.fault_at(scanner_.position_of(line),
+                              "names vertex " + std::to_string(std::int64_t{vertex} + 1) + ", but the file has only " +
+                                  counted(static_cast<std::uint64_t>(n), "vertex", "vertices") +
+                                  "; correct the face or export the mesh again");
 }
 
 }  // namespace
 
-PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text)
+PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
 {
-    return ObjReader(path, text).read();
+    return ObjReader(path, text, faults).read();
 }
 
 void write_obj(OutputFile& file, const PolygonMesh& mesh)

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
@@ -22,9 +23,9 @@ inline bool is_obj_face(std::string_view keyword)
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
 /// passed over: they describe no polygon.
-/// @param path for messages only.
+/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming the line.
-PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text);
+PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, FaultLog* faults = nullptr);
 
 /// Writes Wavefront OBJ.
 /// @throws OutputError

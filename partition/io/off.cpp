@@ -15,10 +15,11 @@ namespace {
 
 class OffReader {
   public:
-    OffReader(const std::filesystem::path& path, std::string_view text)
+    OffReader(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
         : scanner_(path, text)
         , builder_(scanner_)
     {
+        scanner_.note_faults_in(faults);
     }
 
     PolygonMesh read();
@@ -90,11 +91,11 @@ std::optional<std::size_t> start_of_binary_off(std::string_view content)
     return line.size() + 1;
 }
 
-PolygonMesh read_off(const std::filesystem::path& path, std::string_view text)
+PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
 {
     if (const auto data = start_of_binary_off(text))
-        return read_binary_off(path, text, *data);
-    return OffReader(path, text).read();
+        return read_binary_off(path, text, *data, faults);
+    return OffReader(path, text, faults).read();
 }
 
 void write_off(OutputFile& file, const PolygonMesh& mesh)

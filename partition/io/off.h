@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/polygon_mesh.h"
 
@@ -15,9 +16,9 @@ namespace seamflow {
 /// Reads text OFF, a vertex or a face a line: `OFF` and its variants with normals, colours or texture coordinates
 /// (NOFF, COFF, STOFF, STCNOFF, …), which are passed over as are the colours of faces; also a file that begins with the
 /// three counts instead of `OFF`. A file that begins with `OFF BINARY` is read as binary (see read_binary_off).
-/// @param path for messages only.
+/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming the line or byte; also for coordinates that are not three to a vertex.
-PolygonMesh read_off(const std::filesystem::path& path, std::string_view text);
+PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, FaultLog* faults = nullptr);
 
 /// Writes text OFF.
 /// @throws OutputError

@@ -84,9 +84,11 @@ void read_face(ByteScanner& scanner, const Layout& layout, std::int64_t n_vertic
     builder.add_face(corners);
 }
 
-PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std::string_view file, std::size_t offset)
+PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std::string_view file, std::size_t offset,
+                    FaultLog* faults)
 {
     ByteScanner scanner(path, file, offset, layout.order);
+    scanner.note_faults_in(faults);
     MeshBuilder builder(scanner);
     const auto n_vertices = scanner.read<std::uint32_t>();
     const auto n_faces = scanner.read<std::uint32_t>();
@@ -98,7 +100,7 @@ PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std
         const auto y = scanner.read<float>();
         const auto z = scanner.read<float>();
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-            scanner.fail("a coordinate is not a finite number; mend or remove the vertex");
+            scanner.fault("a coordinate is not a finite number; mend or remove the vertex");
         builder.add_vertex(x, y, z);
     }
     std::vector<Index> corners;
@@ -120,10 +122,11 @@ std::optional<Layout> layout_of(std::string_view data)
 
 }  // namespace
 
-PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset)
+PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
+                            FaultLog* faults)
 {
     if (const auto layout = layout_of(file.substr(offset)))
-        return read_as(*layout, path, file, offset);
+        return read_as(*layout, path, file, offset, faults);
     ByteScanner(path, file, offset, std::endian::big)
         .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, or "
               "holds more "

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/io/fault_log.h"
 #include "partition/io/mesh_io.h"
 #include "partition/io/output_file.h"
 
@@ -15,9 +16,9 @@ namespace seamflow {
 /// order, and the list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements,
 /// edges among them, are passed over. In a text file each element stands on a line of its own; after the last element
 /// of a binary file only padding (zeros, blanks, line ends) is accepted.
-/// @param path for messages only.
+/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
-MeshFile read_ply(const std::filesystem::path& path, std::string_view file);
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file, FaultLog* faults = nullptr);
 
 /// What a PLY file can hold beside the mesh; empty: nothing.
 struct PlyExtras {

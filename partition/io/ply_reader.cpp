@@ -184,8 +184,9 @@ void require_surface(const TextScanner& scanner, const PlyHeader& header)
 }
 
 template <class Source>
-PolygonMesh read_elements(Source source, const PlyHeader& header)
+PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faults)
 {
+    source.note_faults_in(faults);
     ElementReader<Source> reader(source, header);
     for (const PlyElement& element : header.elements)
         reader.read(element);
@@ -194,15 +195,16 @@ PolygonMesh read_elements(Source source, const PlyHeader& header)
 
 }  // namespace
 
-MeshFile read_ply(const std::filesystem::path& path, std::string_view file)
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
 {
     TextScanner scanner(path, file, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_surface(scanner, header);
     const FileKind kind{FileFormat::Ply, header.encoding};
     if (header.encoding == Encoding::Ascii)
-        return {read_elements(PlyTextSource(scanner), header), kind};
-    return {read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding), header),
+        return {read_elements(PlyTextSource(scanner), header, faults), kind};
+    return {read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding), header,
+                          faults),
             kind};
 }
 

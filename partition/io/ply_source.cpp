@@ -46,7 +46,7 @@ double PlyBinarySource::real(PlyType type)
 {
     const double value = number(type);
     if (!std::isfinite(value))
-        scanner_.fail("a coordinate is not a finite number; remove the vertex or mend it");
+        scanner_.fault("a coordinate is not a finite number; remove the vertex or mend it");
     return value;
 }
 

@@ -21,12 +21,13 @@ class PlyTextSource {
     }
 
     [[nodiscard]] const InputPosition& position() const { return scanner_; }
+    void note_faults_in(FaultLog* log) { scanner_.note_faults_in(log); }
 
     /// To be called before the properties of element i, numbered from 0, are read.
     void begin_element(const PlyElement& element, std::uint64_t i);
     void end_element();
 
-    /// The next number, which is finite. In text its type does not matter.
+    /// The next number, which is finite, unless faults are noted. In text its type does not matter.
     double real(PlyType) { return scanner_.real("a coordinate"); }
 
     /// The next number, be it finite or not; what is none is NaN.
@@ -60,6 +61,7 @@ class PlyBinarySource {
     PlyBinarySource(const std::filesystem::path& path, std::string_view file, std::size_t begin, Encoding encoding);
 
     [[nodiscard]] const InputPosition& position() const { return scanner_; }
+    void note_faults_in(FaultLog* log) { scanner_.note_faults_in(log); }
 
     void begin_element(const PlyElement& element, std::uint64_t i) { scanner_.enter(element.name, i); }
     void end_element() {}

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "partition/io/fault_log.h"
 #include "partition/io/mesh_io.h"
 #include "partition/io/output_file.h"
 #include "partition/polygon_mesh.h"
@@ -16,9 +17,10 @@ Encoding stl_encoding(std::string_view file);
 /// Reads STL in that encoding. Corners with equal coordinates become one vertex, numbered in order of appearance;
 /// normals, names and attributes are passed over, and several solids become one mesh. After the facets of a binary file
 /// only padding (zeros, blanks, line ends) is accepted.
-/// @param path for messages only.
+/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming line, or facet and byte; also for a facet of which two corners coincide.
-PolygonMesh read_stl(const std::filesystem::path& path, std::string_view file, Encoding encoding);
+PolygonMesh read_stl(const std::filesystem::path& path, std::string_view file, Encoding encoding,
+                     FaultLog* faults = nullptr);
 
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, no two corners of a face in the same
 /// place, and for the binary encoding all coordinates within, and corners distinct in, single precision.

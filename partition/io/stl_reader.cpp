@@ -52,8 +52,9 @@ class FacetCollector {
         for (std::size_t k = 0; k < 3; ++k)
             corners[k] = welder_.vertex(points[k]);
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-            position_.fail("two corners of the facet have the same coordinates; remove the facet");
-        builder_.add_face(corners);
+            position_.fault("two corners of the facet have the same coordinates; remove the facet");
+        else
+            builder_.add_face(corners);
     }
 
     PolygonMesh finish() { return builder_.finish(); }
@@ -66,10 +67,11 @@ class FacetCollector {
 
 class TextReader {
   public:
-    TextReader(const std::filesystem::path& path, std::string_view text)
+    TextReader(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
         : scanner_(path, text, {.comment = '\0'})
         , collector_(scanner_)
     {
+        scanner_.note_faults_in(faults);
     }
 
     PolygonMesh read()
@@ -152,7 +154,7 @@ double read_coordinate(ByteScanner& scanner)
 {
     const double value = scanner.read<float>();
     if (!std::isfinite(value))
-        scanner.fail("a coordinate is not a finite number; remove the facet or mend it");
+        scanner.fault("a coordinate is not a finite number; remove the facet or mend it");
     return value;
 }
 
@@ -177,9 +179,10 @@ void require_room_for_facets(ByteScanner& scanner, std::string_view file)
                      "; it has been cut off or is no STL file: export or copy the mesh again");
 }
 
-PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file)
+PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
 {
     ByteScanner scanner(path, file, std::min(title_bytes, file.size()), std::endian::little);
+    scanner.note_faults_in(faults);
     require_room_for_facets(scanner, file);
     FacetCollector collector(scanner);
     const auto n = scanner.read<std::uint32_t>();
@@ -208,9 +211,9 @@ Encoding stl_encoding(std::string_view file)
     return text ? Encoding::Ascii : Encoding::BinaryLittleEndian;
 }
 
-PolygonMesh read_stl(const std::filesystem::path& path, std::string_view file, Encoding encoding)
+PolygonMesh read_stl(const std::filesystem::path& path, std::string_view file, Encoding encoding, FaultLog* faults)
 {
-    return encoding == Encoding::Ascii ? TextReader(path, file).read() : read_binary(path, file);
+    return encoding == Encoding::Ascii ? TextReader(path, file, faults).read() : read_binary(path, file, faults);
 }
 
 }  // namespace seamflow

@@ -150,10 +150,16 @@ double TextScanner::real(const char* what)
     skip_blanks();
     double value = 0;
     const auto [last, error] = parse(after_plus(cursor_, line_end_), line_end_, value);
-    if (error != std::errc() || !ends_token(last) || !std::isfinite(value))
-        fail_at_number(what, "a finite number such as 1.5 or -2e-3");
-    cursor_ = last;
-    return value;
+    if (error == std::errc() && ends_token(last) && std::isfinite(value)) {
+        cursor_ = last;
+        return value;
+    }
+    const std::string complaint = complaint_at_number(what, "a finite number such as 1.5 or -2e-3");
+    if (rest_of_token().empty())
+        fail(complaint);
+    fault(complaint);
+    skip(rest_of_token().size());
+    return std::numeric_limits<double>::quiet_NaN();
 }
 
 double TextScanner::number_or_nan()
@@ -172,7 +178,7 @@ std::int64_t TextScanner::integer_before_slash(const char* what)
     std::int64_t value = 0;
     const auto [last, error] = std::from_chars(after_plus(cursor_, line_end_), line_end_, value);
     if (error != std::errc() || (!ends_token(last) && *last != '/'))
-        fail_at_number(what, "a whole number");
+        fail(complaint_at_number(what, "a whole number"));
     cursor_ = last;
     return value;
 }
@@ -184,17 +190,18 @@ std::int64_t TextScanner::integer(const char* what)
     const auto value = integer_before_slash(what);
     if (!ends_token(cursor_)) {
         cursor_ = first;
-        fail_at_number(what, "a whole number");
+        fail(complaint_at_number(what, "a whole number"));
     }
     return value;
 }
 
-void TextScanner::fail_at_number(const char* what, const char* form)
+std::string TextScanner::complaint_at_number(const char* what, const char* form)
 {
     const auto found = peek();
+    const std::string expected = std::string("expected ") + what;
     if (found.empty())
-        fail(std::string("expected ") + what + ", but the line ends; add what is missing or export the mesh again");
-    fail(std::string("expected ") + what + ", but found " + in_quotes(found) + "; write " + form);
+        return expected + ", but the line ends; add what is missing or export the mesh again";
+    return expected + ", but found " + in_quotes(found) + "; write " + form;
 }
 
 }  // namespace seamflow

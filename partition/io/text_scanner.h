@@ -77,7 +77,7 @@ class TextScanner final : public InputPosition {
     [[nodiscard]] bool ends_token(const char* c) const;
     void load_line();
     void skip_blanks();
-    [[noreturn]] void fail_at_number(const char* what, const char* form);
+    [[nodiscard]] std::string complaint_at_number(const char* what, const char* form);
 
     std::string path_;
     TextSyntax syntax_;

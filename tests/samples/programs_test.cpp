@@ -12,7 +12,7 @@ using test::Workshop;
 TEST_CASE("help and success end with 0")
 {
     const Workshop w;
-    for (const char* program : {SMOOTH, COMPARE, GENERATE, FIGURES, BENCHMARK})
+    for (const char* program : {SMOOTH, COMPARE, GENERATE, INSPECT, FIGURES, BENCHMARK})
         CHECK(w.run(std::string(program) + " --help") == 0);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
     CHECK(w.has("out.obj"));
@@ -431,4 +431,24 @@ TEST_CASE("rims draw in where they are free, and the size stays where that is as
     CHECK(w.smooth("mesh.obj out.obj --radius 10% --rescale volume --boundary free") == 3);
     CHECK(w.said().find("closed") != std::string::npos);
     CHECK_FALSE(w.has("out.obj"));
+}
+
+TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot be used as it is")
+{
+    const Workshop w;
+    REQUIRE(w.run(INSPECT " mesh.obj") == 0);
+    CHECK(w.said().find("nothing wrong was found") != std::string::npos);
+    (void)w.directory.with("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nv 0 1 0\nv 0 1 0\nf 1 2 4\nf 1 4 2\nf 1 2\n");
+    CHECK(w.run(INSPECT " bad.obj") == 3);
+    CHECK(w.said().find("bad.obj:8: the face has 2 corners") != std::string::npos);
+    CHECK(w.said().find("1 faces with the same vertices as one before them: 1") != std::string::npos);
+    REQUIRE(w.run(INSPECT " bad.obj --json") == 3);
+    const Json found = Json::parse(w.said());
+    CHECK(found["faults"] == 2);
+    CHECK(found["vertices_not_finite"] == Json{2});
+    CHECK(found["coincident_vertices"] == Json{4});
+    CHECK(found["duplicate_faces"] == Json{1});
+    CHECK(found["isolated_vertices"] == Json{2, 4});
+    CHECK(w.run(INSPECT) == 2);
+    CHECK(w.run(INSPECT " none.obj") == 3);
 }

@@ -1,0 +1,247 @@
+#include "partition/inspection/mesh_inspection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "partition/cut/components.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A mesh and how it hangs together.
+struct Surface {
+    const PolygonMesh& mesh;
+    const Topology& topology;
+
+    [[nodiscard]] Index start(Index h) const { return mesh.face_vertices[at(h)]; }
+    [[nodiscard]] Index end(Index h) const { return mesh.face_vertices[at(topology.next(mesh, h))]; }
+    [[nodiscard]] Edge edge(Index h) const { return {std::min(start(h), end(h)), std::max(start(h), end(h))}; }
+    /// Whether both ends are somewhere.
+    [[nodiscard]] bool is_finite(Index h) const
+    {
+        return mesh.vertices.row(start(h)).allFinite() && mesh.vertices.row(end(h)).allFinite();
+    }
+    [[nodiscard]] double length(Index h) const
+    {
+        return (mesh.vertices.row(end(h)) - mesh.vertices.row(start(h))).norm();
+    }
+};
+
+/// The edges of the half-edges for which `holds`, each once, ascending.
+template <class Predicate>
+std::vector<Edge> edges_where(const Surface& s, const Loop& loop, Predicate&& holds)
+{
+    std::vector<Edge> edges;
+    for (const Index h : select(loop, s.mesh.n_corners(), holds))
+        edges.push_back(s.edge(h));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+void count_sides(const PolygonMesh& mesh, MeshInspection& found)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        ++found.faces_by_sides[std::min<std::size_t>(mesh.face(f).size() - 3, found.faces_by_sides.size() - 1)];
+}
+
+/// Half-edges without a twin are on edges of one face, or of three and more.
+void inspect_edges(const Surface& s, const Loop& loop, MeshInspection& found)
+{
+    const auto alone = select(loop, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[at(h)] < 0; });
+    std::vector<Edge> edges;
+    for (const Index h : alone)
+        edges.push_back(s.edge(h));
+    std::sort(edges.begin(), edges.end());
+    Index n_edges = (s.mesh.n_corners() - static_cast<Index>(alone.size())) / 2;
+    for (auto first = edges.begin(); first != edges.end();) {
+        const auto last = std::find_if(first, edges.end(), [&](const Edge& e) { return e != *first; });
+        ++n_edges;
+        if (last - first == 1)
+            ++found.boundary_edges;
+        else
+            found.non_manifold_edges.push_back(*first);
+        first = last;
+    }
+    found.edges = n_edges;
+    found.inconsistent_edges = edges_where(s, loop, [&](Index h) {
+        const Index twin = s.topology.twin[at(h)];
+        return twin > h && s.start(h) == s.start(twin);
+    });
+    found.edges_without_length =
+        edges_where(s, loop, [&](Index h) { return s.is_finite(h) && !std::isnormal(s.length(h)); });
+}
+
+void measure_edges(const Surface& s, MeshInspection& found)
+{
+    double sum = 0.0;
+    double shortest = std::numeric_limits<double>::infinity();
+    Index count = 0;
+    for (Index h = 0; h < s.mesh.n_corners(); ++h) {
+        if (!s.is_finite(h))
+            continue;
+        const double length = s.length(h);
+        sum += length;
+        ++count;
+        shortest = std::min(shortest, length);
+        found.longest_edge = std::max(found.longest_edge, length);
+    }
+    if (count == 0)
+        return;
+    found.shortest_edge = shortest;
+    found.mean_edge = sum / static_cast<double>(count);
+}
+
+void measure_box(const PolygonMesh& mesh, MeshInspection& found)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Point low = Point::Constant(infinity);
+    Point high = Point::Constant(-infinity);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (mesh.vertices.row(v).allFinite()) {
+            low = low.cwiseMin(mesh.vertices.row(v));
+            high = high.cwiseMax(mesh.vertices.row(v));
+        }
+    if (low[0] > high[0])
+        return;
+    const Point middle = low + (high - low) / 2.0;
+    found.middle = {middle[0], middle[1], middle[2]};
+    found.diagonal = (high - low).norm();
+    const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+    if (std::isnormal(found.mean_edge) && farthest > found.mean_edge)
+        found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.mean_edge)));
+}
+
+/// The largest of the face's coordinates bounds what rounding can make of its area.
+bool lacks_area(const PolygonMesh& mesh, Index f)
+{
+    const double area = vector_area(mesh.face(f), mesh.vertices).norm();
+    double farthest = 0.0;
+    double longest = 0.0;
+    const Point origin = mesh.vertices.row(mesh.face(f).front());
+    for (const Index v : mesh.face(f)) {
+        if (!mesh.vertices.row(v).allFinite())
+            return false;
+        farthest = std::max(farthest, mesh.vertices.row(v).cwiseAbs().maxCoeff());
+        longest = std::max(longest, (mesh.vertices.row(v) - origin).norm());
+    }
+    return !std::isnormal(area) || area <= epsilon * farthest * longest;
+}
+
+/// The numbers of those elements that are equal to one before them.
+/// @param before an order in which equal elements follow each other. @param same whether two are equal.
+template <class Before, class Same>
+std::vector<Index> repetitions(Index n, Before&& before, Same&& same)
+{
+    std::vector<Index> order(at(n));
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return before(a, b) || (!before(b, a) && a < b); });
+    std::vector<Index> repeated;
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (same(order[i - 1], order[i]))
+            repeated.push_back(order[i]);
+    std::sort(repeated.begin(), repeated.end());
+    return repeated;
+}
+
+std::vector<Index> coincident_vertices(const Points& positions)
+{
+    // A total order, whatever the coordinates: zeros are the same zero, and what is no number has its place, too.
+    const auto before = [&](Index a, Index b) {
+        for (int c = 0; c < 3; ++c)
+            if (const auto order = std::strong_order(positions(a, c) + 0.0, positions(b, c) + 0.0); order != 0)
+                return order < 0;
+        return false;
+    };
+    return repetitions(static_cast<Index>(positions.rows()), before,
+                       [&](Index a, Index b) { return positions.row(a) == positions.row(b); });
+}
+
+std::vector<Index> duplicate_faces(PolygonMesh mesh)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        std::sort(mesh.face_vertices.begin() + mesh.face_offsets[at(f)],
+                  mesh.face_vertices.begin() + mesh.face_offsets[at(f) + 1]);
+    const auto before = [&](Index a, Index b) {
+        return std::lexicographical_compare(mesh.face(a).begin(), mesh.face(a).end(), mesh.face(b).begin(),
+                                            mesh.face(b).end());
+    };
+    return repetitions(mesh.n_faces(), before,
+                       [&](Index a, Index b) { return std::ranges::equal(mesh.face(a), mesh.face(b)); });
+}
+
+/// Turns faces, one after the other, so that they fit those before; whether all fit each other in the end.
+bool is_orientable(const Surface& s)
+{
+    std::vector<signed char> sense(at(s.mesh.n_faces()), 0);
+    std::vector<Index> queue;
+    for (Index root = 0; root < s.mesh.n_faces(); ++root) {
+        if (sense[at(root)] != 0)
+            continue;
+        sense[at(root)] = 1;
+        queue.assign(1, root);
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            const Index f = queue[i];
+            for (Index h = s.mesh.face_offsets[at(f)]; h < s.mesh.face_offsets[at(f) + 1]; ++h) {
+                const Index twin = s.topology.twin[at(h)];
+                if (twin < 0)
+                    continue;
+                const Index other = s.topology.face_of[at(twin)];
+                const auto fitting =
+                    static_cast<signed char>(s.start(h) == s.start(twin) ? -sense[at(f)] : sense[at(f)]);
+                if (sense[at(other)] == 0) {
+                    sense[at(other)] = fitting;
+                    queue.push_back(other);
+                } else if (sense[at(other)] != fitting) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+bool MeshInspection::has_findings() const
+{
+    return !orientable ||
+           !(vertices_not_finite.empty() && non_manifold_edges.empty() && non_manifold_vertices.empty() &&
+             inconsistent_edges.empty() && duplicate_faces.empty() && faces_without_area.empty() &&
+             edges_without_length.empty() && coincident_vertices.empty() && isolated_vertices.empty());
+}
+
+MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+{
+    const Surface surface{mesh, topology};
+    MeshInspection found;
+    found.vertices = mesh.n_vertices();
+    found.faces = mesh.n_faces();
+    count_sides(mesh, found);
+    found.components = face_components(mesh, topology).count;
+    inspect_edges(surface, loop, found);
+    measure_edges(surface, found);
+    measure_box(mesh, found);
+    found.vertices_not_finite =
+        select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
+    const auto of_kind = [&](VertexKind kind) {
+        return select(loop, mesh.n_vertices(), [&](Index v) { return topology.kind[at(v)] == kind; });
+    };
+    found.non_manifold_vertices = of_kind(VertexKind::NonManifold);
+    found.isolated_vertices = of_kind(VertexKind::Isolated);
+    found.orientable = is_orientable(surface);
+    found.duplicate_faces = duplicate_faces(mesh);
+    found.faces_without_area = select(loop, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
+    found.coincident_vertices = coincident_vertices(mesh.vertices);
+    return found;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,137 @@
+#include "samples/common/inspection_text.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <ostream>
+#include <vector>
+
+namespace seamflow {
+
+namespace {
+
+std::string digits(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+std::string text_of(Index element)
+{
+    return std::to_string(element);
+}
+
+std::string text_of(const Edge& edge)
+{
+    return std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
+}
+
+/// Prints what was found wrong, one kind a paragraph.
+class FindingsPrinter {
+  public:
+    FindingsPrinter(std::ostream& out, int most_listed)
+        : out_(out)
+        , most_listed_(static_cast<std::size_t>(most_listed))
+    {
+    }
+
+    /// @param meaning what `smooth` does about it, or what the user may.
+    template <class Element>
+    void print(const std::vector<Element>& elements, const char* kind, const char* meaning)
+    {
+        if (elements.empty())
+            return;
+        begin(elements.size(), kind);
+        std::size_t count = 0;
+        for (const Element& element : elements) {
+            if (count++ == most_listed_) {
+                out_ << " …";
+                break;
+            }
+            out_ << ' ' << text_of(element);
+        }
+        out_ << "\n    " << meaning << '\n';
+    }
+
+    void print(const FaultLog& faults)
+    {
+        if (faults.count == 0)
+            return;
+        begin(faults.count, "faults in the file");
+        out_ << '\n';
+        for (std::size_t i = 0; i < faults.messages.size() && i < most_listed_; ++i)
+            out_ << "    " << faults.messages[i] << '\n';
+        out_ << "    smooth refuses the file until they are mended\n";
+    }
+
+    void print(const char* sentence)
+    {
+        out_ << sentence << '\n';
+        any_ = true;
+    }
+
+    [[nodiscard]] bool any() const { return any_; }
+
+  private:
+    void begin(std::uint64_t count, const char* kind)
+    {
+        out_ << count << ' ' << kind << ':';
+        any_ = true;
+    }
+
+    std::ostream& out_;
+    std::size_t most_listed_;
+    bool any_ = false;
+};
+
+void print_sizes(std::ostream& out, const std::string& file, const MeshInspection& found)
+{
+    out << file << '\n'
+        << "vertices   " << found.vertices << '\n'
+        << "edges      " << found.edges << ", " << found.boundary_edges << " of them on the boundary; shortest "
+        << digits(found.shortest_edge) << ", mean " << digits(found.mean_edge) << ", longest "
+        << digits(found.longest_edge) << '\n'
+        << "faces      " << found.faces;
+    constexpr std::array<const char*, 5> names = {"triangles", "quads", "pentagons", "hexagons", "with more sides"};
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (found.faces_by_sides[k] > 0)
+            out << ", " << found.faces_by_sides[k] << ' ' << names[k];
+    out << '\n'
+        << "components " << found.components << '\n'
+        << "box        " << digits(found.diagonal) << " from corner to corner, around (" << digits(found.middle[0])
+        << ", " << digits(found.middle[1]) << ", " << digits(found.middle[2]) << ")\n";
+}
+
+}  // namespace
+
+void print_inspection(std::ostream& out, const std::string& file, const FaultLog& faults, const MeshInspection& found,
+                      int most_listed)
+{
+    print_sizes(out, file, found);
+    FindingsPrinter printer(out, most_listed);
+    printer.print(faults);
+    printer.print(found.vertices_not_finite, "vertices with coordinates that are no finite numbers",
+                  "smooth refuses them: give them positions, or remove them and their faces");
+    printer.print(found.non_manifold_edges, "edges of three faces or more", "smooth holds their vertices fixed");
+    printer.print(found.non_manifold_vertices, "vertices around which the mesh is not manifold",
+                  "smooth holds them fixed");
+    printer.print(found.inconsistent_edges, "edges whose faces are oriented against each other",
+                  found.orientable ? "smooth does not mind; normals that it writes do"
+                                   : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
+    printer.print(found.duplicate_faces, "faces with the same vertices as one before them",
+                  "smooth takes each for a face of its own; their edges have too many faces then, and stay fixed");
+    printer.print(found.faces_without_area, "faces without area",
+                  "with alexa-wardetzky and ptackova-velho smooth cannot move their vertices");
+    printer.print(found.edges_without_length, "edges without length", "with fujiwara smooth cannot move their ends");
+    printer.print(found.coincident_vertices, "vertices at the same place as one before them",
+                  "smooth moves each with its own faces: weld them where the surface should not open there");
+    printer.print(found.isolated_vertices, "vertices without faces", "they stay where they are");
+    if (found.bits_for_detail < 30)
+        printer.print("The mesh lies so far from the origin that its coordinates are coarse against its edges: floats "
+                      "cannot hold it; move it to the origin.");
+    if (!printer.any())
+        out << "nothing wrong was found\n";
+    out.flush();
+}
+
+}  // namespace seamflow

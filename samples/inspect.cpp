@@ -1,0 +1,44 @@
+// Tells what a mesh is made of and what is wrong with it, element by element.
+
+#include <iostream>
+
+#include "engine/parallel_loop.h"
+#include "partition/inspection/mesh_inspection.h"
+#include "partition/io/mesh_io.h"
+#include "samples/common/command_line.h"
+#include "samples/common/inspection_json.h"
+#include "samples/common/inspection_text.h"
+
+using namespace seamflow;
+
+namespace {
+
+/// @returns UnusableInput for a file that `smooth` would not take as it is.
+ExitStatus inspect_file(int argc, char** argv)
+{
+    CLI::App app("Tells what a mesh is made of and what is wrong with it. All numbers count from 0.", "inspect");
+    std::filesystem::path input;
+    bool as_json = false;
+    int most_listed = 10;
+    app.add_option("INPUT", input, "mesh: .obj, .off, .ply or .stl")->required()->type_name("");
+    app.add_flag("--json", as_json, "write everything as JSON, with all elements");
+    add_integer(app, "--list", most_listed, 0, "how many elements of each kind are named without --json [10]");
+    if (const auto end = parse_command_line(app, argc, argv))
+        return *end;
+
+    FaultLog faults;
+    const PolygonMesh mesh = read_faulty_mesh(input, faults).mesh;
+    const MeshInspection found = inspect(mesh, make_topology(mesh, run_in_parallel), run_in_parallel);
+    if (as_json)
+        std::cout << inspection_json(input.string(), faults, found);
+    else
+        print_inspection(std::cout, input.string(), faults, found, most_listed);
+    return faults.count == 0 ? ExitStatus::Success : ExitStatus::UnusableInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    return run_program("inspect", [&] { return inspect_file(argc, argv); });
+}

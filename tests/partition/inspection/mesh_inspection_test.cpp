@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "partition/inspection/mesh_inspection.h"
+#include "partition/vector_area.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+MeshInspection inspected(const PolygonMesh& mesh)
+{
+    return inspect(mesh, make_topology(mesh));
+}
+
+using Numbers = std::vector<Index>;
+using Edges = std::vector<Edge>;
+
+}  // namespace
+
+TEST_CASE("a sound mesh is counted and measured, without findings")
+{
+    PolygonMesh mesh = quad_grid(4, 3);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        mesh.vertices.row(v) = Point(v % 5, v / 5, 0.0);
+    const MeshInspection found = inspected(mesh);
+    CHECK_FALSE(found.has_findings());
+    CHECK(found.vertices == 20);
+    CHECK(found.faces == 12);
+    CHECK(found.edges == 31);
+    CHECK(found.boundary_edges == 14);
+    CHECK(found.components == 1);
+    CHECK(found.faces_by_sides == std::array<Index, 5>{0, 12, 0, 0, 0});
+    CHECK(found.shortest_edge == 1.0);
+    CHECK(found.mean_edge == 1.0);
+    CHECK(found.longest_edge == 1.0);
+    CHECK(found.middle == std::array<double, 3>{2.0, 1.5, 0.0});
+    CHECK(found.diagonal == 5.0);
+    CHECK(found.bits_for_detail == 51);
+    mesh.vertices.rowwise() += Point(1048576.0, 0.0, 0.0);
+    CHECK(inspected(mesh).bits_for_detail == 33);
+}
+
+TEST_CASE("what is not manifold is listed")
+{
+    const MeshInspection wings = inspected(three_wings());
+    CHECK(wings.non_manifold_edges.size() == 1);
+    CHECK(wings.non_manifold_vertices.size() == 2);
+    CHECK(wings.has_findings());
+    const MeshInspection glass = inspected(hourglass());
+    CHECK(glass.non_manifold_edges.empty());
+    CHECK(glass.non_manifold_vertices.size() == 1);
+}
+
+TEST_CASE("edges whose faces run against each other are listed, and what can be oriented is known")
+{
+    PolygonMesh mesh = triangle_torus(8, 6);
+    std::reverse(mesh.face_vertices.begin() + mesh.face_offsets[5], mesh.face_vertices.begin() + mesh.face_offsets[6]);
+    const MeshInspection found = inspected(mesh);
+    const auto face = mesh.face(5);
+    Edges expected;
+    for (std::size_t k = 0; k < 3; ++k)
+        expected.push_back({std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])});
+    std::sort(expected.begin(), expected.end());
+    CHECK(found.inconsistent_edges == expected);
+    CHECK(found.orientable);
+    const MeshInspection band = inspected(moebius_band(12, 3));
+    CHECK_FALSE(band.orientable);
+    CHECK(band.has_findings());
+}
+
+TEST_CASE("repetitions are listed, not what they repeat")
+{
+    PolygonMesh mesh = quad_grid(3, 3);
+    const Numbers first(mesh.face(2).begin(), mesh.face(2).end());
+    mesh.add_face(Numbers{first[2], first[3], first[0], first[1]});
+    mesh.add_face(Numbers{first[3], first[2], first[1], first[0]});
+    mesh.vertices.row(7) = mesh.vertices.row(3);
+    mesh.vertices.row(9) = mesh.vertices.row(3);
+    const MeshInspection found = inspected(mesh);
+    CHECK(found.duplicate_faces == Numbers{9, 10});
+    CHECK(found.coincident_vertices == Numbers{7, 9});
+}
+
+TEST_CASE("what has no extent is listed, and what has no faces")
+{
+    PolygonMesh mesh = triangle_grid(4, 4);
+    const Index a = mesh.face(3)[0];
+    const Index b = mesh.face(3)[1];
+    mesh.vertices.row(a) = mesh.vertices.row(b);
+    mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
+    mesh.vertices.bottomRows(1) = Point(9.0, 9.0, 9.0);
+    const MeshInspection found = inspected(mesh);
+    CHECK(found.edges_without_length == Edges{{std::min(a, b), std::max(a, b)}});
+    CHECK(std::count(found.faces_without_area.begin(), found.faces_without_area.end(), 3) == 1);
+    CHECK(found.faces_without_area.size() == 2);
+    CHECK(found.isolated_vertices == Numbers{mesh.n_vertices() - 1});
+
+    // Three corners in a row, whose area is what rounding leaves of it.
+    PolygonMesh flat;
+    flat.vertices.resize(3, 3);
+    flat.vertices << 0.1, 0.1, 0.1, 0.3, 0.3, 0.3, 0.7, 0.7, 0.7;
+    flat.add_face(Numbers{0, 1, 2});
+    CHECK(inspected(flat).faces_without_area == Numbers{0});
+}
+
+TEST_CASE("vertices that are nowhere are listed, and the rest is measured")
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    PolygonMesh mesh = quad_grid(3, 3);
+    mesh.vertices(5, 1) = nan;
+    mesh.vertices(6, 0) = std::numeric_limits<double>::infinity();
+    mesh.vertices(10, 1) = nan;
+    const MeshInspection found = inspected(mesh);
+    CHECK(found.vertices_not_finite == Numbers{5, 6, 10});
+    CHECK(found.has_findings());
+    CHECK(found.edges_without_length.empty());
+    CHECK(found.faces_without_area.empty());
+    CHECK(found.coincident_vertices.empty());
+    CHECK(std::isfinite(found.mean_edge));
+    CHECK(std::isfinite(found.diagonal));
+}
+
+TEST_CASE("nothing is found where there is nothing")
+{
+    CHECK_FALSE(inspected(PolygonMesh{}).has_findings());
+}
