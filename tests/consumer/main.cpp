@@ -17,7 +17,8 @@ seamflow::PolygonMesh make_bump()
     mesh.vertices.resize(side * side, 3);
     for (int i = 0; i < side; ++i)
         for (int j = 0; j < side; ++j)
-            mesh.vertices.row(i * side + j) << i, j, 3.0 * std::exp(-0.1 * (std::pow(i - 9.5, 2) + std::pow(j - 9.5, 2)));
+            mesh.vertices.row(i * side + j) << i, j,
+                3.0 * std::exp(-0.1 * (std::pow(i - 9.5, 2) + std::pow(j - 9.5, 2)));
     for (int i = 0; i + 1 < side; ++i)
         for (int j = 0; j + 1 < side; ++j)
             mesh.add_face(std::array{i * side + j, (i + 1) * side + j, (i + 1) * side + j + 1, i * side + j + 1});

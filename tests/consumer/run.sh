@@ -16,12 +16,11 @@ shift 3
 sources="$(realpath "$(dirname "${BASH_SOURCE[0]}")")"
 root="$(realpath "$sources/../..")"
 
-# configure_consumer NAME ARGUMENT…: in the folder WORK/NAME.
+# configure_consumer NAME ARGUMENT…: in the folder WORK/NAME. What was compiled there before, and fits, stays.
 configure_consumer() {
     local name="$1"
     shift
-    rm -rf "${work:?}/$name"
-    cmake -S "$sources" -B "$work/$name" -G Ninja -DCONSUMER_EXPECTATIONS="$sources/expectations.cmake" "$@"
+    cmake --fresh -S "$sources" -B "$work/$name" -G Ninja -DCONSUMER_EXPECTATIONS="$sources/expectations.cmake" "$@"
 }
 
 # with_find_package PREFIX NAME ARGUMENT…

@@ -1,8 +1,8 @@
-#include "partition/version.h"
-
 #include <string>
 
 #include <doctest/doctest.h>
+
+#include "partition/version.h"
 
 TEST_CASE("the headers say the version of the project")
 {
