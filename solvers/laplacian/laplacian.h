@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace seamflow {
@@ -17,6 +18,39 @@ enum class Laplacian {
     /// Δ_P of Ptáčková and Velho (paper, eq. PVLaplace). Two-ring stencil, not symmetric.
     PtackovaVelho,
 };
+
+/// How far the row of a vertex reaches.
+enum class Reach {
+    /// To the other ends of its edges.
+    Edges,
+    /// To the vertices of its faces; where these are triangles, that is the same.
+    Faces,
+    /// To the vertices of the faces next to them, too.
+    TwoRings,
+};
+
+/// What the coefficients divide by, so that it must not be 0.
+enum class Divisor {
+    EdgeLengths,
+    FaceAreas,
+};
+
+/// What the rest of the library has to know of a Laplacian.
+struct LaplacianTraits {
+    Laplacian laplacian;
+    /// Small letters and hyphens.
+    std::string_view name;
+    Reach reach;
+    Divisor divisor;
+    /// Whether it is M⁻¹ K (see SymmetricLaplacian).
+    bool is_symmetric;
+};
+
+/// One for each Laplacian.
+std::span<const LaplacianTraits> all_laplacian_traits();
+
+/// @throws OptionError for what is no Laplacian.
+const LaplacianTraits& traits_of(Laplacian laplacian);
 
 /// "fujiwara", "alexa-wardetzky" or "ptackova-velho".
 std::string_view name_of(Laplacian laplacian);
