@@ -10,7 +10,7 @@ endif()
 foreach(way IN ITEMS install find_package pkg-config destdir add_subdirectory)
     add_test(NAME consumer.${way} COMMAND
         ${CMAKE_CURRENT_LIST_DIR}/run.sh ${way} ${PROJECT_BINARY_DIR} "${CMAKE_CURRENT_BINARY_DIR}/the consumer" ${arguments})
-    set_tests_properties(consumer.${way} PROPERTIES TIMEOUT 900)
+    set_tests_properties(consumer.${way} PROPERTIES TIMEOUT 900 ENVIRONMENT "CXX=${CMAKE_CXX_COMPILER}")
 endforeach()
 set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties(consumer.find_package consumer.pkg-config consumer.destdir PROPERTIES FIXTURES_REQUIRED installed)

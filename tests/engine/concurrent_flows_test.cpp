@@ -15,7 +15,6 @@
 #include "tests/support/flows.h"
 
 using namespace seamflow;
-namespace tbb = oneapi::tbb;
 
 namespace {
 
