@@ -58,7 +58,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& opt
     if (options.subdomains > 0 &&
         width_in_diffusion_lengths(mesh, options.subdomains, options.time_step) < needs_of_sweeps.width)
         return {loose_tolerance, "in sub-meshes as narrow as these single sweeps would stray"};
-    if (options.laplacian == Laplacian::AlexaWardetzky && has_polygons(mesh))
+    if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
         return {loose_tolerance, "on polygons it costs no more than single sweeps"};
     return {};
 }

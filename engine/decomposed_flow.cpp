@@ -14,6 +14,7 @@
 #include "partition/decomposition/narrow_order.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
+#include "solvers/interface/residual_indicator.h"
 
 namespace seamflow {
 
@@ -49,7 +50,7 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     make_states(mesh, options);
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
-    if (options.conditions != Conditions::Schwarz)
+    if (options.conditions != Conditions::Schwarz && has_indicator_row(options.laplacian))
         drift_.emplace(decomposition_, mesh, topology, options);
     plans_.push_back(make_plan(decomposition_, options, rank));
     if (alternates(options, states_.size()))

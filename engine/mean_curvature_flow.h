@@ -6,9 +6,12 @@
 
 namespace seamflow {
 
-/// Smooths a mesh by mean curvature flow: `options.steps` backward Euler steps (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq.
-/// MCFbackwardEuler), decomposed into sub-meshes, or explicit ones (see Scheme). Boundary vertices stay where they are,
-/// bit for bit; vertices without faces too.
+/// Smooths a mesh by mean curvature flow: `options.steps` backward Euler steps (paper, eq. MCFbackwardEuler)
+///
+/// \f[ (I + dt\, \Delta(V^n))\, V^{n+1} = V^n , \f]
+///
+/// decomposed into sub-meshes, or explicit ones (see Scheme). Boundary vertices stay where they are, bit for bit;
+/// vertices without faces too.
 /// @param mesh its positions are moved; after an exception they are those of the last complete step.
 /// @param on_step called after each step.
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits,

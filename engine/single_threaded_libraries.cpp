@@ -1,6 +1,7 @@
 #include "engine/single_threaded_libraries.h"
 
 #include <mutex>
+#include <optional>
 
 #include <dlfcn.h>
 
@@ -16,11 +17,12 @@ Function* find_function(const char* name)
     return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// How many SingleThreadedBlas there are, and what to go back to.
+/// How many SingleThreadedBlas there are, and what to go back to when the last one goes; empty: nothing was changed.
+/// OpenBLAS has one number of threads for the whole process, so this is one for the whole process, too.
 struct BlasThreads {
     std::mutex mutex;
     int users = 0;
-    int before = 1;
+    std::optional<int> before;
 };
 
 BlasThreads& blas_threads()
@@ -46,8 +48,10 @@ SingleThreadedBlas::~SingleThreadedBlas()
 {
     const auto set = find_function<void(int)>("openblas_set_num_threads");
     const std::lock_guard lock(blas_threads().mutex);
-    if (--blas_threads().users == 0 && set != nullptr)
-        set(blas_threads().before);
+    if (--blas_threads().users > 0 || !blas_threads().before)
+        return;
+    set(*blas_threads().before);
+    blas_threads().before.reset();
 }
 
 SingleThreadedOpenMp::SingleThreadedOpenMp()

@@ -21,7 +21,9 @@ class Workers::Arena {
             const auto wanted = static_cast<std::size_t>(threads);
             if (wanted > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
                 limit.emplace(tbb::global_control::max_allowed_parallelism, wanted);
-            arena.initialize(threads);
+            // The lowest of all limits holds, the program's own included; TBB complains of arenas that ask for more.
+            const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+            arena.initialize(static_cast<int>(std::min(wanted, allowed)));
         } else {
             arena.initialize(tbb::task_arena::attach());
         }

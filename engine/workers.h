@@ -9,7 +9,9 @@ namespace seamflow {
 /// libraries that start threads of their own inside each task slow all of them down.
 class Workers {
   public:
-    /// @param threads their number, the calling thread included; 0: the arena of the caller with the limits it has.
+    /// @param threads their number, the calling thread included: fewer where the program has set a lower limit. 0: the
+    /// arena of the caller with the limits it has. In that arena a thread that waits may take up other tasks of the
+    /// caller's meanwhile, as everywhere in oneTBB; with a number the flow has an arena of its own.
     explicit Workers(int threads);
     ~Workers();
     Workers(const Workers&) = delete;

@@ -46,7 +46,7 @@ bool area_matters(const PolygonMesh& mesh, const Topology& topology, Laplacian l
 {
     if (may_move(mesh, topology, f))
         return true;
-    if (laplacian != Laplacian::PtackovaVelho)
+    if (traits_of(laplacian).reach != Reach::TwoRings)
         return false;
     const auto twins = std::span<const Index>(topology.twin).subspan(at(mesh.face_offsets[at(f)]), mesh.face(f).size());
     return std::any_of(twins.begin(), twins.end(),
@@ -62,7 +62,7 @@ bool has_area(const PolygonMesh& mesh, const Topology& topology, Laplacian lapla
 
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop)
 {
-    const bool lengths_matter = laplacian == Laplacian::Fujiwara;
+    const bool lengths_matter = traits_of(laplacian).divisor == Divisor::EdgeLengths;
     const auto bad = select(loop, mesh.n_faces(), [&](Index f) {
         return lengths_matter ? edge_without_length(mesh, topology, f) >= 0 : !has_area(mesh, topology, laplacian, f);
     });

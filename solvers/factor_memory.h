@@ -12,7 +12,7 @@ class FactorMemory {
   public:
     virtual ~FactorMemory() = default;
 
-    /// @returns at least that many bytes, aligned like memory of ::operator new.
+    /// @returns at least that many bytes, aligned like memory from the heap.
     virtual std::span<std::byte> take(std::size_t bytes) = 0;
 
     virtual void give_back(std::span<std::byte> memory) = 0;

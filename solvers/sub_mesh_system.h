@@ -17,6 +17,7 @@ namespace seamflow {
 ///   Γ, following         V^{k+1} = what the leading sub-mesh found
 ///   Γ, leading           the transmission condition
 ///   all others           (I + dt Δ) V^{k+1} = V^k, Δ from the sub-mesh's own faces
+///
 /// They are analysed once; each step fills in their values anew. The workspace may be another one in each call, but for
 /// factorise, which takes over what assemble left in it. Different systems may be used by different threads at the same
 /// time, each with a workspace of its own.

@@ -34,6 +34,6 @@ while (($# > 0)); do
     esac
 done
 
-install_packages
+install_packages doxygen
 build "$preset"
 exec ctest --preset "$preset" --parallel "$(nproc)"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <mutex>
 #include <numeric>
 #include <string>
@@ -29,6 +30,23 @@ std::mutex& metis_mutex()
     static std::mutex mutex;
     return mutex;
 }
+
+/// Random numbers of METIS's own, while this lives: the caller's rand() goes on after it as if nothing had been drawn.
+class OwnRandomNumbers {
+  public:
+    OwnRandomNumbers()
+        : callers_(initstate(seed, state_.data(), state_.size()))
+    {
+    }
+    ~OwnRandomNumbers() { setstate(callers_); }
+    OwnRandomNumbers(const OwnRandomNumbers&) = delete;
+    OwnRandomNumbers& operator=(const OwnRandomNumbers&) = delete;
+
+  private:
+    /// As long as the C library's own, so that the numbers are the same.
+    alignas(8) std::array<char, 128> state_{};
+    char* callers_;
+};
 
 /// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on
 /// top.
@@ -86,6 +104,7 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
     auto n_parts = static_cast<idx_t>(std::min(shares.size(), labels.size()));
     if (n_parts > 1) {
         const std::lock_guard lock(metis_mutex());
+        const OwnRandomNumbers own;
         const bool k_way =
             graph.n_nodes() / n_parts >=
             (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);

@@ -9,9 +9,12 @@ namespace seamflow {
 
 const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices()
 {
-    static const std::vector<std::pair<std::string, Laplacian>> choices{{"fujiwara", Laplacian::Fujiwara},
-                                                                        {"alexa-wardetzky", Laplacian::AlexaWardetzky},
-                                                                        {"ptackova-velho", Laplacian::PtackovaVelho}};
+    static const auto choices = [] {
+        std::vector<std::pair<std::string, Laplacian>> named;
+        for (const LaplacianTraits& traits : all_laplacian_traits())
+            named.emplace_back(traits.name, traits.laplacian);
+        return named;
+    }();
     return choices;
 }
 

@@ -9,9 +9,12 @@
 
 namespace seamflow {
 
-/// The adapted Robin condition of the paper (eq. adaptedVentcell A with q = 0): (I + dt p ∂n_A) V_A^{k+1} = (I - dt p
-/// ∂n_B) V_B, with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In
-/// the paper V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex keeps its place.
+/// The adapted Robin condition of the paper (eq. adaptedVentcell A with q = 0):
+///
+/// \f[ (I + dt\, p\, \partial_{n_A})\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
+///
+/// with A the sub-mesh and B the complement fan, each with its own outward conormal, α and ‖N‖ from Vᵏ. In the paper
+/// V_B is V_B^k. Where one of the two conormals does not exist, p counts as 0 and the vertex keeps its place.
 class AdaptedRobin final : public TransmissionCondition {
   public:
     /// @param sub_mesh must outlive the condition.

@@ -21,11 +21,16 @@ enum class RowKind : std::uint8_t {
     Robin,
 };
 
+Reach reach_of(Laplacian laplacian)
+{
+    return traits_of(laplacian).reach;
+}
+
 class PredictedSide final : public TransmissionCondition {
   public:
     PredictedSide(const SubMesh& sub_mesh, Laplacian laplacian)
         : sub_mesh_(&sub_mesh)
-        , star_(sub_mesh, laplacian == Laplacian::Fujiwara ? Laplacian::Fujiwara : Laplacian::AlexaWardetzky)
+        , star_(sub_mesh, reach_of(laplacian) == Reach::TwoRings ? Laplacian::AlexaWardetzky : laplacian)
         , robin_(sub_mesh)
         , kinds_(sub_mesh.interface.vertices.size(), RowKind::Robin)
         , yields_(sub_mesh.interface.vertices.size())
@@ -33,7 +38,7 @@ class PredictedSide final : public TransmissionCondition {
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             list_columns(i);
             yields_[at(i)] =
-                laplacian == Laplacian::Fujiwara || (laplacian == Laplacian::AlexaWardetzky && has_only_triangles(i));
+                reach_of(laplacian) == Reach::Edges || (reach_of(laplacian) == Reach::Faces && has_only_triangles(i));
         }
     }
 

@@ -40,8 +40,13 @@ enum class Balancing {
     Coarse,
 };
 
-/// The whole backward Euler step as an equation for x = Vᵏ⁺¹ - Vᵏ on Γ alone: S x = Σ S_i x = Σ g_i over the
-/// sub-meshes' Schur complements. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
+/// The whole backward Euler step as an equation for x = Vᵏ⁺¹ - Vᵏ on Γ alone:
+///
+/// \f[ S\, x = \sum_i S_i\, x = \sum_i g_i , \qquad
+///     S_i = A_{\Gamma\Gamma} - A_{\Gamma I}\, A_{II}^{-1} A_{I\Gamma} , \f]
+///
+/// sums over the sub-meshes, each with the Schur complement of its share A = M + dt K (see NeumannSystem) after its
+/// interior I. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
 /// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
 /// single precision, in units that leave it room; the residual is renewed in double precision without beginning anew.
 /// Sums are taken in a fixed order: the bits do not depend on how loops are run.

@@ -141,6 +141,12 @@ void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft
 
 }  // namespace
 
+bool has_indicator_row(Laplacian laplacian)
+{
+    return laplacian == Laplacian::Fujiwara || laplacian == Laplacian::AlexaWardetzky ||
+           laplacian == Laplacian::PtackovaVelho;
+}
+
 IndicatorRow indicator_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
                            const Points& before, const Points& after, double time_step, std::span<double> couplings)
 {

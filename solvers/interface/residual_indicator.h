@@ -29,6 +29,9 @@ struct IndicatorRow {
     Point normal = Point::Zero();
 };
 
+/// Whether there are such rows for a Laplacian. Without them nothing is estimated.
+bool has_indicator_row(Laplacian laplacian);
+
 /// The row at the i-th vertex of a sub-mesh's Γ. Δ_P has the T of Δ_A, and no residual here: its rows reach further.
 /// @param kinds one per edge neighbour of the vertex (see SubMeshSeam): its number on Γ, or one of the above.
 /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.

@@ -11,11 +11,11 @@
 namespace seamflow {
 
 /// The rows of the whole mesh's Laplacian at the vertices of a sub-mesh's Γ, assembled from the faces on both sides of
-/// it. Exact for Laplacians whose rows reach no further than the faces of their vertex: Fujiwara and Alexa-Wardetzky.
+/// it.
 class StarLaplacian {
   public:
     /// @param sub_mesh needed only during construction.
-    /// @param laplacian Fujiwara or AlexaWardetzky.
+    /// @param laplacian one that reaches no further than the faces of a vertex (see Reach).
     StarLaplacian(const SubMesh& sub_mesh, Laplacian laplacian);
 
     /// The vertices (local, the halo included) on which each row depends, ascending; one list per vertex of Γ.

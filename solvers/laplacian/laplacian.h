@@ -1,22 +1,69 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace seamflow {
 
 /// The discrete Laplacians Δ (Laplace-de Rham sign: positive semi-definite, the negative of Laplace-Beltrami; unit
-/// 1/length²).
+/// 1/length²). In the formulas d₀ takes the differences along half-edges, d₁ sums over the half-edges of a face, f_v is
+/// the mean over the corners of a face, A combines the two half-edges of an edge, R the half-edges of a face, W₁ has
+/// their scalar products over the face's area, and W_V the inverse areas of vertices.
 enum class Laplacian {
-    /// Δ_F, the scale-dependent umbrella operator of Fujiwara times the valence (paper, eq. umbrellaLaplace). Positive
-    /// diagonal times symmetric positive semi-definite. Drags vertices along the surface on irregular meshes.
+    /// Δ_F, the scale-dependent umbrella operator of Fujiwara times the valence (paper, eq. umbrellaLaplace):
+    ///
+    /// \f[ (\Delta_F V)_v = \frac{n_v}{\sum_j \|v - v_j\|} \sum_j \frac{v - v_j}{\|v - v_j\|} , \f]
+    ///
+    /// sums over the n_v edges at v. Positive diagonal times symmetric positive semi-definite. Drags vertices along the
+    /// surface on irregular meshes.
     Fujiwara,
-    /// Δ_A of Alexa and Wardetzky, the cotan Laplacian on triangles (paper, eq. AWLaplace). Positive diagonal times
-    /// symmetric positive semi-definite.
+    /// Δ_A of Alexa and Wardetzky, the cotan Laplacian on triangles (paper, eq. AWLaplace):
+    ///
+    /// \f[ \Delta_A = W_V\, d_0^\top R\, W_1 R^\top d_0 . \f]
+    ///
+    /// Positive diagonal times symmetric positive semi-definite.
     AlexaWardetzky,
-    /// Δ_P of Ptáčková and Velho (paper, eq. PVLaplace). Two-ring stencil, not symmetric.
+    /// Δ_P of Ptáčková and Velho (paper, eq. PVLaplace):
+    ///
+    /// \f[ \Delta_P = -W_V\, f_v^\top d_1 A\, W_1 R^\top d_0 . \f]
+    ///
+    /// Two-ring stencil, not symmetric.
     PtackovaVelho,
 };
+
+/// How far the row of a vertex reaches.
+enum class Reach {
+    /// To the other ends of its edges.
+    Edges,
+    /// To the vertices of its faces; where these are triangles, that is the same.
+    Faces,
+    /// To the vertices of the faces next to them, too.
+    TwoRings,
+};
+
+/// What the coefficients divide by, so that it must not be 0.
+enum class Divisor {
+    EdgeLengths,
+    FaceAreas,
+};
+
+/// What the rest of the library has to know of a Laplacian.
+struct LaplacianTraits {
+    Laplacian laplacian;
+    /// Small letters and hyphens.
+    std::string_view name;
+    Reach reach;
+    Divisor divisor;
+    /// Whether it is M⁻¹ K (see SymmetricLaplacian).
+    bool is_symmetric;
+};
+
+/// One for each Laplacian.
+std::span<const LaplacianTraits> all_laplacian_traits();
+
+/// @throws OptionError for what is no Laplacian.
+const LaplacianTraits& traits_of(Laplacian laplacian);
 
 /// "fujiwara", "alexa-wardetzky" or "ptackova-velho".
 std::string_view name_of(Laplacian laplacian);

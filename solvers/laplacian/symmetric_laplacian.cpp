@@ -6,7 +6,7 @@ namespace seamflow {
 
 bool is_symmetric(Laplacian laplacian)
 {
-    return laplacian == Laplacian::Fujiwara || laplacian == Laplacian::AlexaWardetzky;
+    return traits_of(laplacian).is_symmetric;
 }
 
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces)
@@ -16,7 +16,7 @@ std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian
         return make_symmetric_fujiwara(faces);
     case Laplacian::AlexaWardetzky:
         return make_symmetric_alexa_wardetzky(faces);
-    case Laplacian::PtackovaVelho:
+    default:
         break;
     }
     throw OptionError("the Laplacian is not symmetric");

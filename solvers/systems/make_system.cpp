@@ -18,8 +18,11 @@ bool are_triangles(const IndexLists& fans, const IndexLists& faces)
 bool yields_everywhere(const SubMesh& sub_mesh, Laplacian laplacian)
 {
     const auto& interface = sub_mesh.interface;
-    return laplacian == Laplacian::Fujiwara ||
-           (laplacian == Laplacian::AlexaWardetzky && are_triangles(interface.own_faces, sub_mesh.face_vertices) &&
+    const LaplacianTraits& traits = traits_of(laplacian);
+    if (!traits.is_symmetric)
+        return false;
+    return traits.reach == Reach::Edges ||
+           (traits.reach == Reach::Faces && are_triangles(interface.own_faces, sub_mesh.face_vertices) &&
             are_triangles(interface.complement_faces, interface.halo_faces));
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -85,4 +87,20 @@ TEST_CASE("callers from several threads get what they would get alone")
         thread.join();
     for (const auto& labels : together)
         CHECK(labels == alone);
+}
+
+TEST_CASE("the caller's random numbers go on as if nobody had drawn from them")
+{
+    const FaceGraph graph = graph_of(triangle_torus(20, 20));
+    const auto drawn = [&](bool divides) {
+        std::array<int, 20> numbers{};
+        std::srand(7);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (divides && i % 5 == 0)
+                metis_k_way(graph, equal(6));
+            numbers[i] = std::rand();
+        }
+        return numbers;
+    };
+    CHECK(drawn(true) == drawn(false));
 }

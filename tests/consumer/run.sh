@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Builds and runs the consumer in one of the ways in which a program comes by the library.
+#
+#     tests/consumer/run.sh install|find_package|pkg-config|destdir|add_subdirectory BUILD WORK [CMAKE_ARGUMENT…]
+#
+# BUILD is a build folder of the project. WORK is for what is made here; `install` installs into WORK/static, from where
+# find_package and pkg-config take it. add_subdirectory builds the library once more, with shared libraries and without
+# optimisation, and installs that, too: into WORK/shared.
+
+set -euo pipefail
+way="$1"
+build="$2"
+mkdir -p "$3"
+work="$(realpath "$3")"
+shift 3
+sources="$(realpath "$(dirname "${BASH_SOURCE[0]}")")"
+root="$(realpath "$sources/../..")"
+
+# configure_consumer NAME ARGUMENT…: in the folder WORK/NAME. What was compiled there before, and fits, stays.
+configure_consumer() {
+    local name="$1"
+    shift
+    cmake --fresh -S "$sources" -B "$work/$name" -G Ninja -DCONSUMER_EXPECTATIONS="$sources/expectations.cmake" "$@"
+}
+
+# with_find_package PREFIX NAME ARGUMENT…
+with_find_package() {
+    local prefix="$1" name="$2"
+    shift 2
+    configure_consumer "$name" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+    cmake --build "$work/$name"
+    "$work/$name/consumer"
+}
+
+# with_pkg_config PREFIX NAME FLAG…: what pkg-config prints is quoted for a shell.
+with_pkg_config() {
+    local prefix="$1" name="$2" flags file
+    shift 2
+    file="$(find "$prefix" -name seamflow.pc)"
+    flags="$(PKG_CONFIG_PATH="$(dirname "$file")" pkg-config --cflags --libs "$@" seamflow)"
+    mkdir -p "$work/$name"
+    eval "${CXX:-c++} \"\$sources/main.cpp\" -o \"\$work/\$name/consumer\" $flags"
+    LD_LIBRARY_PATH="$(dirname "$(dirname "$file")")" "$work/$name/consumer"
+}
+
+case "$way" in
+install)
+    rm -rf "$work/static"
+    cmake --install "$build" --prefix "$work/static"
+    ;;
+find_package)
+    with_find_package "$work/static" "of static" "$@"
+    ;;
+pkg-config)
+    with_pkg_config "$work/static" "by pkg-config" --static
+    with_pkg_config "$work/static" "by pkg-config"
+    ;;
+destdir)
+    # The same files, below DESTDIR and the prefix; none names a folder of the build.
+    rm -rf "$work/dest dir"
+    DESTDIR="$work/dest dir" cmake --install "$build" --prefix /opt/seamflow
+    diff <(cd "$work/dest dir/opt/seamflow" && find . | sort) <(cd "$work/static" && find . | sort)
+    if grep -rlF --include='*.cmake' --include='*.pc' --include='*.h' -e "$root" -e "$work" "$work/dest dir"; then
+        echo "These files name folders of the build" >&2
+        exit 1
+    fi
+    with_find_package "$work/dest dir/opt/seamflow" "of destdir" "$@"
+    ;;
+add_subdirectory)
+    configure_consumer "with sources" -DSEAMFLOW_SOURCE="$root" -DBUILD_SHARED_LIBS=ON -DSEAMFLOW_INSTALL=ON \
+        -DCMAKE_CXX_FLAGS=-O0 "$@"
+    cmake --build "$work/with sources"
+    "$work/with sources/consumer"
+    rm -rf "$work/shared"
+    cmake --install "$work/with sources" --prefix "$work/shared"
+    with_find_package "$work/shared" "of shared" "$@"
+    with_pkg_config "$work/shared" "by pkg-config, shared"
+    # Who does not ask for it gets no rule to install anything.
+    configure_consumer "without install" -DSEAMFLOW_SOURCE="$root"
+    cmake --install "$work/without install" --prefix "$work/nothing"
+    [[ ! -e "$work/nothing" ]]
+    ;;
+*)
+    echo "unknown way: $way" >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,97 @@
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "partition/io/mesh_io.h"
+#include "partition/metrics/vertex_distance.h"
+#include "tests/samples/workshop.h"
+
+using namespace seamflow;
+using test::Workshop;
+
+namespace {
+
+/// What `pattern`, with one group, finds in a text: the numbers of all matches.
+std::vector<double> numbers(const std::string& text, const std::string& pattern)
+{
+    std::vector<double> found;
+    const std::regex regex(pattern);
+    for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match)
+        found.push_back(std::stod((*match)[1]));
+    return found;
+}
+
+PolygonMesh mesh_in(const Workshop& w, const std::string& name)
+{
+    return read_mesh(w.directory / name).mesh;
+}
+
+}  // namespace
+
+TEST_CASE("the ten lines do what smooth does")
+{
+    const Workshop w;
+    REQUIRE(w.run(LIBRARY_CALL " mesh.obj out.obj") == 0);
+    CHECK(w.said().starts_with("900 vertices in "));
+    CHECK(numbers(w.said(), "sub-meshes, (\\S+) s a step").size() == 1);
+    REQUIRE(w.smooth("mesh.obj expected.obj --time-step-edges 3 --steps 3") == 0);
+    CHECK(vertex_distance(mesh_in(w, "out.obj"), mesh_in(w, "expected.obj").vertices, mesh_in(w, "out.obj").vertices)
+              .max < 1e-12);
+}
+
+TEST_CASE("a mesh of OpenMesh is read, smoothed and written with normals")
+{
+    const Workshop w;
+    REQUIRE(w.run(OPENMESH_PIPELINE " mesh.obj out.obj") == 0);
+    CHECK(w.count_lines("said", "900 vertices smoothed, written with normals") == 1);
+    CHECK(w.count_lines("out.obj", "vn ") == mesh_in(w, "mesh.obj").n_vertices());
+    // OpenMesh counts each edge once in its mean, and passes coordinates through floats.
+    const PolygonMesh before = mesh_in(w, "mesh.obj");
+    CHECK(vertex_distance(before, before.vertices, mesh_in(w, "out.obj").vertices).max > 0.01);
+}
+
+TEST_CASE("slabs become sub-meshes, and the parts are written")
+{
+    const Workshop w;
+    REQUIRE(w.run(OWN_CUT " mesh.obj parts.ply 3") == 0);
+    CHECK(w.said().starts_with("3 sub-meshes, "));
+    CHECK(numbers(w.said(), "(\\d+) vertices between").front() >= 2 * 15);
+    CHECK(w.count_lines("parts.ply", "property int label") == 1);
+}
+
+TEST_CASE("every step is looked at, and every second state written")
+{
+    const Workshop w;
+    REQUIRE(w.run("mkdir states && " OBSERVE_STEPS " mesh.obj states 5 2") == 0);
+    const auto area = numbers(w.said(), "area ([^,\\s]+)");
+    REQUIRE(area.size() == 6);
+    for (std::size_t i = 1; i < area.size(); ++i)
+        CHECK(area[i] < area[i - 1]);
+    for (const int step : {1, 2, 3, 4, 5})
+        CHECK(w.has("states/" + std::to_string(step) + ".obj") == (step % 2 == 0));
+}
+
+TEST_CASE("converged steps are the undecomposed ones, sweeps nearly so")
+{
+    const Workshop w;
+    REQUIRE(w.run(CONVERGED_STEP " mesh.obj 4") == 0);
+    const auto v_max = numbers(w.said(), "V_max (\\S+)");
+    REQUIRE(v_max.size() == 2);
+    CHECK(v_max[0] < 2.0);
+    CHECK(v_max[0] > 1e-4);
+    CHECK(v_max[1] < 1e-6);
+    CHECK(w.count_lines("said", "sweeps: 4 sub-meshes") == 1);
+}
+
+TEST_CASE("wrong usage and files that are not there are said in words")
+{
+    const Workshop w;
+    for (const std::string program : {LIBRARY_CALL, OPENMESH_PIPELINE, OWN_CUT, OBSERVE_STEPS, CONVERGED_STEP}) {
+        CHECK(w.run(program) == 2);
+        CHECK(w.said().starts_with("usage: "));
+    }
+    CHECK(w.run(LIBRARY_CALL " nowhere.obj out.obj") == 1);
+    CHECK(w.said().starts_with("library_call: "));
+    CHECK(w.run(OPENMESH_PIPELINE " nowhere.obj out.obj 2>&1 | tail -1 | grep -q 'OpenMesh cannot read'") == 0);
+}
