@@ -9,11 +9,12 @@ namespace seamflow {
 /// whatever the mesh's own scalar is, and rounded once at the end. The mesh's other properties (normals, too) stay as
 /// they are.
 template <OpenMeshMesh Mesh>
-FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {})
+FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
+                               const FlowControl& control = {})
 {
     PolygonMesh flowing = to_polygon_mesh(mesh);
     try {
-        FlowReport report = mean_curvature_flow(flowing, options, on_step);
+        FlowReport report = mean_curvature_flow(flowing, options, on_step, control);
         set_positions(mesh, flowing.vertices);
         return report;
     } catch (...) {
