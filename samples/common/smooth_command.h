@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/flow_options.h"
+#include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/step_pattern.h"
 
@@ -26,6 +27,11 @@ struct SmoothCommand {
     std::filesystem::path parts;
     std::filesystem::path report;
     std::filesystem::path trace;
+    /// The folder of the checkpoint; empty: none is kept.
+    std::filesystem::path checkpoint;
+    CheckpointPeriod checkpoint_period;
+    /// Whether to print errors alone.
+    bool quiet = false;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
     /// As the user typed it.
