@@ -1,10 +1,13 @@
 #include "samples/common/interruption.h"
 
+#include <cerrno>
 #include <string_view>
 #include <utility>
 
 #include <pthread.h>
 #include <unistd.h>
+
+#include "engine/single_threaded_libraries.h"
 
 namespace seamflow {
 
@@ -24,6 +27,17 @@ ExitStatus status_after(int signal)
     return signal == SIGTERM ? ExitStatus::Terminated : ExitStatus::Interrupted;
 }
 
+/// For the handler, which can know nothing else.
+std::atomic<pthread_t> waiting_thread{};
+
+/// Runs in threads of libraries alone, which do not block signals: all others do.
+void hand_on(int signal)
+{
+    const int error = errno;
+    ::pthread_kill(waiting_thread.load(), signal);
+    errno = error;
+}
+
 void write_to_error(std::string_view text)
 {
     static_cast<void>(::write(STDERR_FILENO, text.data(), text.size()));
@@ -34,22 +48,36 @@ void write_to_error(std::string_view text)
 Interruption::Interruption(std::string program)
     : program_(std::move(program))
 {
-    sigset_t ours;
-    sigemptyset(&ours);
+    sigemptyset(&ours_);
     for (const int signal : {SIGINT, SIGTERM})
         if (!is_ignored(signal))
-            sigaddset(&ours, signal);
-    waited_for_ = ours;
+            sigaddset(&ours_, signal);
+    waited_for_ = ours_;
     sigaddset(&waited_for_, wake_up);
     // Threads have the mask of the one that makes them.
     pthread_sigmask(SIG_BLOCK, &waited_for_, &mask_before_);
+    end_threads_of_blas();
     thread_ = std::thread([this] { wait_for_signals(); });
     pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
-    pthread_sigmask(SIG_BLOCK, &ours, nullptr);
+    pthread_sigmask(SIG_BLOCK, &ours_, nullptr);
+    hand_on_signals();
+}
+
+void Interruption::hand_on_signals()
+{
+    waiting_thread.store(thread_.native_handle());
+    struct sigaction action = {};
+    action.sa_handler = hand_on;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    ::sigaction(SIGINT, sigismember(&ours_, SIGINT) == 1 ? &action : nullptr, &int_before_);
+    ::sigaction(SIGTERM, sigismember(&ours_, SIGTERM) == 1 ? &action : nullptr, &term_before_);
 }
 
 Interruption::~Interruption()
 {
+    ::sigaction(SIGINT, &int_before_, nullptr);
+    ::sigaction(SIGTERM, &term_before_, nullptr);
     is_over_.store(true);
     pthread_kill(thread_.native_handle(), wake_up);
     thread_.join();

@@ -12,8 +12,9 @@ namespace seamflow {
 
 /// Ends a program well when SIGINT (Ctrl-C) or SIGTERM arrives, as long as this lives. The first one ends it at once
 /// where it has not made anything yet, and asks it to stop where it has; the second ends it at once, as it would
-/// without this. A thread waits for them, so that no code runs in the middle of other code. A signal that the program
-/// ignored from its start is left alone.
+/// without this. A thread waits for them, so that no code runs in the middle of other code; all others block them, so
+/// that the handlers that METIS installs for a while are never called. A signal that the program ignored from its start
+/// is left alone. One at a time in a program.
 class Interruption {
   public:
     /// To be made before any other thread, which would get the signals otherwise.
@@ -33,6 +34,7 @@ class Interruption {
     [[nodiscard]] ExitStatus status() const;
 
   private:
+    void hand_on_signals();
     void wait_for_signals();
     void end_unmade(int signal) const;
     [[noreturn]] static void end_at_once(int signal);
@@ -43,8 +45,12 @@ class Interruption {
     std::atomic<bool> is_over_{false};
     /// 0: none yet.
     std::atomic<int> first_signal_{0};
+    /// SIGINT and SIGTERM, but for those that were ignored; and with what wakes the thread.
+    sigset_t ours_{};
     sigset_t waited_for_{};
     sigset_t mask_before_{};
+    struct sigaction int_before_ = {};
+    struct sigaction term_before_ = {};
     std::thread thread_;
 };
 
