@@ -43,10 +43,12 @@ bool has_polygons(const PolygonMesh& mesh)
 
 }  // namespace
 
-ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options)
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options, bool boundary_moves)
 {
     if (options.tolerance)
         return {options.tolerance, ""};
+    if (boundary_moves && !speaks_of_sweeps(options) && (options.subdomains != 1 || !options.labels.empty()))
+        return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
         mesh.n_faces() == 0)
         return {};

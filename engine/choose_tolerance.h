@@ -17,7 +17,9 @@ struct ToleranceChoice {
 };
 
 /// The tolerance of the options, if they have one. With Approach::Automatic, and unless another option speaks of
-/// sweeps, steps are also converged, loosely, where a sweep would stray from the undecomposed step or cost more.
-ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options);
+/// sweeps, steps are also converged, loosely, where a sweep would stray from the undecomposed step or cost more, and
+/// where the boundary moves, which sub-meshes can only share in converged steps.
+/// @param boundary_moves whether any boundary vertex does.
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options, bool boundary_moves = false);
 
 }  // namespace seamflow

@@ -50,7 +50,7 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
 {
     const auto of_range = [&](const tbb::blocked_range<Index>& range, double shortest) {
         for (Index v = range.begin(); v != range.end(); ++v)
-            if (topology.kind[at(v)] == VertexKind::Interior)
+            if (topology.moves(v))
                 shortest = std::min(shortest, shortest_edge_squared(mesh, topology, positions, v));
         return shortest;
     };
@@ -90,7 +90,7 @@ void ExplicitFlow::step()
 {
     require_stable();
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
-        if (topology_->kind[at(v)] == VertexKind::Interior)
+        if (topology_->moves(v))
             next_.row(v) =
                 positions_.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, positions_, laplacian_, v);
     });

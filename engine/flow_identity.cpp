@@ -51,9 +51,9 @@ std::string hexadecimal(std::uint64_t value)
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, 16).ptr};
 }
 
-std::string text_of(const std::vector<Index>& labels)
+std::string text_of(const std::vector<Index>& indices)
 {
-    return labels.empty() ? std::string(none) : "those with checksum " + hexadecimal(checksum_of(labels));
+    return indices.empty() ? std::string(none) : "those with checksum " + hexadecimal(checksum_of(indices));
 }
 
 std::string text_of(const PolygonMesh& mesh)
@@ -72,8 +72,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
     const auto& [laplacian, time_step, steps, subdomains, labels, coloring, conditions, scheme, transmission, p, p_rule,
-                 p_edge, q, overlap, sweep, correction, keep_gaps, threads, tolerance, approach, converge_iterations,
-                 memory_limit, reference, record_schedule] = options;
+                 p_edge, q, overlap, sweep, boundary, fixed_vertices, rescale, correction, keep_gaps, threads,
+                 tolerance, approach, converge_iterations, memory_limit, reference, record_schedule] = options;
     // These do not change results, or (steps) only where they end.
     static_cast<void>(steps);
     static_cast<void>(keep_gaps);
@@ -99,6 +99,9 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"q", text_of(q)},
         {"overlap", text_of(overlap)},
         {"sweep", named(sweep, std::array<std::string_view, 3>{"automatic", "fixed", "alternating"})},
+        {"boundary", named(boundary, Names{"fixed", "free"})},
+        {"fixed_vertices", text_of(fixed_vertices)},
+        {"rescale", named(rescale, std::array<std::string_view, 3>{"none", "area", "volume"})},
         {"correction", named(correction, std::array<std::string_view, 3>{"automatic", "centroid", "none"})},
         {"tolerance", text_of(tolerance)},
         {"approach", named(approach, Names{"automatic", "sweep"})},
@@ -127,10 +130,10 @@ void require_same(const FlowIdentity& of_state, const FlowIdentity& of_flow)
                                  std::to_string(of_flow.entries.size())));
 }
 
-std::uint64_t checksum_of(std::span<const Index> labels)
+std::uint64_t checksum_of(std::span<const Index> indices)
 {
     Checksum checksum;
-    checksum.add_numbers(labels);
+    checksum.add_numbers(indices);
     return checksum.value();
 }
 

@@ -34,7 +34,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options);
 ///         options differ. Both name what differs, and how.
 void require_same(const FlowIdentity& of_state, const FlowIdentity& of_flow);
 
-/// Checksum of a cut.
-std::uint64_t checksum_of(std::span<const Index> labels);
+/// Checksum of a cut, or of any other list.
+std::uint64_t checksum_of(std::span<const Index> indices);
 
 }  // namespace seamflow

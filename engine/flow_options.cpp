@@ -62,6 +62,18 @@ void require_valid_tolerance(const FlowOptions& options)
         throw OptionError("tolerance is given, which leaves no room for other conditions or an explicit scheme");
 }
 
+void require_valid_constraints(const FlowOptions& options)
+{
+    if (options.boundary == Boundary::Free && options.laplacian == Laplacian::PtackovaVelho)
+        throw OptionError("boundary is free, but the Laplacian ptackova-velho has no natural boundary conditions (its "
+                          "rows there are one-sided and unstable): use fujiwara or alexa-wardetzky, or leave the "
+                          "boundary fixed");
+    if (options.rescale != Rescale::None && options.keep_gaps)
+        throw OptionError("rescale is for results in one piece; keep_gaps leaves the sub-meshes unjoined");
+    if (options.rescale != Rescale::None && !options.fixed_vertices.empty())
+        throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
+}
+
 bool has_tangential_derivative(Conditions conditions)
 {
     return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
@@ -105,6 +117,7 @@ void require_valid(const FlowOptions& options)
     if (options.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);
     require_valid_copies(options);
+    require_valid_constraints(options);
     require_valid_tolerance(options);
     const auto negative =
         std::find_if(options.labels.begin(), options.labels.end(), [](Index label) { return label < 0; });

@@ -84,6 +84,26 @@ enum class Correction {
     None,
 };
 
+/// What becomes of the boundary of the whole mesh.
+enum class Boundary {
+    /// It stays where it is, bit for bit.
+    Fixed,
+    /// It moves, too, under natural conditions: the equations there are those of the faces that are there. The surface
+    /// draws in its rims by about √dt a step, as a soap film without a frame does. Not with Δ_P, whose rows at a
+    /// boundary are one-sided and grow what they should smooth. Sub-meshes share such a boundary in converged steps
+    /// alone, which are chosen then.
+    Free,
+};
+
+/// What is done about the shrinking of the surface.
+enum class Rescale {
+    None,
+    /// Every result is scaled to the area of the input, its centroid moved back to that of the input.
+    Area,
+    /// The same for the enclosed volume; for closed surfaces with faces oriented alike.
+    Volume,
+};
+
 /// How a backward Euler step is taken where no tolerance is asked for.
 enum class Approach {
     /// Converged to a loose tolerance where that is worth it (see choose_tolerance), else a sweep.
@@ -133,6 +153,13 @@ struct FlowOptions {
     int overlap = 1;
     /// Direction of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
+    /// Whether the boundary of the mesh moves.
+    Boundary boundary = Boundary::Fixed;
+    /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are welcome.
+    std::vector<Index> fixed_vertices;
+    /// Scales what comes out after each step; the flow itself goes on unscaled, and distances to the undecomposed flow
+    /// are unscaled, too. Moves every vertex that has faces: none of them may be fixed.
+    Rescale rescale = Rescale::None;
     /// Treatment of the interface after a step.
     Correction correction = Correction::Automatic;
     /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::pieces, StepState::pieces). For

@@ -44,8 +44,8 @@ struct TotalDisplacement {
 struct StepReport {
     /// Wall-clock time.
     double seconds = 0.0;
-    /// Largest length of the mean curvature vector ΔV over all vertices that may move, in 1/length (where it is finite:
-    /// edges or faces that the flow has shrunk to nothing do not count).
+    /// Largest length of the mean curvature vector ΔV over all interior vertices that may move, in 1/length (where it
+    /// is finite: edges or faces that the flow has shrunk to nothing do not count).
     double max_mean_curvature_before = 0.0;
     double max_mean_curvature_after = 0.0;
     /// How far the vertices moved in this step, in units of length (see split_displacement).
@@ -88,6 +88,8 @@ struct FlowReport {
     Index repaired_faces = 0;
     /// Vertices held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
     Index non_manifold_vertices = 0;
+    /// Vertices that stay where they are, for whatever reason: boundary, not manifold, without faces, or asked for.
+    Index fixed_vertices = 0;
     /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface, and with conditions that have
     /// none).
     std::vector<double> p;

@@ -71,7 +71,7 @@ struct FlowState {
     std::optional<StepMemory> reference = {};
 
     [[nodiscard]] int n_steps() const { return static_cast<int>(steps.size()); }
-    /// #V by 3.
+    /// #V by 3, as the flow itself goes on with them: without FlowOptions::rescale.
     [[nodiscard]] const Points& positions() const { return flow.positions; }
 };
 

@@ -19,11 +19,13 @@
 #include "engine/krylov_flow.h"
 #include "engine/parallel_loop.h"
 #include "engine/progress.h"
+#include "engine/rescaling.h"
 #include "engine/step_shares.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
 #include "partition/cut/cut.h"
+#include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
 #include "partition/topology.h"
 #include "solvers/degenerate.h"
@@ -75,6 +77,7 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
     if (report.non_manifold_vertices > 0)
         report.remarks.push_back(std::to_string(report.non_manifold_vertices) +
                                  " vertices are held fixed because the mesh is not manifold there.");
+    report.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
     if (cut.n_parts > 1 && options.steps > 0 && !options.tolerance) {
         const double width = width_in_diffusion_lengths(mesh, cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
@@ -82,6 +85,37 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
                                      " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
                                      "use fewer sub-meshes.");
     }
+}
+
+/// How the mesh hangs together, with what the options say of its vertices.
+Topology make_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop)
+{
+    Topology topology = make_topology(mesh, loop);
+    if (options.boundary == Boundary::Free)
+        free_boundary(topology);
+    hold(topology, options.fixed_vertices);
+    return topology;
+}
+
+bool moves_on_boundary(const Topology& topology, Index v)
+{
+    return topology.kind[at(v)] == VertexKind::Boundary && topology.moves(v);
+}
+
+bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)
+{
+    return !select(run_in_parallel, mesh.n_vertices(), [&](Index v) { return moves_on_boundary(topology, v); }).empty();
+}
+
+/// What holds on Γ between sweeps is not defined where it meets a boundary that moves.
+void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
+{
+    const auto shared = select(run_in_parallel, mesh.n_vertices(), [&](Index v) {
+        return moves_on_boundary(topology, v) && is_on_interface(topology, cut.labels, v);
+    });
+    if (!shared.empty())
+        throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
+                          "what speaks of sweeps (conditions, sweep, p, …), or use one sub-mesh");
 }
 
 /// Failures of `body` come out with a name before them.
@@ -162,7 +196,8 @@ FlowState capture(const Run& run, const Flow& flow, const DecomposedFlow* refere
 
 /// Brings everything to where it was after a step.
 template <class Flow>
-void restore(const Run& run, Flow& flow, DecomposedFlow* reference, DisplacementMeter& meter)
+void restore(const Run& run, Flow& flow, DecomposedFlow* reference, const Rescaling& rescaling,
+             DisplacementMeter& meter)
 {
     const FlowState& state = *run.resume;
     if (state.cut != checksum_of(run.report.labels))
@@ -176,8 +211,10 @@ void restore(const Run& run, Flow& flow, DecomposedFlow* reference, Displacement
     flow.restore(state.flow);
     if (reference != nullptr)
         reference->restore(*state.reference);
-    meter.restore(state.displacement, flow.positions());
-    run.mesh.vertices = flow.positions();
+    Points rescaled = flow.positions();
+    rescaling.apply(rescaled);
+    run.mesh.vertices.swap(rescaled);
+    meter.restore(state.displacement, run.mesh.vertices);
     run.report.steps = state.steps;
     run.report.seconds.step = state.seconds.step;
     run.report.seconds.total += state.seconds.total;
@@ -200,12 +237,14 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
 {
     const auto& [mesh, topology, options, on_step, resume, identity, progress, report] = run;
     DisplacementMeter meter(mesh, topology);
+    const Rescaling rescaling(mesh, topology, options.rescale);
     if (resume != nullptr)
-        restore(run, flow, reference, meter);
+        restore(run, flow, reference, rescaling, meter);
     const auto first = static_cast<int>(report.steps.size()) + 1;
     double curvature_before =
         report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
+    Points rescaled;
     for (int step = first; step <= options.steps; ++step) {
         progress.enter(FlowPhase::Step, step, shares.begin(), shares.end_of_tasks());
         Stopwatch watch;
@@ -214,8 +253,10 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         of_step.seconds = watch.lap();
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
-        of_step.displacement = meter.add_step(mesh.vertices, flow.positions());
-        curvature = measure_curvature(mesh, topology, flow.positions(), options.laplacian);
+        rescaled = flow.positions();
+        named("step " + std::to_string(step), [&] { rescaling.apply(rescaled); });
+        of_step.displacement = meter.add_step(mesh.vertices, rescaled);
+        curvature = measure_curvature(mesh, topology, rescaled, options.laplacian);
         of_step.max_mean_curvature_before = curvature_before;
         of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
         const double measuring = watch.lap();
@@ -223,13 +264,13 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
             compare_with(*reference, run, step, shares, flow.positions(), of_step);
         shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
-        mesh.vertices = flow.positions();
+        mesh.vertices.swap(rescaled);
         report.steps.push_back(of_step);
         report.seconds.step += of_step.seconds;
         report.seconds.total += of_step.seconds + measuring;
         if (on_step)
             on_step(
-                {step, flow.positions(), of_step, flow.pieces(), [&] { return capture(run, flow, reference, meter); }});
+                {step, mesh.vertices, of_step, flow.pieces(), [&] { return capture(run, flow, reference, meter); }});
     }
     remark_on_drift(options, report);
     report.displacement = meter.total();
@@ -298,14 +339,16 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
     progress.expect(8.0);
     const FlowIdentity identity = require_sound(mesh, options, static_cast<bool>(on_step), resume, progress);
-    const ToleranceChoice choice = choose_tolerance(mesh, options);
-    options.tolerance = choice.tolerance;
-    const Topology topology = make_topology(mesh, progress.loop());
+    const Topology topology = make_topology(mesh, options, progress.loop());
     progress.count();
+    const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
+    options.tolerance = choice.tolerance;
     require_sound_geometry(mesh, topology, options.laplacian, progress.loop());
     progress.count();
     std::vector<double> curvature;
     Cut cut = cut_and_measure(mesh, topology, choice, options, curvature, progress);
+    if (!options.tolerance && options.scheme == Scheme::BackwardEuler)
+        require_boundary_unshared(mesh, topology, cut);
     report.tolerance = options.tolerance;
     describe_input(mesh, topology, cut, options, report);
     report.threads = workers.threads();

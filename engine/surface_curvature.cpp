@@ -14,7 +14,7 @@ std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& t
 {
     std::vector<double> curvature(at(mesh.n_vertices()), 0.0);
     oneapi::tbb::parallel_for(Index{0}, mesh.n_vertices(), [&](Index v) {
-        if (topology.kind[at(v)] == VertexKind::Interior)
+        if (topology.moves(v) && topology.kind[at(v)] == VertexKind::Interior)
             curvature[at(v)] = mean_curvature_vector(mesh, topology, positions, laplacian, v).norm();
     });
     return curvature;

@@ -8,7 +8,8 @@
 
 namespace seamflow {
 
-/// ‖ΔV‖ at every vertex that may move, 0 at the others, in 1/length; #V. Runs in parallel.
+/// ‖ΔV‖ at every interior vertex that may move, 0 at the others, in 1/length; #V. On a free boundary ΔV is no mean
+/// curvature. Runs in parallel.
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                       Laplacian laplacian);
 

@@ -52,6 +52,29 @@ PolygonMesh to_polygon_mesh(const Mesh& source)
     return mesh;
 }
 
+/// The vertices of an OpenMesh mesh that its status bits keep where they are, as OpenMesh's own smoothers read them:
+/// locked ones, and, where any vertex is selected, all that are not. Numbered like the rows of to_polygon_mesh. None
+/// where the mesh has no status of vertices.
+template <OpenMeshMesh Mesh>
+std::vector<Index> held_by_status(const Mesh& mesh)
+{
+    std::vector<Index> held;
+    if constexpr (requires(typename Mesh::VertexHandle v) { mesh.status(v).locked(), mesh.has_vertex_status(); }) {
+        if (!mesh.has_vertex_status())
+            return held;
+        bool any_selected = false;
+        for (const auto v : mesh.vertices())
+            any_selected = any_selected || mesh.status(v).selected();
+        Index row = 0;
+        for (const auto v : mesh.vertices()) {
+            if (mesh.status(v).locked() || (any_selected && !mesh.status(v).selected()))
+                held.push_back(row);
+            ++row;
+        }
+    }
+    return held;
+}
+
 /// Gives the vertices of an OpenMesh mesh new positions.
 /// @param positions one row per vertex that is not marked as deleted, in the mesh's order; rounded to the mesh's own
 /// scalar.

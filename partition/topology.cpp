@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
+
+#include "partition/errors.h"
 
 namespace seamflow {
 
@@ -140,9 +143,31 @@ Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
             pair_halfedges_at(mesh, v, spokes, topology);
     });
     topology.kind.resize(at(mesh.n_vertices()));
-    for_each(loop, mesh.n_vertices(), [&](Index v) { topology.kind[at(v)] = classify(mesh, topology, v); });
+    topology.fixed.resize(at(mesh.n_vertices()));
+    for_each(loop, mesh.n_vertices(), [&](Index v) {
+        topology.kind[at(v)] = classify(mesh, topology, v);
+        topology.fixed[at(v)] = topology.kind[at(v)] == VertexKind::Interior ? 0 : 1;
+    });
     for_each(loop, mesh.n_corners(), [&](Index h) { topology.twin[at(h)] = std::max(topology.twin[at(h)], -1); });
     return topology;
+}
+
+void free_boundary(Topology& topology)
+{
+    for (std::size_t v = 0; v < topology.kind.size(); ++v)
+        if (topology.kind[v] == VertexKind::Boundary)
+            topology.fixed[v] = 0;
+}
+
+void hold(Topology& topology, std::span<const Index> vertices)
+{
+    const auto n_vertices = static_cast<Index>(topology.fixed.size());
+    for (const Index v : vertices) {
+        if (v < 0 || v >= n_vertices)
+            throw InputError("vertex " + std::to_string(v) + " is to be held fixed, but the mesh has " +
+                             std::to_string(n_vertices) + " vertices, numbered from 0");
+        topology.fixed[at(v)] = 1;
+    }
 }
 
 std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,

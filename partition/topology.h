@@ -36,6 +36,12 @@ struct Topology {
     std::vector<Index> vertex_corners;
     /// #V.
     std::vector<VertexKind> kind;
+    /// #V: 1 where a flow leaves the vertex where it is. At first everywhere but at interior vertices; see
+    /// free_boundary and hold.
+    std::vector<std::uint8_t> fixed;
+
+    /// Whether a flow moves vertex v.
+    [[nodiscard]] bool moves(Index v) const { return fixed[at(v)] == 0; }
 
     /// The corners (each one in its own face) at vertex v.
     [[nodiscard]] std::span<const Index> corners_at(Index v) const
@@ -62,6 +68,14 @@ struct Topology {
 /// Pairs the half-edges of a valid mesh (see require_valid) and classifies its vertices. Linear in the size of the
 /// mesh.
 Topology make_topology(const PolygonMesh& mesh, const Loop& loop = run_serially);
+
+/// Lets the vertices of kind Boundary move.
+void free_boundary(Topology& topology);
+
+/// Holds these vertices where they are, whatever their kind.
+/// @param vertices in any order, repetitions are welcome.
+/// @throws InputError naming the first number that is none of a vertex.
+void hold(Topology& topology, std::span<const Index> vertices);
 
 /// A run of faces around a vertex, each sharing an edge at the vertex with the next.
 struct Fan {

@@ -17,6 +17,7 @@
 #include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
+#include "partition/io/vertex_set.h"
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
@@ -31,16 +32,17 @@ using namespace seamflow;
 namespace {
 
 /// What the command line leaves to be taken from the input.
-void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double mean_edge)
+void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale)
 {
     if (!command.labels.empty())
         command.options.labels = read_labels(command.labels, mesh.n_faces());
-    if (!command.time_step_edges)
-        return;
-    if (mean_edge <= 0.0)
-        throw InputError(command.input.string() +
-                         ": has no edges of any length to measure --time-step-edges by; use --time-step");
-    command.options.time_step = *command.time_step_edges * mean_edge * mean_edge;
+    if (!command.fix.empty())
+        command.options.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+    try {
+        command.options.time_step = time_step_of(command.amount, scale, command.options.steps);
+    } catch (const InputError& error) {
+        throw InputError(command.input.string() + ": " + error.what());
+    }
 }
 
 /// Prints every step, and writes it where --every-step asks for that.
@@ -107,10 +109,11 @@ ExitStatus smooth(int argc, char** argv)
 
     const Stopwatch reading;
     MeshFile file = read_mesh(command.input);
-    run.mean_edge = mean_edge_length(file.mesh);
-    complete_options(command, file.mesh, run.mean_edge);
+    run.scale = measure_scale(file.mesh);
+    complete_options(command, file.mesh, run.scale);
     run.read_seconds = reading.seconds();
     print_input(out, run, file.mesh);
+    print_amount(out, run.scale, command.options);
     require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
     if (command.every_step)
         require_storable(file.mesh, command.every_step->path(1),
@@ -119,7 +122,7 @@ ExitStatus smooth(int argc, char** argv)
     const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =
-        long_run.observing(make_observer(command, file, run.mean_edge, run.write_seconds, out));
+        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, out));
     FlowReport report;
     try {
         report = run_flow(command, file.mesh, on_step, long_run.control());

@@ -17,8 +17,7 @@ Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Ind
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const Index start = corners[k];
         const Index end = corners[k + 1 < corners.size() ? k + 1 : 0];
-        const bool matters =
-            topology.kind[at(start)] == VertexKind::Interior || topology.kind[at(end)] == VertexKind::Interior;
+        const bool matters = topology.moves(start) || topology.moves(end);
         if (matters && !std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
             return static_cast<Index>(k);
     }
@@ -38,8 +37,7 @@ Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Ind
 bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
 {
     const auto corners = mesh.face(f);
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](Index v) { return topology.kind[at(v)] == VertexKind::Interior; });
+    return std::any_of(corners.begin(), corners.end(), [&](Index v) { return topology.moves(v); });
 }
 
 /// Does the row of a vertex that may move divide by the area of face f? Those of Ptáčková-Velho also reach the faces

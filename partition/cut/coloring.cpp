@@ -94,7 +94,7 @@ Adjacency adjacency_of(const PolygonMesh& mesh, const Topology& topology, std::s
     std::vector<std::pair<Index, Index>> pairs;
     std::vector<Index> around;
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        if (topology.kind[at(v)] != VertexKind::Interior)
+        if (!topology.moves(v))
             continue;
         labels_around(topology, labels, v, around);
         for (std::size_t i = 0; i < around.size(); ++i)

@@ -14,7 +14,7 @@ std::vector<Index> movable_vertices(const PolygonMesh& mesh, const Topology& top
     std::vector<Index> vertices;
     for (const Index f : faces)
         for (const Index v : mesh.face(f))
-            if (topology.kind[at(v)] == VertexKind::Interior)
+            if (topology.moves(v))
                 vertices.push_back(v);
     sort_unique(vertices);
     return vertices;

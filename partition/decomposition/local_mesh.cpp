@@ -61,7 +61,7 @@ void mark_fixed(const Topology& topology, SubMesh& sub_mesh)
 {
     sub_mesh.fixed.reserve(sub_mesh.local_to_global.size());
     for (const Index v : sub_mesh.local_to_global)
-        sub_mesh.fixed.push_back(topology.kind[at(v)] == VertexKind::Interior ? 0 : 1);
+        sub_mesh.fixed.push_back(topology.moves(v) ? 0 : 1);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ Index position_in(std::span<const Index> ascending, Index value)
 
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v)
 {
-    if (topology.kind[at(v)] != VertexKind::Interior)
+    if (!topology.moves(v))
         return false;
     const auto corners = topology.corners_at(v);
     const auto label_of = [&](Index corner) { return labels[at(topology.face_of[at(corner)])]; };

@@ -29,7 +29,7 @@ std::vector<Index> next_layer(const PolygonMesh& mesh, const Topology& topology,
 bool is_artificial_boundary(const Topology& topology, const SubMesh& sub_mesh, Index v)
 {
     const auto corners = topology.corners_at(v);
-    return topology.kind[at(v)] == VertexKind::Interior && std::any_of(corners.begin(), corners.end(), [&](Index c) {
+    return topology.moves(v) && std::any_of(corners.begin(), corners.end(), [&](Index c) {
                return position_in(sub_mesh.faces, topology.face_of[at(c)]) < 0;
            });
 }

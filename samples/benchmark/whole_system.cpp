@@ -68,7 +68,7 @@ WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Lapl
     assert(form == SystemForm::AsTheyStand || laplacian != Laplacian::PtackovaVelho);
     std::vector<Index> unknown_of(at(mesh.n_vertices()), -1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (form == SystemForm::AsTheyStand || topology.kind[at(v)] == VertexKind::Interior) {
+        if (form == SystemForm::AsTheyStand || topology.moves(v)) {
             unknown_of[at(v)] = static_cast<Index>(vertices_.size());
             vertices_.push_back(v);
         }
@@ -79,7 +79,7 @@ WholeSystem::WholeSystem(const PolygonMesh& mesh, const Topology& topology, Lapl
 void WholeSystem::make_slots(const std::vector<MatrixEntry>& entries, const std::vector<Index>& unknown_of)
 {
     constexpr MatrixEntry none{-1, -1};
-    const auto moves = [&](Index v) { return topology_->kind[at(v)] == VertexKind::Interior; };
+    const auto moves = [&](Index v) { return topology_->moves(v); };
     const auto placed = [&](const MatrixEntry& entry) -> MatrixEntry {
         if (!moves(entry.row) || unknown_of[at(entry.column)] < 0)
             return none;
@@ -181,7 +181,7 @@ void WholeSystem::move(const Columns& solution, Points& positions) const
     if (!solution.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step");
     for (Index u = 0; u < n(); ++u)
-        if (topology_->kind[at(vertices_[at(u)])] == VertexKind::Interior)
+        if (topology_->moves(vertices_[at(u)]))
             positions.row(vertices_[at(u)]) = solution.row(u);
 }
 

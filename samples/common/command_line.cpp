@@ -110,6 +110,12 @@ CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<st
     return add_parsed(app, names, target, parse_bytes, "SIZE", description);
 }
 
+CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<LengthOnMesh>& target,
+                        const std::string& description)
+{
+    return add_parsed(app, names, target, parse_length, "LENGTH", description);
+}
+
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {
     try {

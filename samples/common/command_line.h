@@ -13,6 +13,7 @@
 
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
+#include "samples/common/smoothing_request.h"
 
 namespace seamflow {
 
@@ -68,6 +69,10 @@ CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, i
 /// As above, for a number of bytes (see parse_bytes).
 CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,
                        const std::string& description);
+
+/// As above, for a length on a mesh (see parse_length).
+CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<LengthOnMesh>& target,
+                        const std::string& description);
 
 /// Adds an option that takes one of several words and stores what the word stands for in `target`.
 template <class Value>

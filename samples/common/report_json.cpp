@@ -1,9 +1,11 @@
 #include "samples/common/report_json.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
+#include "engine/smoothing_amount.h"
 #include "samples/common/peak_memory.h"
 
 namespace seamflow {
@@ -118,7 +120,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["arguments"] = run.arguments;
     json["vertices"] = report.vertices;
     json["faces"] = report.faces;
-    json["mean_edge"] = number(run.mean_edge);
+    json["mean_edge"] = number(run.scale.mean_edge);
+    json["diagonal"] = number(run.scale.diagonal);
     json["subdomains"] = report.subdomains;
     json["subdomain_vertices"] = report.subdomain_vertices;
     json["subdomain_faces"] = report.subdomain_faces;
@@ -127,8 +130,12 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["interface_vertices"] = report.interface_vertices;
     json["repaired_faces"] = report.repaired_faces;
     json["non_manifold_vertices"] = report.non_manifold_vertices;
+    json["fixed_vertices"] = report.fixed_vertices;
     json["laplacian"] = run.laplacian;
     json["time_step"] = number(report.time_step);
+    json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+    json["radius"] =
+        number(smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1))));
     if (report.tolerance)
         json["tolerance"] = number(*report.tolerance);
     json["threads"] = report.threads;
@@ -136,8 +143,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["live_factors"] = report.live_factors;
     json["factor_memory_bytes"] = report.factor_memory_bytes;
     json["seconds"] = seconds_json(run, report.seconds);
-    json["steps"] = steps_json(report.steps, run.mean_edge);
-    json["displacement"] = total_json(report.displacement, run.mean_edge);
+    json["steps"] = steps_json(report.steps, run.scale.mean_edge);
+    json["displacement"] = total_json(report.displacement, run.scale.mean_edge);
     json["remarks"] = report.remarks;
     json["peak_memory_bytes"] = peak_memory_bytes();
     return text_of(json);

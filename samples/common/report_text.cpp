@@ -1,10 +1,12 @@
 #include "samples/common/report_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <string>
 
+#include "engine/smoothing_amount.h"
 #include "samples/common/peak_memory.h"
 
 namespace seamflow {
@@ -94,7 +96,18 @@ void print_distance(std::ostream& out, const char* name, double absolute, double
 void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh)
 {
     out << "input      " << run.input << ": " << counted(mesh.n_vertices(), "vertex", "vertices") << ", "
-        << counted(mesh.n_faces(), "face", "faces") << ", mean edge " << digits(run.mean_edge) << std::endl;
+        << counted(mesh.n_faces(), "face", "faces") << ", mean edge " << digits(run.scale.mean_edge) << std::endl;
+}
+
+void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
+{
+    const int steps = std::max(options.steps, 1);
+    const double radius = smoothed_radius(options.time_step, steps);
+    out << "amount     dt " << digits(options.time_step) << " = "
+        << digits(options.time_step / (scale.mean_edge * scale.mean_edge)) << " squared mean edge lengths, √dt "
+        << digits(std::sqrt(options.time_step)) << "; " << (steps == 1 ? "one step" : std::to_string(steps) + " steps")
+        << " smooth bumps of radius " << digits(radius) << " = " << digits(100.0 * radius / scale.diagonal, 3)
+        << "% of the diagonal" << std::endl;
 }
 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
@@ -127,7 +140,7 @@ void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& re
     print_cut(out, report);
     print_factors(out, report);
     print_times(out, run, report.seconds);
-    print_total(out, report.displacement, run.mean_edge);
+    print_total(out, report.displacement, run.scale.mean_edge);
     out << "threads    " << report.threads << '\n';
     out << "memory     " << digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4) << " MB at most\n";
     for (const std::string& remark : report.remarks)

@@ -3,6 +3,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "samples/common/comparison.h"
 #include "samples/common/error_map.h"
@@ -12,6 +13,9 @@ namespace seamflow {
 
 /// What was read.
 void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh);
+
+/// How much the flow is to smooth, in all units that it can be asked for in.
+void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options);
 
 /// One line for a step.
 /// @param step its number, from 1, of `steps`.

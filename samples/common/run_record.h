@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "samples/common/smoothing_request.h"
+
 namespace seamflow {
 
 /// What `smooth` knows about its run beyond the FlowReport.
@@ -13,8 +15,8 @@ struct RunRecord {
     std::vector<std::string> arguments;
     /// Name of the Laplacian.
     std::string laplacian;
-    /// Mean edge length of the input, in units of length.
-    double mean_edge = 0.0;
+    /// Of the input.
+    MeshScale scale = {};
     /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;

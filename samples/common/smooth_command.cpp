@@ -41,6 +41,18 @@ void add_parameters(CLI::App& app, FlowOptions& options)
     });
 }
 
+void add_amount(CLI::App& app, SmoothingRequest& amount)
+{
+    auto* group = app.add_option_group("Amount of smoothing", "one of");
+    add_real(*group, "--time-step", amount.time_step, positive(), "of each step, in length²");
+    add_real(*group, "--time-step-edges", amount.time_step_edges, positive(),
+             "of each step, in squared mean edge lengths");
+    add_length(*group, "--radius", amount.radius,
+               "bumps of this radius and smaller lose half their height or more over all steps; in units of length, or "
+               "in % of the bounding box's diagonal");
+    group->require_option(1);
+}
+
 void add_flow_options(CLI::App& app, SmoothCommand& command)
 {
     FlowOptions& options = command.options;
@@ -48,10 +60,19 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_flag_callback(
         "--plain", [&options] { options = FlowOptions::plain(); }, "the paper to the letter, without improvements");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
-    auto* time_step = app.add_option_group("Time step", "one of");
-    add_real(*time_step, "--time-step", options.time_step, positive(), "in length²");
-    add_real(*time_step, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths");
-    time_step->require_option(1);
+    add_amount(app, command.amount);
+    add_choice<Boundary>(app, "--boundary", options.boundary, {{"fixed", Boundary::Fixed}, {"free", Boundary::Free}},
+                         "whether the rims of an open surface stay where they are or draw in freely [fixed]");
+    auto* fix = app.add_option("--fix", command.fix,
+                               "vertices that stay: their numbers from 0, one a line, or a .ply with as many vertices "
+                               "and a property that is not 0 where they stay")
+                    ->type_name("FILE");
+    app.add_option("--fix-property", command.fix_property, "the name of that property [fixed]")
+        ->needs(fix)
+        ->type_name("NAME");
+    add_choice<Rescale>(app, "--rescale", options.rescale,
+                        {{"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}},
+                        "scale the result to the area or volume of the input, its centroid kept [none]");
     add_choice<Scheme>(app, "--scheme", options.scheme,
                        {{"implicit", Scheme::BackwardEuler}, {"explicit", Scheme::ExplicitEuler}},
                        "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
@@ -135,6 +156,8 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
     if (app.count("--plain") > 0 && command.options.transmission != FlowOptions::plain().transmission)
         throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
+    if (command.options.rescale != Rescale::None && !command.fix.empty())
+        throw OptionError("--rescale moves every vertex, but --fix holds some: leave one of them out");
     if (!command.trace.empty() && command.options.scheme == Scheme::ExplicitEuler)
         throw OptionError("--trace shows the tasks of the sub-meshes; --scheme explicit has none");
     if (command.options.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
@@ -161,15 +184,17 @@ void require_usable_files(const SmoothCommand& command)
     for (const auto& path : {command.parts, command.report, command.trace})
         if (!path.empty())
             results.push_back(path);
-    std::vector<std::filesystem::path> files = results;
-    files.push_back(command.input);
-    if (!command.labels.empty())
-        files.push_back(command.labels);
-    if (!command.checkpoint.empty())
-        files.push_back(Checkpoints(command.checkpoint, {}).file());
-    require_different(files);
+    for (const auto& input : {command.input, command.labels, command.fix}) {
+        std::vector<std::filesystem::path> files = results;
+        if (!input.empty())
+            files.push_back(input);
+        require_different(files);
+    }
     results.push_back(command.output);
-    require_different(results);
+    std::vector<std::filesystem::path> all = results;
+    if (!command.checkpoint.empty())
+        all.push_back(Checkpoints(command.checkpoint, {}).file());
+    require_different(all);
     for (const auto& path : results)
         require_writable(path);
 }

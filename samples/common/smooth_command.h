@@ -8,6 +8,7 @@
 #include "engine/flow_options.h"
 #include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
+#include "samples/common/smoothing_request.h"
 #include "samples/common/step_pattern.h"
 
 namespace seamflow {
@@ -16,17 +17,19 @@ namespace seamflow {
 struct SmoothCommand {
     std::filesystem::path input;
     std::filesystem::path output;
-    /// All of it but `labels`, and `time_step` where `time_step_edges` is given.
+    /// All of it but `labels`, `fixed_vertices` and `time_step`, which need the mesh.
     FlowOptions options;
-    /// The time step in squared mean edge lengths of the input.
-    std::optional<double> time_step_edges;
+    SmoothingRequest amount;
     /// Whether the iterations of a step are as many as the user says: then it is no failure that a step has no more.
     bool limits_iterations = false;
     /// Files; empty: none.
     std::filesystem::path labels;
+    std::filesystem::path fix;
     std::filesystem::path parts;
     std::filesystem::path report;
     std::filesystem::path trace;
+    /// The property of vertices that says which are fixed, where `fix` is a PLY file.
+    std::string fix_property = "fixed";
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
     CheckpointPeriod checkpoint_period;

@@ -42,9 +42,9 @@ IndicatorEquation::IndicatorEquation(const Decomposition& decomposition, const P
     : decomposition_(&decomposition)
     , laplacian_(laplacian)
 {
-    std::vector<Index> kinds(topology.kind.size());
-    std::transform(topology.kind.begin(), topology.kind.end(), kinds.begin(),
-                   [](VertexKind kind) { return kind == VertexKind::Interior ? off_interface : held_fixed; });
+    std::vector<Index> kinds(topology.fixed.size());
+    std::transform(topology.fixed.begin(), topology.fixed.end(), kinds.begin(),
+                   [](std::uint8_t fixed) { return fixed == 0 ? off_interface : held_fixed; });
     for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
         const auto& vertices = sub_mesh.interface.vertices;
         for (std::size_t i = 0; i < vertices.size(); ++i)

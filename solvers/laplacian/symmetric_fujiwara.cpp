@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solvers/laplacian/symmetric_laplacian.h"
 
@@ -18,8 +19,29 @@ void for_each_halfedge(const IndexLists& faces, Action&& action)
     }
 }
 
-/// The edges of own faces on the rim of the sub-mesh, and all edges of the faces beyond, each once.
-std::vector<VertexPair> list_outer_edges(const FacesOnBothSides& faces)
+/// Edges by the number of faces that they have here.
+struct OuterEdges {
+    /// Of several faces.
+    std::vector<VertexPair> inner;
+    /// Of one face. Those at a vertex that may move are on the boundary of the whole mesh.
+    std::vector<VertexPair> rim;
+};
+
+/// Each of them once, in ascending order.
+OuterEdges by_number_of_faces(std::vector<VertexPair> edges)
+{
+    OuterEdges outer;
+    std::sort(edges.begin(), edges.end());
+    for (auto first = edges.begin(); first != edges.end();) {
+        const auto last = std::find_if(first, edges.end(), [&](const VertexPair& e) { return e != *first; });
+        (last - first == 1 ? outer.rim : outer.inner).push_back(*first);
+        first = last;
+    }
+    return outer;
+}
+
+/// The edges of own faces on the rim of the sub-mesh, and all edges of the faces beyond.
+OuterEdges list_outer_edges(const FacesOnBothSides& faces)
 {
     std::vector<VertexPair> edges;
     const auto add = [&](Index start, Index end) { edges.push_back({std::min(start, end), std::max(start, end)}); };
@@ -28,9 +50,7 @@ std::vector<VertexPair> list_outer_edges(const FacesOnBothSides& faces)
             add(start, end);
     });
     for_each_halfedge(faces.beyond, [&](std::size_t, Index start, Index end) { add(start, end); });
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
+    return by_number_of_faces(std::move(edges));
 }
 
 /// The edges between two own faces, or those on the rim, each once.
@@ -43,7 +63,8 @@ void append_own_edges(const FacesOnBothSides& faces, bool on_rim, std::vector<Ve
     });
 }
 
-/// K has -1/‖e‖ for each edge, M_v the mean length of the edges at v.
+/// K has -1/‖e‖ for each edge, M_v the mean length of the edges at v. Half of an edge on the boundary counts, as one of
+/// its two half-edges does.
 class SymmetricFujiwara final : public SymmetricLaplacian {
   public:
     explicit SymmetricFujiwara(const FacesOnBothSides& faces)
@@ -51,15 +72,18 @@ class SymmetricFujiwara final : public SymmetricLaplacian {
     {
         edges_.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
         append_own_edges(faces, false, edges_);
-        const std::vector<VertexPair> outer = list_outer_edges(faces);
-        count_edges(edges_);
-        count_edges(outer);
+        const OuterEdges outer = list_outer_edges(faces);
+        count_edges(edges_, 1.0);
+        count_edges(outer.inner, 1.0);
+        count_edges(outer.rim, 0.5);
         for (double& degree : inverse_degree_)
             degree = degree > 0.0 ? 1.0 / degree : 0.0;
         if (faces.contributions == Contributions::BothSides)
-            edges_.insert(edges_.end(), outer.begin(), outer.end());
+            edges_.insert(edges_.end(), outer.inner.begin(), outer.inner.end());
         n_whole_ = edges_.size();
-        if (faces.contributions == Contributions::OwnFaces)
+        if (faces.contributions == Contributions::BothSides)
+            edges_.insert(edges_.end(), outer.rim.begin(), outer.rim.end());
+        else
             append_own_edges(faces, true, edges_);
         edges_.shrink_to_fit();
     }
@@ -90,18 +114,18 @@ class SymmetricFujiwara final : public SymmetricLaplacian {
     }
 
   private:
-    void count_edges(const std::vector<VertexPair>& edges)
+    void count_edges(const std::vector<VertexPair>& edges, double share)
     {
         for (const VertexPair& e : edges) {
-            inverse_degree_[at(e.first)] += 1.0;
-            inverse_degree_[at(e.second)] += 1.0;
+            inverse_degree_[at(e.first)] += share;
+            inverse_degree_[at(e.second)] += share;
         }
     }
 
     /// First those that count whole, then those of which half counts.
     std::vector<VertexPair> edges_;
     std::size_t n_whole_ = 0;
-    /// Per vertex: 1 / number of edges.
+    /// Per vertex: 1 / number of edges, those on the boundary counted half.
     std::vector<double> inverse_degree_;
 };
 

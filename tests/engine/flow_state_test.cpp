@@ -140,6 +140,7 @@ TEST_CASE("a state of another flow is refused by what differs")
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.tolerance = 0.1; }), "tolerance was none"));
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.sweep = Sweep::Fixed; }), "sweep"));
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.reference = true; }), "reference"));
+    CHECK(names(refused(mesh, [](FlowOptions& o) { o.fixed_vertices = {5}; }), "fixed_vertices was none"));
     CHECK(names(refused(mesh, [](FlowOptions& o) { o.steps = 1; }), "after step 2 already"));
     CHECK(refused(mesh, [](FlowOptions& o) { o.threads = 2, o.steps = 9, o.record_schedule = true; }).empty());
     CHECK(refused(mesh, nothing).empty());

@@ -80,3 +80,24 @@ TEST_CASE("a mesh of OpenMesh that is stopped has the last complete step")
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options, stop_after_two, {.stop = source.get_token()}), Cancelled);
     CHECK(to_polygon_mesh(mesh).vertices == second);
 }
+
+TEST_CASE("locked vertices stay, and so do those that are not selected where any is")
+{
+    DoublePolyMesh mesh = openmesh_of<DoublePolyMesh>(make_quads(400));
+    const PolygonMesh before = to_polygon_mesh(mesh);
+    CHECK(held_by_status(mesh).empty());
+    mesh.request_vertex_status();
+    CHECK(held_by_status(mesh).empty());
+    mesh.status(mesh.vertex_handle(150)).set_locked(true);
+    CHECK(held_by_status(mesh) == std::vector<Index>{150});
+    for (unsigned v = 140; v < 300; ++v)
+        mesh.status(mesh.vertex_handle(v)).set_selected(true);
+    CHECK(held_by_status(mesh).size() == at(before.n_vertices()) - 159);
+    mean_curvature_flow(mesh, two_steps());
+    const PolygonMesh after = to_polygon_mesh(mesh);
+    const Topology topology = make_topology(before);
+    for (Index v = 0; v < before.n_vertices(); ++v) {
+        const bool may_move = topology.moves(v) && v >= 140 && v < 300 && v != 150;
+        CHECK((after.vertices.row(v) != before.vertices.row(v)) == may_move);
+    }
+}

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/errors.h"
 #include "partition/topology.h"
 #include "samples/common/meshes.h"
 #include "tests/support/test_meshes.h"
@@ -213,4 +214,22 @@ TEST_CASE("the fans of a label are its faces, run by run")
             }
         }
     }
+}
+
+TEST_CASE("at first interior vertices move, with a free boundary those on it too, and those held never")
+{
+    const PolygonMesh mesh = side_by_side({quad_grid(4, 4), three_wings()});
+    Topology topology = make_topology(mesh);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        CHECK(topology.moves(v) == (topology.kind[at(v)] == VertexKind::Interior));
+    free_boundary(topology);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        CHECK(topology.moves(v) ==
+              (topology.kind[at(v)] == VertexKind::Interior || topology.kind[at(v)] == VertexKind::Boundary));
+    REQUIRE(topology.moves(0));
+    hold(topology, std::vector<Index>{0, 6, 0});
+    CHECK_FALSE(topology.moves(0));
+    CHECK_FALSE(topology.moves(6));
+    CHECK_THROWS_AS(hold(topology, std::vector<Index>{mesh.n_vertices()}), InputError);
+    CHECK_THROWS_AS(hold(topology, std::vector<Index>{-1}), InputError);
 }

@@ -37,3 +37,13 @@ TEST_CASE("numbers of bytes are read strictly, with units")
                              "nan", "inf", "1e30", "9999999999T", "1M5"})
         CHECK_THROWS_AS(parse_bytes(text), OptionError);
 }
+
+TEST_CASE("lengths are read strictly, in units of length or of the diagonal")
+{
+    CHECK(parse_length("0.5").value == 0.5);
+    CHECK_FALSE(parse_length("0.5").of_diagonal);
+    CHECK(parse_length("2%").value == 0.02);
+    CHECK(parse_length("2%").of_diagonal);
+    for (const char* text : {"", "%", "0", "0%", "-1%", "2 %", "2%%", "2mm", "nan%", "inf"})
+        CHECK_THROWS_AS(parse_length(text), OptionError);
+}

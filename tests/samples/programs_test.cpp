@@ -2,6 +2,7 @@
 #include <map>
 #include <string>
 
+#include "partition/io/mesh_io.h"
 #include "tests/samples/workshop.h"
 
 using namespace seamflow;
@@ -33,6 +34,14 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step -1",
              "mesh.obj out.obj --time-step",
              "mesh.obj out.obj --time-step 1 --time-step-edges 1",
+             "mesh.obj out.obj --time-step 1 --radius 2%",
+             "mesh.obj out.obj --radius 2mm",
+             "mesh.obj out.obj --time-step 1 --boundary natural",
+             "mesh.obj out.obj --time-step 1 --boundary free --laplacian ptackova-velho",
+             "mesh.obj out.obj --time-step 1 --boundary free --subdomains 4 --conditions robin",
+             "mesh.obj out.obj --time-step 1 --fix-property locked",
+             "mesh.obj out.obj --time-step 1 --rescale length",
+             "mesh.obj out.obj --time-step 1 --fix labels.txt --rescale area",
              "mesh.obj out.obj --time-step 1 --p 0",
              "mesh.obj out.obj --time-step 1 --steps -1",
              "mesh.obj out.obj --time-step 1 --steps 1.5",
@@ -369,4 +378,57 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     CHECK(w.said().find("there are teaser, ") != std::string::npos);
     CHECK(w.run(FIGURES " texture") == 2);
     CHECK(w.run(FIGURES " --out results --meshes none texture") == 3);
+}
+
+TEST_CASE("three ways to say how much to smooth say the same")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj radius.obj --radius 5% --steps 3 --report radius.json") == 0);
+    CHECK(w.said().find("5% of the diagonal") != std::string::npos);
+    const Json report = w.json("radius.json");
+    CHECK(report["radius"].get<double>() == doctest::Approx(0.05 * report["diagonal"].get<double>()));
+    for (const auto& [option, key] :
+         {std::pair("--time-step ", "time_step"), {"--time-step-edges ", "time_step_edges"}}) {
+        REQUIRE(w.smooth("mesh.obj other.obj --steps 3 " + std::string(option) + report[key].dump()) == 0);
+        REQUIRE(w.run(COMPARE " radius.obj other.obj --report distance.json") == 0);
+        CHECK(w.json("distance.json")["v_max"].get<double>() < 1e-9);
+    }
+}
+
+TEST_CASE("vertices of a file stay, by their numbers or by a property")
+{
+    const Workshop w;
+    (void)w.directory.with("fixed.txt", "100\n101 # a corner\n500\n");
+    REQUIRE(w.smooth("mesh.obj held.obj --time-step-edges 5 --fix fixed.txt --report report.json") == 0);
+    const PolygonMesh before = read_mesh(w.directory / "mesh.obj").mesh;
+    const PolygonMesh after = read_mesh(w.directory / "held.obj").mesh;
+    for (const Index v : {100, 101, 500})
+        CHECK(after.vertices.row(v) == before.vertices.row(v));
+    CHECK(after.vertices.row(102) != before.vertices.row(102));
+
+    std::vector<double> mask(at(before.n_vertices()), 0.0);
+    mask[100] = mask[101] = mask[500] = 1.0;
+    const std::vector<Colour> grey(mask.size(), Colour{128, 128, 128});
+    const std::vector<VertexValues> values{{"rigid", mask}};
+    write_valued_ply(w.directory / "mask.ply", before, grey, values);
+    REQUIRE(w.smooth("mesh.obj masked.obj --time-step-edges 5 --fix mask.ply --fix-property rigid") == 0);
+    CHECK(read_mesh(w.directory / "masked.obj").mesh.vertices == after.vertices);
+    CHECK(w.smooth("mesh.obj out.obj --time-step-edges 5 --fix mask.ply") == 3);
+    CHECK(w.said().find("rigid") != std::string::npos);
+    CHECK(w.smooth("mesh.obj out.obj --time-step-edges 5 --fix mesh.obj") == 3);
+    CHECK(w.smooth("mask.ply out.ply --time-step-edges 5 --fix mask.ply --fix-property rigid") == 0);
+    CHECK(w.smooth("mesh.obj out.obj --time-step-edges 5 --fix fixed.txt --report fixed.txt") == 2);
+    CHECK_FALSE(w.has("out.obj"));
+}
+
+TEST_CASE("rims draw in where they are free, and the size stays where that is asked for")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj free.obj --radius 10% --boundary free --rescale area --report report.json") == 0);
+    CHECK(w.json("report.json")["fixed_vertices"].get<int>() == 0);
+    CHECK(w.smooth("mesh.obj out.obj --radius 10% --rescale area") == 3);
+    CHECK(w.said().find("held fixed") != std::string::npos);
+    CHECK(w.smooth("mesh.obj out.obj --radius 10% --rescale volume --boundary free") == 3);
+    CHECK(w.said().find("closed") != std::string::npos);
+    CHECK_FALSE(w.has("out.obj"));
 }

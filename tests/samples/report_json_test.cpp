@@ -54,7 +54,7 @@ TEST_CASE("displacements are in mean edge lengths of the input")
     report.steps = {step};
     report.displacement = {.path = step.displacement, .drift = {0.5, 0.25, 7.0}};
     RunRecord run;
-    run.mean_edge = 2.0;
+    run.scale.mean_edge = 2.0;
     const Json json = Json::parse(smooth_report_json(run, report));
     CHECK(json["steps"][0]["tangential_mean"] == 0.5);
     CHECK(json["steps"][0]["tangential_rms"] == 1.0);

@@ -38,6 +38,8 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     }
     add("few iterations", [](FlowOptions& o) { o.tolerance = 1e-9, o.converge_iterations = 2; });
     add("chosen", [](FlowOptions& o) { o.subdomains = 0, o.approach = Approach::Automatic; });
+    add("rescaled", [](FlowOptions& o) { o.tolerance = 1e-2, o.boundary = Boundary::Free, o.rescale = Rescale::Area; });
+    add("held", [](FlowOptions& o) { o.fixed_vertices = {3, 100, 101, 102, 250}; });
     add("uncut", [](FlowOptions& o) { o.subdomains = 1; });
     add("plain", [](FlowOptions& o) { o = FlowOptions::plain(), o.steps = 4, o.subdomains = 7, o.time_step = 1e-3; });
     add("uncorrected", [](FlowOptions& o) { o.correction = Correction::None; });

@@ -1,0 +1,51 @@
+#include "samples/common/smoothing_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/smoothing_amount.h"
+#include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/common/command_line.h"
+
+namespace seamflow {
+
+namespace {
+
+double require_step(double time_step, const char* option)
+{
+    if (std::isnormal(time_step))
+        return time_step;
+    throw InputError(std::string("has no size to measure ") + option + " by; use --time-step");
+}
+
+}  // namespace
+
+LengthOnMesh parse_length(std::string_view text)
+{
+    const bool of_diagonal = text.ends_with('%');
+    if (!of_diagonal)
+        return {parse_real(text, positive()), false};
+    return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
+}
+
+MeshScale measure_scale(const PolygonMesh& mesh)
+{
+    MeshScale scale{.mean_edge = mean_edge_length(mesh)};
+    if (mesh.n_vertices() > 0)
+        scale.diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+    return scale;
+}
+
+double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps)
+{
+    if (request.time_step_edges)
+        return require_step(*request.time_step_edges * scale.mean_edge * scale.mean_edge, "--time-step-edges");
+    if (!request.radius)
+        return request.time_step;
+    const double radius = request.radius->value * (request.radius->of_diagonal ? scale.diagonal : 1.0);
+    return require_step(time_step_for_radius(radius, std::max(steps, 1)), "--radius");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// A length in units of the mesh, or as a part of its bounding box's diagonal.
+struct LengthOnMesh {
+    double value = 0.0;
+    bool of_diagonal = false;
+};
+
+/// Reads a positive length: "0.5" in units of length, "2%" of the diagonal.
+/// @throws OptionError saying what was expected.
+LengthOnMesh parse_length(std::string_view text);
+
+/// The sizes of a mesh that amounts of smoothing are measured by, in units of length.
+struct MeshScale {
+    double mean_edge = 0.0;
+    /// Of the bounding box of all vertices.
+    double diagonal = 0.0;
+};
+
+MeshScale measure_scale(const PolygonMesh& mesh);
+
+/// How much a flow is to smooth, in one of three ways.
+struct SmoothingRequest {
+    /// dt in length².
+    double time_step = 0.0;
+    /// dt in squared mean edge lengths, if not empty.
+    std::optional<double> time_step_edges;
+    /// What all steps together smooth (see smoothed_radius), if not empty.
+    std::optional<LengthOnMesh> radius;
+};
+
+/// dt in length² for that many steps.
+/// @throws InputError for a mesh that has no size to measure by.
+double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps);
+
+}  // namespace seamflow
