@@ -28,10 +28,12 @@ Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step
 }  // namespace
 
 ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                             const FlowOptions& options)
-    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
+                             const FlowOptions& options, Progress& progress)
+    : progress_(&progress)
+    , decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
     , systems_(decomposition_.sub_meshes.size())
     , equation_(decomposition_, balancing_for(mesh, cut.n_parts, options.time_step))
+    , loops_(static_cast<double>(cut.n_parts))
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
@@ -40,7 +42,7 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , eliminated_(decomposition_.sub_meshes.size())
     , seconds_(decomposition_.sub_meshes.size())
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
-    , graph_(recorder_.get())
+    , graph_(recorder_.get(), &progress)
 {
     make_systems(options);
     make_graph();
@@ -48,10 +50,13 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
 
 void ConvergedFlow::make_systems(const FlowOptions& options)
 {
+    progress_->expect(static_cast<double>(systems_.size()));
     oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(systems_.size()), [&](Index s) {
+        progress_->require_going_on();
         const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
         on_behalf_of(sub_mesh, s,
                      [&] { systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian); });
+        progress_->count();
     });
     for (const auto& system : systems_) {
         system_views_.push_back(system.get());
@@ -94,7 +99,7 @@ void ConvergedFlow::step()
 {
     if (recorder_)
         recorder_->begin_step();
-    graph_.run(root_);
+    graph_.run(root_, loops_.parts());
     positions_.swap(next_);
     if (recorder_)
         recorder_->end_step();
@@ -123,7 +128,8 @@ void ConvergedFlow::solve_interface()
 {
     const Stopwatch watch;
     guess_.swap(interface_);
-    result_ = equation_.solve(system_views_, condensed_, guess_, stop_, interface_, run_in_parallel);
+    result_ = equation_.solve(system_views_, condensed_, guess_, stop_, interface_, loops_.begin(*progress_));
+    loops_.end(*progress_);
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
     if (result_.stagnated)
@@ -151,6 +157,34 @@ void ConvergedFlow::fill_in(Index s)
     seconds_[at(s)].solve += watch.lap();
 }
 
+void ConvergedFlow::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.arrays = {interface_};
+    memory.numbers = {distance_, static_cast<double>(steps_short_of_tolerance_), static_cast<double>(steps_stagnated_)};
+}
+
+void ConvergedFlow::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = next_ = memory.positions;
+    interface_ = reader.array_or_none(equation_.copies().n_vertices());
+    distance_ = reader.number();
+    steps_short_of_tolerance_ = reader.count();
+    steps_stagnated_ = reader.count();
+    reader.require_end();
+}
+
+void ConvergedFlow::add_seconds(PhaseSeconds& seconds) const
+{
+    for (const PhaseSeconds& of_sub_mesh : seconds_) {
+        seconds.assemble += of_sub_mesh.assemble;
+        seconds.factorise += of_sub_mesh.factorise;
+        seconds.solve += of_sub_mesh.solve;
+    }
+    seconds.interface += interface_seconds_;
+}
+
 void ConvergedFlow::describe(StepReport& report) const
 {
     report.iterations = result_.iterations;
@@ -171,12 +205,7 @@ void ConvergedFlow::describe(FlowReport& report) const
         report.subdomain_faces.push_back(static_cast<Index>(sub_mesh.faces.size()));
         report.subdomain_vertices.push_back(sub_mesh.n_vertices);
     }
-    for (const PhaseSeconds& seconds : seconds_) {
-        report.seconds.assemble += seconds.assemble;
-        report.seconds.factorise += seconds.factorise;
-        report.seconds.solve += seconds.solve;
-    }
-    report.seconds.interface = interface_seconds_;
+    add_seconds(report.seconds);
     report.steps_short_of_tolerance = steps_short_of_tolerance_;
     report.steps_stagnated = steps_stagnated_;
     if (steps_short_of_tolerance_ > 0)

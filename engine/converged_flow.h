@@ -5,6 +5,8 @@
 
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
+#include "engine/flow_state.h"
+#include "engine/progress.h"
 #include "engine/schedule_recorder.h"
 #include "engine/task_graph.h"
 #include "engine/workspaces.h"
@@ -23,9 +25,11 @@ namespace seamflow {
 /// Belongs to the arena in which it is constructed.
 class ConvergedFlow {
   public:
-    /// @param mesh, topology must outlive the flow.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low.
-    ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options);
+    /// @param mesh, topology, progress must outlive the flow.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+    ///         Cancelled, as all functions that take time.
+    ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+                  Progress& progress);
 
     /// One step. After an exception the positions are those before the step, and the flow is at its end.
     /// @throws ComputationError naming the sub-mesh.
@@ -36,6 +40,14 @@ class ConvergedFlow {
 
     /// There are no gaps to keep.
     [[nodiscard]] static const PolygonMesh* pieces() { return nullptr; }
+
+    /// Gives what the next step needs, and takes it back, before any step: the flow then goes on from there.
+    /// @throws InputError if it does not fit.
+    void save(StepMemory& memory) const;
+    void restore(const StepMemory& memory);
+
+    /// Adds the seconds spent in tasks.
+    void add_seconds(PhaseSeconds& seconds) const;
 
     /// Fills in what the flow knows of its last step.
     void describe(StepReport& report) const;
@@ -52,12 +64,15 @@ class ConvergedFlow {
     void solve_interface();
     void fill_in(Index s);
 
+    Progress* progress_;
     Decomposition decomposition_;
     Workspaces workspaces_;
     std::vector<std::unique_ptr<NeumannSystem>> systems_;
     std::vector<const NeumannSystem*> system_views_;
     std::size_t factor_bytes_ = 0;
     InterfaceEquation equation_;
+    /// Of the equation on Γ.
+    LoopCount loops_;
     InterfaceStop stop_;
     InterfaceResult result_;
     /// Estimated, of the positions to those of the undecomposed flow: what the steps leave adds up like errors that

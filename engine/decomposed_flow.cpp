@@ -38,16 +38,18 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 }  // namespace
 
 DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                               const FlowOptions& options, const std::vector<double>& curvature)
-    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, run_in_parallel))
+                               const FlowOptions& options, const std::vector<double>& curvature, Progress& progress)
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
-    , graph_(recorder_.get())
+    , graph_(recorder_.get(), &progress)
     , positions_(mesh.vertices)
+    , has_copies_(is_classical(options.conditions) || options.conditions == Conditions::Schwarz)
 {
     const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
     if (options.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.overlap);
-    make_states(mesh, options);
+    progress.require_going_on();
+    make_states(mesh, options, progress);
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
     if (options.conditions != Conditions::Schwarz && has_indicator_row(options.laplacian))
@@ -86,15 +88,18 @@ void DecomposedFlow::limit_factors(const FlowOptions& options)
     window_.size = static_cast<Index>(std::min(at(n), places));
 }
 
-void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& options)
+void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)
 {
     std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
+    progress.expect(static_cast<double>(made.size()));
     tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t s) {
+        progress.require_going_on();
         const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         on_behalf_of(sub_mesh, static_cast<Index>(s), [&] {
             made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
         });
         made[s]->p = robin_parameter(sub_mesh, made[s]->position, options);
+        progress.count();
     });
     states_.reserve(made.size());
     for (auto& state : made)
@@ -232,6 +237,47 @@ void DecomposedFlow::join()
         copies_->join(states_, positions_);
 }
 
+/// Sub-meshes that do not differ have no more than the whole mesh has.
+void DecomposedFlow::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.numbers = {static_cast<double>(steps_done_)};
+    for (const SubMeshState& state : states_)
+        if (has_copies_)
+            memory.arrays.emplace_back(state.position.topRows(state.sub_mesh->n_vertices));
+    if (drift_)
+        drift_->save(memory);
+}
+
+void DecomposedFlow::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = memory.positions;
+    steps_done_ = reader.count();
+    for (SubMeshState& state : states_) {
+        const SubMesh& sub_mesh = *state.sub_mesh;
+        if (has_copies_)
+            state.position.topRows(sub_mesh.n_vertices) = reader.array(sub_mesh.n_vertices);
+        else
+            for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+                state.position.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
+    }
+    if (drift_)
+        drift_->restore(reader);
+    reader.require_end();
+    join();
+}
+
+void DecomposedFlow::add_seconds(PhaseSeconds& seconds) const
+{
+    for (const SubMeshState& state : states_) {
+        seconds.assemble += state.seconds.assemble;
+        seconds.factorise += state.seconds.factorise;
+        seconds.solve += state.seconds.solve;
+        seconds.correct += state.seconds.correct;
+    }
+}
+
 void DecomposedFlow::describe(StepReport& report) const
 {
     if (copies_)
@@ -252,11 +298,8 @@ void DecomposedFlow::describe(FlowReport& report) const
         report.subdomain_faces.push_back(static_cast<Index>(state.sub_mesh->faces.size()));
         report.subdomain_vertices.push_back(state.sub_mesh->n_vertices);
         report.p.push_back(state.p);
-        report.seconds.assemble += state.seconds.assemble;
-        report.seconds.factorise += state.seconds.factorise;
-        report.seconds.solve += state.seconds.solve;
-        report.seconds.correct += state.seconds.correct;
     }
+    add_seconds(report.seconds);
     if (recorder_)
         report.schedule = recorder_->schedule();
 }

@@ -10,6 +10,8 @@
 #include "engine/factor_window.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
+#include "engine/flow_state.h"
+#include "engine/progress.h"
 #include "engine/schedule_recorder.h"
 #include "engine/sub_mesh_state.h"
 #include "engine/task_graph.h"
@@ -38,9 +40,11 @@ class DecomposedFlow {
     /// Cuts out the sub-meshes, analyses their equations and builds the graph.
     /// @param mesh, topology must outlive the flow.
     /// @param curvature #V: ‖ΔV⁰‖.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low.
+    /// @param progress must outlive the flow; counts sub-meshes here, and tasks in steps.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+    ///         Cancelled, as all functions that take time.
     DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                   const std::vector<double>& curvature);
+                   const std::vector<double>& curvature, Progress& progress);
 
     /// One backward Euler step. After an exception the positions are those before the step, and the flow is at its end.
     /// @throws ComputationError naming the sub-mesh.
@@ -52,6 +56,14 @@ class DecomposedFlow {
     /// The sub-meshes after the last complete step (see FlowReport::pieces); null without FlowOptions::keep_gaps.
     [[nodiscard]] const PolygonMesh* pieces() const { return copies_ ? copies_->pieces() : nullptr; }
 
+    /// Gives what the next step needs, and takes it back, before any step: the flow then goes on from there.
+    /// @throws InputError if it does not fit.
+    void save(StepMemory& memory) const;
+    void restore(const StepMemory& memory);
+
+    /// Adds the seconds spent in tasks.
+    void add_seconds(PhaseSeconds& seconds) const;
+
     /// Fills in what the flow knows of its last step.
     void describe(StepReport& report) const;
 
@@ -59,7 +71,7 @@ class DecomposedFlow {
     void describe(FlowReport& report) const;
 
   private:
-    void make_states(const PolygonMesh& mesh, const FlowOptions& options);
+    void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
     TaskGraph::Node add_sweep(const SweepPlan& plan, const FlowOptions& options);
     void add_predictions(const SweepPlan& plan, const std::vector<TaskGraph::Node>& factorised,
                          const std::vector<TaskGraph::Node>& solved);
@@ -87,6 +99,8 @@ class DecomposedFlow {
     TaskGraph graph_;
     Points positions_;
     int steps_done_ = 0;
+    /// Whether sub-meshes differ on what they share.
+    bool has_copies_;
 };
 
 }  // namespace seamflow

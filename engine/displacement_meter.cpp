@@ -5,6 +5,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "partition/errors.h"
+
 namespace seamflow {
 
 namespace {
@@ -32,8 +34,28 @@ DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& to
     , latest_(undefined_field(mesh.n_vertices()))
     , path_(undefined_field(mesh.n_vertices()))
 {
-    oneapi::tbb::parallel_for(Index{0}, mesh.n_vertices(),
-                              [&](Index v) { normal_.row(v) = normals_(v, mesh.vertices); });
+    measure_normals(mesh.vertices);
+}
+
+void DisplacementMeter::measure_normals(const Points& positions)
+{
+    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(positions.rows()),
+                              [&](Index v) { normal_.row(v) = normals_(v, positions); });
+}
+
+DisplacementSums DisplacementMeter::sums() const
+{
+    return {.drift = drift_, .tangential = path_.tangential, .normal = path_.normal};
+}
+
+void DisplacementMeter::restore(const DisplacementSums& sums, const Points& now)
+{
+    if (sums.drift.rows() != drift_.rows() || sums.tangential.size() != path_.tangential.size() ||
+        sums.normal.size() != path_.normal.size())
+        throw InputError("the displacements to go on from are not those of this mesh");
+    drift_ = sums.drift;
+    path_ = {.tangential = sums.tangential, .normal = sums.normal};
+    measure_normals(now);
 }
 
 DisplacementStatistics DisplacementMeter::add_step(const Points& before, const Points& after)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/flow_report.h"
+#include "engine/flow_state.h"
 #include "partition/metrics/displacement.h"
 
 namespace seamflow {
@@ -21,7 +22,15 @@ class DisplacementMeter {
     /// Of all steps so far.
     [[nodiscard]] TotalDisplacement total() const;
 
+    /// The sums that the next step adds to; and goes on from there.
+    /// @param now #V by 3, the positions then.
+    /// @throws InputError if they do not fit.
+    [[nodiscard]] DisplacementSums sums() const;
+    void restore(const DisplacementSums& sums, const Points& now);
+
   private:
+    void measure_normals(const Points& positions);
+
     VertexNormals normals_;
     /// #V by 3: unit normals of the latest state, and the sums of the tangential parts.
     Points normal_;

@@ -113,6 +113,18 @@ void DriftEstimate::add_step(const Points& before)
     swept_ += equation_.error();
 }
 
+void DriftEstimate::save(StepMemory& memory) const
+{
+    memory.arrays.push_back(corrected_);
+    memory.arrays.push_back(swept_);
+}
+
+void DriftEstimate::restore(StepMemoryReader& memory)
+{
+    corrected_ = memory.array(corrected_.rows());
+    swept_ = memory.array(swept_.rows());
+}
+
 std::optional<double> DriftEstimate::largest() const
 {
     double squared = 0.0;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/flow_options.h"
+#include "engine/flow_state.h"
 #include "engine/sub_mesh_state.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/topology.h"
@@ -40,6 +41,11 @@ class DriftEstimate {
     /// Estimated largest distance of a vertex to the undecomposed flow, in units of length. Empty where that is not
     /// finite.
     [[nodiscard]] std::optional<double> largest() const;
+
+    /// Adds what the next step needs, and takes it back.
+    /// @throws InputError if it does not fit.
+    void save(StepMemory& memory) const;
+    void restore(StepMemoryReader& memory);
 
   private:
     [[nodiscard]] const Points& joined(std::vector<SubMeshState>& states, Index s) const;

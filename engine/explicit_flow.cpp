@@ -58,9 +58,11 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
                                 [](double a, double b) { return std::min(a, b); });
 }
 
-ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                           Progress& progress)
     : mesh_(&mesh)
     , topology_(&topology)
+    , progress_(&progress)
     , laplacian_(options.laplacian)
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
@@ -87,7 +89,7 @@ void ExplicitFlow::require_stable()
 void ExplicitFlow::step()
 {
     require_stable();
-    tbb::parallel_for(Index{0}, mesh_->n_vertices(), [&](Index v) {
+    for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
             next_.row(v) =
                 positions_.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, positions_, laplacian_, v);
@@ -95,6 +97,21 @@ void ExplicitFlow::step()
     if (!next_.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step or backward Euler steps");
     positions_.swap(next_);
+}
+
+void ExplicitFlow::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.numbers = {first_limit_, smallest_limit_};
+}
+
+void ExplicitFlow::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = next_ = memory.positions;
+    first_limit_ = reader.number();
+    smallest_limit_ = reader.number();
+    reader.require_end();
 }
 
 void ExplicitFlow::describe(FlowReport& report) const

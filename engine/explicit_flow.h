@@ -2,6 +2,8 @@
 
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
+#include "engine/flow_state.h"
+#include "engine/progress.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -17,8 +19,8 @@ double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, 
 /// do not depend on the number of threads.
 class ExplicitFlow {
   public:
-    /// @param mesh, topology must outlive the flow.
-    ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options);
+    /// @param mesh, topology, progress must outlive the flow.
+    ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
 
     /// One step. After an exception the positions are those before the step.
     /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
@@ -32,6 +34,14 @@ class ExplicitFlow {
     /// There are no pieces.
     [[nodiscard]] static const PolygonMesh* pieces() { return nullptr; }
 
+    /// Gives what the next step needs, and takes it back, before any step: the flow then goes on from there.
+    /// @throws InputError if it does not fit.
+    void save(StepMemory& memory) const;
+    void restore(const StepMemory& memory);
+
+    /// There are no tasks.
+    static void add_seconds(PhaseSeconds&) {}
+
     /// Of a single step it knows nothing to tell.
     static void describe(StepReport&) {}
 
@@ -43,6 +53,7 @@ class ExplicitFlow {
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
+    Progress* progress_;
     Laplacian laplacian_;
     double time_step_;
     Points positions_;

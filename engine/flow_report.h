@@ -118,6 +118,8 @@ struct FlowReport {
     std::vector<std::string> remarks;
 };
 
+struct FlowState;
+
 /// What an observer sees after each step.
 struct StepState {
     /// Number of the step, from 1.
@@ -127,6 +129,8 @@ struct StepState {
     const StepReport& report;
     /// See FlowReport::pieces; null without FlowOptions::keep_gaps.
     const PolygonMesh* pieces = nullptr;
+    /// Copies everything that the flow needs to go on from here (see FlowState). May be called while the observer runs.
+    std::function<FlowState()> capture = {};
 };
 
 /// Called after each step, in the thread that called the flow.

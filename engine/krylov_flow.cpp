@@ -22,14 +22,17 @@ constexpr int overlap_layers = 2;
 
 }  // namespace
 
-KrylovFlow::KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options)
+KrylovFlow::KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+                       Progress& progress)
     : mesh_(&mesh)
+    , progress_(&progress)
+    , loops_(2.0 * cut.n_parts)
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
-    , graph_(recorder_.get())
+    , graph_(recorder_.get(), &progress)
 {
     cut_out(topology, cut);
     make_blocks(options);
@@ -48,7 +51,7 @@ void KrylovFlow::cut_out(const Topology& topology, const Cut& cut)
         parts_[s] =
             make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, static_cast<Index>(s), std::move(faces[s]));
     });
-    n_interface_vertices_ = static_cast<Index>(select(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+    n_interface_vertices_ = static_cast<Index>(select(progress_->loop(), mesh_->n_vertices(), [&](Index v) {
                                                    return is_on_interface(topology, cut.labels, v);
                                                }).size());
 }
@@ -57,9 +60,12 @@ void KrylovFlow::make_blocks(const FlowOptions& options)
 {
     blocks_.resize(parts_.size());
     seconds_.resize(parts_.size());
+    progress_->expect(static_cast<double>(parts_.size()));
     oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(parts_.size()), [&](Index s) {
+        progress_->require_going_on();
         on_behalf_of(parts_[at(s)].sub_mesh, s,
                      [&] { blocks_[at(s)] = std::make_unique<SchwarzBlock>(parts_[at(s)], options.laplacian); });
+        progress_->count();
     });
     std::size_t largest = 1;
     for (const auto& block : blocks_) {
@@ -99,7 +105,7 @@ void KrylovFlow::step()
 {
     if (recorder_)
         recorder_->begin_step();
-    graph_.run(root_);
+    graph_.run(root_, loops_.parts());
     positions_.swap(next_);
     if (recorder_)
         recorder_->end_step();
@@ -123,14 +129,41 @@ void KrylovFlow::solve_traces()
 {
     const Stopwatch watch;
     next_ = positions_;
-    result_ = equation_->solve(block_views_, stop_, next_,
-                               {run_in_parallel, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
+    result_ =
+        equation_->solve(block_views_, stop_, next_,
+                         {loops_.begin(*progress_), [this]() -> SolverWorkspace& { return workspaces_.local(); }});
+    loops_.end(*progress_);
     if (!(result_.residual <= stop_.tolerance))
         ++steps_short_of_tolerance_;
     if (result_.stagnated)
         ++steps_stagnated_;
     distance_ = std::hypot(distance_, result_.distance);
     trace_seconds_ += watch.seconds();
+}
+
+void KrylovFlow::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.numbers = {distance_, static_cast<double>(steps_short_of_tolerance_), static_cast<double>(steps_stagnated_)};
+}
+
+void KrylovFlow::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = next_ = memory.positions;
+    distance_ = reader.number();
+    steps_short_of_tolerance_ = reader.count();
+    steps_stagnated_ = reader.count();
+    reader.require_end();
+}
+
+void KrylovFlow::add_seconds(PhaseSeconds& seconds) const
+{
+    for (const PhaseSeconds& of_sub_mesh : seconds_) {
+        seconds.assemble += of_sub_mesh.assemble;
+        seconds.factorise += of_sub_mesh.factorise;
+    }
+    seconds.interface += trace_seconds_;
 }
 
 void KrylovFlow::describe(StepReport& report) const
@@ -153,11 +186,7 @@ void KrylovFlow::describe(FlowReport& report) const
         report.subdomain_faces.push_back(static_cast<Index>(part.sub_mesh.faces.size()));
         report.subdomain_vertices.push_back(part.sub_mesh.n_vertices);
     }
-    for (const PhaseSeconds& seconds : seconds_) {
-        report.seconds.assemble += seconds.assemble;
-        report.seconds.factorise += seconds.factorise;
-    }
-    report.seconds.interface = trace_seconds_;
+    add_seconds(report.seconds);
     report.steps_short_of_tolerance = steps_short_of_tolerance_;
     report.steps_stagnated = steps_stagnated_;
     if (steps_short_of_tolerance_ > 0)

@@ -6,6 +6,8 @@
 #include "engine/factor_pool.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
+#include "engine/flow_state.h"
+#include "engine/progress.h"
 #include "engine/schedule_recorder.h"
 #include "engine/task_graph.h"
 #include "engine/workspaces.h"
@@ -24,9 +26,11 @@ namespace seamflow {
 /// Belongs to the arena in which it is constructed.
 class KrylovFlow {
   public:
-    /// @param mesh, topology must outlive the flow.
-    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low.
-    KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options);
+    /// @param mesh, topology, progress must outlive the flow.
+    /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+    ///         Cancelled, as all functions that take time.
+    KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
+               Progress& progress);
 
     /// One step. After an exception the positions are those before the step, and the flow is at its end.
     /// @throws ComputationError naming the sub-mesh.
@@ -37,6 +41,14 @@ class KrylovFlow {
 
     /// There are no gaps to keep.
     [[nodiscard]] static const PolygonMesh* pieces() { return nullptr; }
+
+    /// Gives what the next step needs, and takes it back, before any step: the flow then goes on from there.
+    /// @throws InputError if it does not fit.
+    void save(StepMemory& memory) const;
+    void restore(const StepMemory& memory);
+
+    /// Adds the seconds spent in tasks.
+    void add_seconds(PhaseSeconds& seconds) const;
 
     /// Fills in what the flow knows of its last step.
     void describe(StepReport& report) const;
@@ -52,12 +64,15 @@ class KrylovFlow {
     void solve_traces();
 
     const PolygonMesh* mesh_;
+    Progress* progress_;
     FactorPool factors_;
     Workspaces workspaces_;
     std::vector<GrownPart> parts_;
     std::vector<std::unique_ptr<SchwarzBlock>> blocks_;
     std::vector<SchwarzBlock*> block_views_;
     std::unique_ptr<TraceEquation> equation_;
+    /// Of the equation on traces.
+    LoopCount loops_;
     TraceStop stop_;
     TraceResult result_;
     /// Estimated, to the undecomposed flow (see ConvergedFlow).

@@ -15,9 +15,12 @@
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
 #include "engine/explicit_flow.h"
+#include "engine/flow_state.h"
 #include "engine/krylov_flow.h"
 #include "engine/parallel_loop.h"
+#include "engine/progress.h"
 #include "engine/rescaling.h"
+#include "engine/step_shares.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
@@ -47,16 +50,16 @@ const SubdomainNeeds& needs_of(const FlowOptions& options)
     return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
 }
 
-Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Loop& loop)
 {
     if (options.scheme == Scheme::ExplicitEuler)
         return uncut(mesh);
     if (!options.labels.empty())
-        return cut_by_labels(mesh, topology, options.labels, run_in_parallel);
+        return cut_by_labels(mesh, topology, options.labels, loop);
     if (options.subdomains > 0)
-        return cut_into(mesh, topology, options.subdomains, run_in_parallel);
+        return cut_into(mesh, topology, options.subdomains, loop);
     const SubdomainChoice choice = choose_subdomains(mesh, options.time_step, needs_of(options));
-    Cut cut = cut_into(mesh, topology, choice.count, run_in_parallel);
+    Cut cut = cut_into(mesh, topology, choice.count, loop);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
 }
@@ -85,9 +88,9 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
 }
 
 /// How the mesh hangs together, with what the options say of its vertices.
-Topology make_topology(const PolygonMesh& mesh, const FlowOptions& options)
+Topology make_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop)
 {
-    Topology topology = make_topology(mesh, run_in_parallel);
+    Topology topology = make_topology(mesh, loop);
     if (options.boundary == Boundary::Free)
         free_boundary(topology);
     hold(topology, options.fixed_vertices);
@@ -150,43 +153,132 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report)
                                                   "(FlowOptions::tolerance) gives the undecomposed step itself."));
 }
 
-template <class Flow>
-void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const StepObserver& on_step,
-               std::vector<double> curvature, Flow& flow, DecomposedFlow* reference, FlowReport& report)
+/// What the parts of a flow have to do with.
+struct Run {
+    PolygonMesh& mesh;
+    const Topology& topology;
+    const FlowOptions& options;
+    const StepObserver& on_step;
+    const FlowState* resume;
+    const FlowIdentity& identity;
+    Progress& progress;
+    FlowReport& report;
+};
+
+/// Adds what was spent in tasks.
+void add_task_seconds(PhaseSeconds& seconds, const PhaseSeconds& further)
 {
-    double curvature_before = largest_curvature(curvature);
+    seconds.assemble += further.assemble;
+    seconds.factorise += further.factorise;
+    seconds.solve += further.solve;
+    seconds.correct += further.correct;
+    seconds.interface += further.interface;
+}
+
+template <class Flow>
+FlowState capture(const Run& run, const Flow& flow, const DecomposedFlow* reference, const DisplacementMeter& meter)
+{
+    FlowState state{
+        .identity = run.identity,
+        .cut = checksum_of(run.report.labels),
+        .steps = run.report.steps,
+        .seconds = {.step = run.report.seconds.step,
+                    .total = run.report.seconds.total - run.report.seconds.cut - run.report.seconds.analyse},
+        .displacement = meter.sums()};
+    if (run.resume != nullptr)
+        add_task_seconds(state.seconds, run.resume->seconds);
+    flow.add_seconds(state.seconds);
+    flow.save(state.flow);
+    if (reference != nullptr)
+        reference->save(state.reference.emplace());
+    return state;
+}
+
+/// Brings everything to where it was after a step.
+template <class Flow>
+void restore(const Run& run, Flow& flow, DecomposedFlow* reference, const Rescaling& rescaling,
+             DisplacementMeter& meter)
+{
+    const FlowState& state = *run.resume;
+    if (state.cut != checksum_of(run.report.labels))
+        throw InputError("the state to go on from belongs to another cut of the same mesh: the program that made it "
+                         "had another METIS");
+    for (const StepMemory* memory : {&state.flow, state.reference ? &*state.reference : nullptr})
+        if (memory != nullptr && memory->positions.rows() != run.mesh.vertices.rows())
+            throw InputError("the state to go on from has not the vertices of this mesh");
+    if (state.reference.has_value() != (reference != nullptr))
+        throw InputError("the state to go on from has not the undecomposed flow");
+    flow.restore(state.flow);
+    if (reference != nullptr)
+        reference->restore(*state.reference);
+    Points rescaled = flow.positions();
+    rescaling.apply(rescaled);
+    run.mesh.vertices.swap(rescaled);
+    meter.restore(state.displacement, run.mesh.vertices);
+    run.report.steps = state.steps;
+    run.report.seconds.step = state.seconds.step;
+    run.report.seconds.total += state.seconds.total;
+}
+
+/// Takes the same step with the whole mesh.
+void compare_with(DecomposedFlow& reference, const Run& run, int step, const StepShares& shares,
+                  const Points& positions, StepReport& of_step)
+{
+    run.progress.enter(FlowPhase::Reference, step, shares.begin_of_reference(), shares.end());
+    Stopwatch watch;
+    named("step " + std::to_string(step) + " of the undecomposed flow", [&] { reference.step(); });
+    of_step.reference_seconds = watch.lap();
+    of_step.distance = vertex_distance(run.mesh, reference.positions(), positions);
+}
+
+/// One step after the other. The mesh moves when a step is complete, with that of the undecomposed flow.
+template <class Flow>
+void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, DecomposedFlow* reference, double begin)
+{
+    const auto& [mesh, topology, options, on_step, resume, identity, progress, report] = run;
     DisplacementMeter meter(mesh, topology);
     const Rescaling rescaling(mesh, topology, options.rescale);
+    if (resume != nullptr)
+        restore(run, flow, reference, rescaling, meter);
+    const auto first = static_cast<int>(report.steps.size()) + 1;
+    double curvature_before =
+        report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
+    StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
     Points rescaled;
-    for (int step = 1; step <= options.steps; ++step) {
+    for (int step = first; step <= options.steps; ++step) {
+        progress.enter(FlowPhase::Step, step, shares.begin(), shares.end_of_tasks());
         Stopwatch watch;
         named("step " + std::to_string(step), [&] { flow.step(); });
-        StepReport& of_step = report.steps.emplace_back();
+        StepReport of_step;
         of_step.seconds = watch.lap();
-        report.seconds.step += of_step.seconds;
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
         rescaled = flow.positions();
         named("step " + std::to_string(step), [&] { rescaling.apply(rescaled); });
         of_step.displacement = meter.add_step(mesh.vertices, rescaled);
-        mesh.vertices.swap(rescaled);
-
-        curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
+        curvature = measure_curvature(mesh, topology, rescaled, options.laplacian);
         of_step.max_mean_curvature_before = curvature_before;
         of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
-        report.seconds.total += of_step.seconds + watch.lap();
-        if (reference != nullptr) {
-            named("step " + std::to_string(step) + " of the undecomposed flow", [&] { reference->step(); });
-            of_step.reference_seconds = watch.lap();
-            of_step.distance = vertex_distance(mesh, reference->positions(), flow.positions());
-        }
+        const double measuring = watch.lap();
+        if (reference != nullptr)
+            compare_with(*reference, run, step, shares, flow.positions(), of_step);
+        shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
+
+        mesh.vertices.swap(rescaled);
+        report.steps.push_back(of_step);
+        report.seconds.step += of_step.seconds;
+        report.seconds.total += of_step.seconds + measuring;
         if (on_step)
-            on_step({step, mesh.vertices, of_step, flow.pieces()});
+            on_step(
+                {step, mesh.vertices, of_step, flow.pieces(), [&] { return capture(run, flow, reference, meter); }});
     }
     remark_on_drift(options, report);
     report.displacement = meter.total();
     if (flow.pieces() != nullptr)
         report.pieces = *flow.pieces();
+    flow.describe(report);
+    if (resume != nullptr)
+        add_task_seconds(report.seconds, resume->seconds);
 }
 
 /// The whole mesh is one factor, which no limit for the sub-meshes fits.
@@ -196,61 +288,115 @@ FlowOptions without_limit(FlowOptions options)
     return options;
 }
 
-void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, const StepObserver& on_step,
-               FlowReport& report)
+/// Setup takes as long as so many steps, about.
+double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 {
-    Stopwatch watch;
-    require_valid(mesh, run_in_parallel);
-    const Topology topology = make_topology(mesh, options);
-    const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
-    options.tolerance = choice.tolerance;
-    require_sound_geometry(mesh, topology, options.laplacian, run_in_parallel);
+    const double as_steps = options.tolerance ? 4.0 : options.scheme == Scheme::ExplicitEuler ? 3.0 : 6.0;
+    const double to_do = options.steps - (resume != nullptr ? resume->n_steps() : 0);
+    return as_steps / (as_steps + to_do);
+}
+
+/// The checks, and what tells the flow from others where that is needed.
+FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
+                           const FlowState* resume, Progress& progress)
+{
+    require_valid(mesh, progress.loop());
+    progress.count();
+    if (resume == nullptr && !is_observed)
+        return {};
+    FlowIdentity identity = identify(mesh, options);
+    if (resume != nullptr)
+        require_same(resume->identity, identity);
+    progress.count();
+    return identity;
+}
+
+/// Cuts, and chooses whether to converge. METIS has one thread: the others measure in the meantime.
+/// @param options with the tolerance that was chosen, if any.
+Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
+                    FlowOptions& options, std::vector<double>& curvature, const Progress& progress)
+{
     Cut cut;
-    std::vector<double> curvature;
-    // METIS has one thread: the others measure in the meantime.
     oneapi::tbb::parallel_invoke(
-        [&] { cut = make_cut(mesh, topology, options); },
+        [&] { cut = make_cut(mesh, topology, options, progress.loop()); },
         [&] { curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian); });
     // A whole mesh is solved exactly either way.
     if (cut.n_parts == 1 && !choice.reason.empty())
         options.tolerance.reset();
     else if (!choice.reason.empty())
         cut.remarks.insert(cut.remarks.begin(), "Steps are converged: " + choice.reason + ".");
+    return cut;
+}
+
+void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, const StepObserver& on_step,
+               const FlowControl& control, FlowReport& report)
+{
+    Stopwatch watch;
+    const FlowState* const resume = control.resume.get();
+    Progress progress(control);
+    progress.set_steps(options.steps);
+    const double setup = fraction_of_setup(options, resume);
+    progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
+    progress.expect(8.0);
+    const FlowIdentity identity = require_sound(mesh, options, static_cast<bool>(on_step), resume, progress);
+    const Topology topology = make_topology(mesh, options, progress.loop());
+    progress.count();
+    const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
+    options.tolerance = choice.tolerance;
+    require_sound_geometry(mesh, topology, options.laplacian, progress.loop());
+    progress.count();
+    std::vector<double> curvature;
+    Cut cut = cut_and_measure(mesh, topology, choice, options, curvature, progress);
     if (!options.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(mesh, topology, cut);
     report.tolerance = options.tolerance;
     describe_input(mesh, topology, cut, options, report);
     report.threads = workers.threads();
     report.seconds.cut = watch.lap();
+    progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options.reference ? 0.8 * setup : setup);
 
-    const auto run = [&](auto&& flow) {
+    const Run run{mesh, topology, options, on_step, resume, identity, progress, report};
+    const auto run_with = [&](auto&& flow) {
         report.labels = std::move(cut.labels);
         report.seconds.analyse = watch.lap();
         report.seconds.total = report.seconds.cut + report.seconds.analyse;
         std::optional<DecomposedFlow> reference;
-        if (options.reference)
-            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), curvature);
-        run_steps(mesh, topology, options, on_step, curvature, flow, reference ? &*reference : nullptr, report);
-        flow.describe(report);
+        if (options.reference) {
+            progress.enter(FlowPhase::Analyse, 0, 0.8 * setup, setup);
+            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), curvature, progress);
+        }
+        run_steps(run, std::move(curvature), flow, reference ? &*reference : nullptr, setup);
+        progress.finish();
     };
     if (options.scheme == Scheme::ExplicitEuler)
-        run(ExplicitFlow(mesh, topology, options));
+        run_with(ExplicitFlow(mesh, topology, options, progress));
     else if (options.tolerance && is_symmetric(options.laplacian))
-        run(ConvergedFlow(mesh, topology, cut, options));
+        run_with(ConvergedFlow(mesh, topology, cut, options, progress));
     else if (options.tolerance)
-        run(KrylovFlow(mesh, topology, cut, options));
+        run_with(KrylovFlow(mesh, topology, cut, options, progress));
     else
-        run(DecomposedFlow(mesh, topology, cut, options, curvature));
+        run_with(DecomposedFlow(mesh, topology, cut, options, curvature, progress));
+}
+
+/// @throws OptionError if it is beyond the last step that is wanted.
+void require_ahead(const FlowOptions& options, const FlowState& state)
+{
+    if (state.n_steps() > options.steps)
+        throw OptionError("steps is " + std::to_string(options.steps) + ", but the state to go on from is after step " +
+                          std::to_string(state.n_steps()) + " already: ask for as many at least, or begin anew");
 }
 
 }  // namespace
 
-FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step)
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
+                               const FlowControl& control)
 {
     require_valid(options);
+    if (control.resume != nullptr)
+        require_ahead(options, *control.resume);
     FlowReport report;
     Workers workers(options.threads);
-    workers.execute([&] { flow_with(workers, mesh, options, on_step, report); });
+    workers.execute([&] { flow_with(workers, mesh, options, on_step, control, report); });
     return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/flow_control.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "partition/polygon_mesh.h"
@@ -14,9 +15,13 @@ namespace seamflow {
 /// vertices without faces too.
 /// @param mesh its positions are moved; after an exception they are those of the last complete step.
 /// @param on_step called after each step.
-/// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits,
-///         ComputationError, naming step and sub-mesh, for a system that is singular or a result that is not finite,
-///         and for a failure of METIS; std::bad_alloc.
-FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {});
+/// @param control says how far the flow is, stops it, or lets it go on from a step before: `mesh` is then as it was
+///        before the first step, and the report is of all steps.
+/// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits, both for
+///         a state to go on from that belongs to another flow; ComputationError, naming step and sub-mesh, for a system
+///         that is singular or a result that is not finite, and for a failure of METIS; Cancelled where control.stop
+///         was requested and work was left; std::bad_alloc.
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
+                               const FlowControl& control = {});
 
 }  // namespace seamflow

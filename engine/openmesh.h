@@ -10,14 +10,15 @@ namespace seamflow {
 /// they are. Vertices that are locked stay; so do, where any vertex is selected, all that are not (see held_by_status);
 /// FlowOptions::fixed_vertices stay besides.
 template <OpenMeshMesh Mesh>
-FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {})
+FlowReport mean_curvature_flow(Mesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
+                               const FlowControl& control = {})
 {
     PolygonMesh flowing = to_polygon_mesh(mesh);
     FlowOptions with_status = options;
     const std::vector<Index> held = held_by_status(mesh);
     with_status.fixed_vertices.insert(with_status.fixed_vertices.end(), held.begin(), held.end());
     try {
-        FlowReport report = mean_curvature_flow(flowing, with_status, on_step);
+        FlowReport report = mean_curvature_flow(flowing, with_status, on_step, control);
         set_positions(mesh, flowing.vertices);
         return report;
     } catch (...) {

@@ -33,6 +33,12 @@ BlasThreads& blas_threads()
 
 }  // namespace
 
+void end_threads_of_blas()
+{
+    if (const auto end = find_function<int()>("blas_thread_shutdown_"); end != nullptr)
+        end();
+}
+
 SingleThreadedBlas::SingleThreadedBlas()
 {
     const auto get = find_function<int()>("openblas_get_num_threads");

@@ -2,6 +2,10 @@
 
 namespace seamflow {
 
+/// Ends the threads that BLAS has started when the program was loaded; it starts new ones when it needs them. For
+/// programs that set something which threads take over from the one that makes them, and so have to be first.
+void end_threads_of_blas();
+
 /// Keeps BLAS on one thread for the whole process while at least one of these lives, and then gives it back the number
 /// of threads that it had. Does nothing for a BLAS that is not OpenBLAS.
 class SingleThreadedBlas {

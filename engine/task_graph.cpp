@@ -4,11 +4,14 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <unordered_map>
 #include <utility>
 
 #include <oneapi/tbb/flow_graph.h>
 
+#include "engine/progress.h"
 #include "engine/schedule_recorder.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
@@ -53,11 +56,18 @@ class TaskGraph::Nodes {
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     FirstFailure failure;
+    /// Set where a task was not run because the flow is to stop. oneTBB's own cancellation would also make the loops
+    /// within running tasks leave out what they have not begun.
+    std::atomic<bool> skipped{false};
+    /// Of each root.
+    std::unordered_map<Node, Index> n_tasks;
+    Node latest_root = -1;
 };
 
-TaskGraph::TaskGraph(ScheduleRecorder* recorder)
+TaskGraph::TaskGraph(ScheduleRecorder* recorder, Progress* progress)
     : nodes_(std::make_unique<Nodes>())
     , recorder_(recorder)
+    , progress_(progress)
 {
 }
 
@@ -66,19 +76,27 @@ TaskGraph::~TaskGraph() = default;
 TaskGraph::Node TaskGraph::add_root()
 {
     nodes_->nodes.emplace_back(nodes_->graph, [](const flow::continue_msg& message) { return message; });
-    return static_cast<Node>(nodes_->nodes.size()) - 1;
+    return nodes_->latest_root = static_cast<Node>(nodes_->nodes.size()) - 1;
 }
 
 TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priority)
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
+    ++nodes_->n_tasks[nodes_->latest_root];
     // Exceptions stay inside: a flow graph that one has left starts its next run with wrong counts.
-    auto guarded = [failure = &nodes_->failure, recorder = recorder_, node,
+    auto guarded = [nodes = nodes_.get(), recorder = recorder_, progress = progress_, node,
                     body = std::move(body)](const flow::continue_msg& message) {
+        FirstFailure* const failure = &nodes->failure;
         if (failure->failed())
             return message;
+        if (progress != nullptr && progress->is_stopped()) {
+            nodes->skipped.store(true, std::memory_order_relaxed);
+            return message;
+        }
         try {
             recorder != nullptr ? recorder->timed(node, body) : body();
+            if (progress != nullptr)
+                progress->count();
         } catch (...) {
             failure->record(node, std::current_exception());
         }
@@ -96,11 +114,16 @@ void TaskGraph::add_dependency(Node before, Node after)
         recorder_->add_dependency(before, after);
 }
 
-void TaskGraph::run(Node root)
+void TaskGraph::run(Node root, double further_parts)
 {
+    if (progress_ != nullptr)
+        progress_->expect(nodes_->n_tasks[root] + further_parts);
     nodes_->nodes[at(root)].try_put(flow::continue_msg());
     nodes_->graph.wait_for_all();
+    const bool skipped = nodes_->skipped.exchange(false, std::memory_order_relaxed);
     nodes_->failure.rethrow();
+    if (skipped)
+        throw Cancelled("the flow was stopped in the middle of a step");
 }
 
 }  // namespace seamflow

@@ -24,6 +24,12 @@ class ComputationError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The work was asked to stop and did so before its end; no failure.
+class Cancelled : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// A result could not be written. The message names the file. The programs answer it with exit status 5.
 class OutputError : public std::runtime_error {
   public:

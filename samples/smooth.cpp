@@ -18,6 +18,8 @@
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
 #include "partition/io/vertex_set.h"
+#include "samples/common/interruption.h"
+#include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
@@ -44,11 +46,12 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Mes
 }
 
 /// Prints every step, and writes it where --every-step asks for that.
-StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds)
+StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
+                           std::ostream& out)
 {
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &input, &write_seconds, mean_edge, snapshot](const StepState& state) mutable {
-        print_step(std::cout, state.report, state.step, command.options.steps, mean_edge);
+    return [&command, &input, &write_seconds, &out, mean_edge, snapshot](const StepState& state) mutable {
+        print_step(out, state.report, state.step, command.options.steps, mean_edge);
         if (!command.every_step)
             return;
         const Stopwatch watch;
@@ -69,10 +72,11 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
 }
 
 /// Runs the flow; what is wrong with the mesh comes out with the name of its file.
-FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step)
+FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepObserver& on_step,
+                    const FlowControl& control)
 {
     try {
-        return mean_curvature_flow(mesh, command.options, on_step);
+        return mean_curvature_flow(mesh, command.options, on_step, control);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
     }
@@ -95,6 +99,9 @@ ExitStatus smooth(int argc, char** argv)
     SmoothCommand command;
     if (const auto end = parse_smooth_command(argc, argv, command))
         return *end;
+    Interruption interruption("smooth");
+    std::ostream silence(nullptr);
+    std::ostream& out = command.quiet ? silence : std::cout;
     RunRecord run{.input = command.input.string(),
                   .output = command.output.string(),
                   .arguments = command.arguments,
@@ -105,16 +112,24 @@ ExitStatus smooth(int argc, char** argv)
     run.scale = measure_scale(file.mesh);
     complete_options(command, file.mesh, run.scale);
     run.read_seconds = reading.seconds();
-    print_input(std::cout, run, file.mesh);
-    print_amount(std::cout, run.scale, command.options);
+    print_input(out, run, file.mesh);
+    print_amount(out, run.scale, command.options);
     require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
     if (command.every_step)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
-    const StepObserver on_step = make_observer(command, file, run.scale.mean_edge, run.write_seconds);
-    FlowReport report = run_flow(command, file.mesh, on_step);
+    LongRun long_run(command, file, interruption, out);
+    const StepObserver on_step =
+        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, out));
+    FlowReport report;
+    try {
+        report = run_flow(command, file.mesh, on_step, long_run.control());
+    } catch (const Cancelled&) {
+        return long_run.end_early();
+    }
+    long_run.end();
 
     const Stopwatch writing;
     for (const auto& remarks : {losses, write_results(command, file, report)})
@@ -124,7 +139,7 @@ ExitStatus smooth(int argc, char** argv)
         write_text(command.report, smooth_report_json(run, report));
     if (!command.trace.empty())
         write_schedule_trace(command.trace, report);
-    print_summary(std::cout, run, report);
+    print_summary(out, run, report);
     return require_converged(command, report);
 }
 

@@ -29,14 +29,23 @@ std::filesystem::path temporary_name(const std::filesystem::path& target)
     return folder_of(target) / (".seamflow-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
 }
 
-/// Follows symbolic links.
-std::filesystem::path target_of(const std::filesystem::path& path)
+/// How the system knows an open file.
+std::string name_of_descriptor(int descriptor)
 {
-    std::error_code error;
-    if (!std::filesystem::is_symlink(path, error))
-        return path;
-    const auto target = std::filesystem::weakly_canonical(path, error);
-    return error ? path : target;
+    return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+/// Opens a file without a name, which vanishes with the process, however that ends.
+/// @returns -1 where the system cannot do that, or could not give it a name later.
+int open_unnamed(const std::filesystem::path& folder)
+{
+#ifdef O_TMPFILE
+    const int descriptor = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0)
+        return descriptor;
+    ::close(descriptor);
+#endif
+    return -1;
 }
 
 /// Some file systems cannot do it: that is no reason to fail.
@@ -58,9 +67,23 @@ void synchronise_folder(const std::filesystem::path& folder)
 
 }  // namespace
 
+std::filesystem::path file_behind(const std::filesystem::path& path)
+{
+    constexpr int most_links = 40;
+    std::filesystem::path file = path;
+    for (int i = 0; i < most_links; ++i) {
+        std::error_code error;
+        const auto next = std::filesystem::read_symlink(file, error);
+        if (error)
+            return file;
+        file = next.is_absolute() ? next : folder_of(file) / next;
+    }
+    return path;
+}
+
 OutputFile::OutputFile(const std::filesystem::path& path)
     : path_(path)
-    , target_(target_of(path))
+    , target_(file_behind(path))
     , buffer_(std::size_t{1} << 20)
 {
     struct stat old = {};
@@ -69,14 +92,25 @@ OutputFile::OutputFile(const std::filesystem::path& path)
         fail(EISDIR);
     if (replaces && !S_ISREG(old.st_mode))
         throw OutputError(path_.string() + ": is not a regular file; choose another name");
+    std::error_code ignored;
+    if (std::filesystem::is_symlink(target_, ignored))
+        fail(ELOOP);
+    open();
+    if (replaces)
+        static_cast<void>(::fchmod(descriptor_, old.st_mode & 07777U));
+}
+
+void OutputFile::open()
+{
+    descriptor_ = open_unnamed(folder_of(target_));
+    if (descriptor_ >= 0)
+        return;
     do {
         temporary_ = temporary_name(target_);
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0)
         fail(errno);
-    if (replaces)
-        static_cast<void>(::fchmod(descriptor_, old.st_mode & 07777U));
 }
 
 OutputFile::~OutputFile()
@@ -115,11 +149,28 @@ void OutputFile::flush()
     used_ = 0;
 }
 
+/// A temporary one: only by being renamed can a file replace another.
+void OutputFile::give_name()
+{
+    const std::string source = name_of_descriptor(descriptor_);
+    std::filesystem::path name;
+    int status = 0;
+    do {
+        name = temporary_name(target_);
+        status = ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+    } while (status != 0 && errno == EEXIST);
+    if (status != 0)
+        fail(errno);
+    temporary_ = name;
+}
+
 void OutputFile::commit()
 {
     flush();
     if (const int error = synchronise(descriptor_); error != 0)
         fail(error);
+    if (temporary_.empty())
+        give_name();
     if (::close(std::exchange(descriptor_, -1)) != 0)
         fail(errno);
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)

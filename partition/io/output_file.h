@@ -13,9 +13,14 @@
 
 namespace seamflow {
 
-/// A file that appears whole or not at all: written under a temporary name in the folder of its target, and renamed by
-/// `commit`. Without `commit` nothing remains of it, and a file that was there before remains as it was. A file that is
-/// replaced hands on its permissions; a symbolic link stays, and the file it points to is replaced.
+/// The file that a path leads to: symbolic links are followed, to files that do not exist as well.
+/// @returns the path of a link only where links lead round in a circle.
+std::filesystem::path file_behind(const std::filesystem::path& path);
+
+/// A file that appears whole or not at all: written without a name, or under a temporary one where the file system
+/// cannot do that, in the folder of its target, and given its name by `commit`. Without `commit` nothing remains of it,
+/// and a file that was there before remains as it was. A file that is replaced hands on its permissions; a symbolic
+/// link stays, and the file it points to is replaced.
 class OutputFile {
   public:
     /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
@@ -55,6 +60,8 @@ class OutputFile {
 
   private:
     [[noreturn]] void fail(int error) const;
+    void open();
+    void give_name();
     void flush();
     void make_room(std::size_t n)
     {
@@ -74,6 +81,7 @@ class OutputFile {
 
     std::filesystem::path path_;
     std::filesystem::path target_;
+    /// Empty as long as the file has no name.
     std::filesystem::path temporary_;
     int descriptor_ = -1;
     std::vector<char> buffer_;

@@ -11,21 +11,6 @@ namespace seamflow {
 
 namespace {
 
-/// An option whose text `parse` turns into the target's value; what it throws names the option.
-template <class Target, class Parse>
-CLI::Option* add_parsed(CLI::App& app, const std::string& names, Target& target, Parse parse, const std::string& type,
-                        const std::string& description)
-{
-    const auto store = [&target, parse, names](const std::string& text) {
-        try {
-            target = parse(text);
-        } catch (const OptionError& error) {
-            throw CLI::ValidationError(names, error.what());
-        }
-    };
-    return app.add_option_function<std::string>(names, store, description)->type_name(type);
-}
-
 std::string described(const RealLimits& limits)
 {
     std::ostringstream text;

@@ -11,6 +11,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "partition/errors.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"
 
@@ -38,6 +39,22 @@ long long parse_integer(std::string_view text, long long least, long long most);
 /// same) or KiB, MiB, GiB or TiB (powers of 1024): "500000000", "500M", "1.5GiB". Fractions of a byte are cut off.
 /// @throws OptionError saying what was expected.
 std::size_t parse_bytes(std::string_view text);
+
+/// Adds an option whose text `parse` turns into the target's value; an OptionError that it throws gets the name of the
+/// option.
+template <class Target, class Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& names, Target& target, Parse parse, const std::string& type,
+                        const std::string& description)
+{
+    const auto store = [&target, parse, names](const std::string& text) {
+        try {
+            target = parse(text);
+        } catch (const OptionError& error) {
+            throw CLI::ValidationError(names, error.what());
+        }
+    };
+    return app.add_option_function<std::string>(names, store, description)->type_name(type);
+}
 
 /// Adds an option that takes one number and stores it in `target`.
 CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,

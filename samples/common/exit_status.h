@@ -11,6 +11,9 @@ enum class ExitStatus : int {
     UnusableInput = 3,
     ComputationFailed = 4,
     OutputNotWritten = 5,
+    /// Stopped by SIGINT (Ctrl-C) or SIGTERM.
+    Interrupted = 130,
+    Terminated = 143,
 };
 
 /// Runs the body of a program and turns what it throws into an exit status, with one message on standard error:

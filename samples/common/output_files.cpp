@@ -41,7 +41,7 @@ bool has_isolated_vertices(const PolygonMesh& mesh)
 void require_writable(const fs::path& path)
 {
     std::error_code ignored;
-    const fs::path directory = directory_of(path);
+    const fs::path directory = directory_of(file_behind(path));
     if (path.empty() || fs::is_directory(path, ignored))
         refuse(path, "for that is the name of a directory");
     if (!fs::is_directory(directory, ignored))

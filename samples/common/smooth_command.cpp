@@ -125,6 +125,21 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
         ->type_name("TRACE.json");
 }
 
+/// What matters if the flow takes long.
+void add_long_run(CLI::App& app, SmoothCommand& command)
+{
+    auto* checkpoint =
+        app.add_option("--checkpoint", command.checkpoint,
+                       "keep in that folder what the run needs to go on after the last complete step: the same "
+                       "command does so then, with the same result; it stays there at the end, from where more --steps "
+                       "go on")
+            ->type_name("FOLDER");
+    add_parsed(app, "--checkpoint-every", command.checkpoint_period, parse_checkpoint_period, "STEPS|TIME",
+               "how often, in steps (10) or time (30s, 5min, 1h), and at the end [1]")
+        ->needs(checkpoint);
+    app.add_flag("--quiet", command.quiet, "print nothing but errors");
+}
+
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
     if (app.count("--overlap") > 0 && command.options.conditions != Conditions::Schwarz)
@@ -176,7 +191,10 @@ void require_usable_files(const SmoothCommand& command)
         require_different(files);
     }
     results.push_back(command.output);
-    require_different(results);
+    std::vector<std::filesystem::path> all = results;
+    if (!command.checkpoint.empty())
+        all.push_back(Checkpoints(command.checkpoint, {}).file());
+    require_different(all);
     for (const auto& path : results)
         require_writable(path);
 }
@@ -189,6 +207,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     std::string every_step;
     add_files(app, command, every_step);
     add_flow_options(app, command);
+    add_long_run(app, command);
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     command.arguments.assign(argv + 1, argv + argc);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/flow_options.h"
+#include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"
 #include "samples/common/step_pattern.h"
@@ -29,6 +30,11 @@ struct SmoothCommand {
     std::filesystem::path trace;
     /// The property of vertices that says which are fixed, where `fix` is a PLY file.
     std::string fix_property = "fixed";
+    /// The folder of the checkpoint; empty: none is kept.
+    std::filesystem::path checkpoint;
+    CheckpointPeriod checkpoint_period;
+    /// Whether to print errors alone.
+    bool quiet = false;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
     /// As the user typed it.

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/openmesh.h"
+#include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/openmesh.h"
@@ -62,6 +63,22 @@ TEST_CASE("after a failure the points are those of the last complete step")
                     std::runtime_error);
     CHECK(to_polygon_mesh(mesh).vertices == after_first);
     CHECK(after_first != before.vertices);
+}
+
+TEST_CASE("a mesh of OpenMesh that is stopped has the last complete step")
+{
+    std::stop_source source;
+    auto mesh = openmesh_of<DoublePolyMesh>(make_triangles(400));
+    FlowOptions options = two_steps();
+    options.steps = 5;
+    Points second;
+    const auto stop_after_two = [&](const StepState& state) {
+        second = state.positions;
+        if (state.step == 2)
+            source.request_stop();
+    };
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options, stop_after_two, {.stop = source.get_token()}), Cancelled);
+    CHECK(to_polygon_mesh(mesh).vertices == second);
 }
 
 TEST_CASE("locked vertices stay, and so do those that are not selected where any is")

@@ -1,0 +1,83 @@
+#include "samples/common/long_run.h"
+
+#include <iostream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "samples/common/mesh_results.h"
+
+namespace seamflow {
+
+std::filesystem::path interrupted_path(const std::filesystem::path& output, const std::filesystem::path& input)
+{
+    std::filesystem::path path = output;
+    std::error_code ignored;
+    do
+        path.replace_filename(path.stem().concat(".interrupted").concat(path.extension().string()));
+    while (std::filesystem::equivalent(path, input, ignored));
+    return path;
+}
+
+LongRun::LongRun(const SmoothCommand& command, const MeshFile& file, Interruption& interruption, std::ostream& out)
+    : command_(&command)
+    , file_(&file)
+    , interruption_(&interruption)
+    , bar_(command.quiet ? ProgressBar::Shown::Never : ProgressBar::Shown::OnTerminal)
+{
+    if (!command.checkpoint.empty()) {
+        checkpoints_.emplace(command.checkpoint, command.checkpoint_period);
+        resume_ = checkpoints_->find(file.mesh, command.options);
+    }
+    if (resume_ != nullptr)
+        out << "resumed    after step " << resume_->n_steps() << ", from " << checkpoints_->file().string()
+            << std::endl;
+    interruption.begin_work();
+}
+
+FlowControl LongRun::control()
+{
+    FlowControl control{.stop = interruption_->token(), .on_progress = {}, .resume = resume_};
+    if (bar_.is_shown())
+        control.on_progress = [this](const FlowProgress& progress) {
+            bar_.draw(progress, interruption_->token().stop_requested());
+        };
+    return control;
+}
+
+StepObserver LongRun::observing(StepObserver inner)
+{
+    return [this, inner = std::move(inner)](const StepState& state) {
+        bar_.erase();
+        inner(state);
+        step_ = state.step;
+        if (state.pieces != nullptr)
+            pieces_ = *state.pieces;
+        if (checkpoints_)
+            checkpoints_->keep(state, state.step == command_->options.steps);
+    };
+}
+
+ExitStatus LongRun::end_early()
+{
+    bar_.erase();
+    std::string message;
+    if (step_ == 0) {
+        message = "interrupted before a step was complete; no mesh was written";
+    } else {
+        const auto path = interrupted_path(command_->output, command_->input);
+        write_state(path, file_->mesh, pieces_ ? &*pieces_ : nullptr, *file_);
+        message = "interrupted; " + path.string() + " has the mesh after step " + std::to_string(step_) + " of " +
+                  std::to_string(command_->options.steps);
+    }
+    const int kept = !checkpoints_              ? 0
+                     : checkpoints_->step() > 0 ? checkpoints_->step()
+                     : resume_                  ? resume_->n_steps()
+                                                : 0;
+    if (kept > 0)
+        message += "; the same command goes on after step " + std::to_string(kept);
+    std::cerr << "smooth: " << message << '\n';
+    return interruption_->status();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,28 @@
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "samples/common/checkpoints.h"
+#include "samples/common/long_run.h"
+#include "tests/support/temporary_directory.h"
+
+using namespace seamflow;
+
+TEST_CASE("a period of checkpoints is a number of steps or a time")
+{
+    CHECK(parse_checkpoint_period("10").steps == 10);
+    CHECK(parse_checkpoint_period("10").seconds == 0.0);
+    CHECK(parse_checkpoint_period("90s").seconds == 90.0);
+    CHECK(parse_checkpoint_period("1.5min").seconds == 90.0);
+    CHECK(parse_checkpoint_period("2h").seconds == 7200.0);
+    CHECK(parse_checkpoint_period("2h").steps == 1);
+    for (const char* text : {"", "0", "-1", "1.5", "s", "3 s", "3d", "nan", "3ss", "-3s"})
+        CHECK_THROWS_AS(parse_checkpoint_period(text), OptionError);
+}
+
+TEST_CASE("the mesh of an interrupted run stands beside the output, never in place of the input")
+{
+    const test::TemporaryDirectory directory;
+    CHECK(interrupted_path("a/smooth.ply", "b.ply") == "a/smooth.interrupted.ply");
+    const auto input = directory.with("out.interrupted.obj", "");
+    CHECK(interrupted_path(directory / "out.obj", input) == directory / "out.interrupted.interrupted.obj");
+}

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "engine/flow_options.h"
+#include "tests/support/flows.h"
+
+namespace seamflow::test {
+
+/// A way of taking steps, with a name for the messages of tests.
+struct FlowKind {
+    std::string name;
+    FlowOptions options;
+};
+
+/// One of each kind that hands something of its own from step to step, for meshes of some hundred vertices: four steps
+/// of two squared mean edge lengths.
+/// @param edge mean edge length.
+inline std::vector<FlowKind> flow_kinds(double edge)
+{
+    FlowOptions sweeps;
+    sweeps.time_step = 2.0 * edge * edge;
+    sweeps.steps = 4;
+    sweeps.subdomains = 7;
+    sweeps.approach = Approach::Sweep;
+    std::vector<FlowKind> kinds;
+    const auto add = [&](const std::string& name, auto change) {
+        kinds.push_back({name, sweeps});
+        change(kinds.back().options);
+    };
+    for (const Laplacian laplacian : all_laplacians) {
+        const std::string of(name_of(laplacian));
+        add(of + " by sweeps", [&](FlowOptions& o) { o.laplacian = laplacian; });
+        add(of + " converged", [&](FlowOptions& o) { o.laplacian = laplacian, o.tolerance = 1e-3; });
+        add(of + " by Schwarz", [&](FlowOptions& o) { o.laplacian = laplacian, o.conditions = Conditions::Schwarz; });
+    }
+    add("few iterations", [](FlowOptions& o) { o.tolerance = 1e-9, o.converge_iterations = 2; });
+    add("chosen", [](FlowOptions& o) { o.subdomains = 0, o.approach = Approach::Automatic; });
+    add("rescaled", [](FlowOptions& o) { o.tolerance = 1e-2, o.boundary = Boundary::Free, o.rescale = Rescale::Area; });
+    add("held", [](FlowOptions& o) { o.fixed_vertices = {3, 100, 101, 102, 250}; });
+    add("uncut", [](FlowOptions& o) { o.subdomains = 1; });
+    add("plain", [](FlowOptions& o) { o = FlowOptions::plain(), o.steps = 4, o.subdomains = 7, o.time_step = 1e-3; });
+    add("uncorrected", [](FlowOptions& o) { o.correction = Correction::None; });
+    add("adapted ventcell", [](FlowOptions& o) { o.conditions = Conditions::AdaptedVentcell, o.q = 0.1; });
+    add("robin with gaps", [](FlowOptions& o) { o.conditions = Conditions::Robin, o.keep_gaps = true; });
+    add("ventcell", [](FlowOptions& o) { o.conditions = Conditions::Ventcell, o.q = 0.1; });
+    add("reference", [](FlowOptions& o) { o.reference = true; });
+    add("converged with reference", [](FlowOptions& o) { o.reference = true, o.tolerance = 1e-2; });
+    add("explicit", [&](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler, o.time_step = 1e-4 * edge * edge; });
+    return kinds;
+}
+
+inline bool same_bits(const Points& a, const Points& b)
+{
+    return a.rows() == b.rows() &&
+           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+}  // namespace seamflow::test
