@@ -125,6 +125,8 @@ struct StepState {
     const StepReport& report;
     /// See FlowReport::pieces; null without FlowOptions::keep_gaps.
     const PolygonMesh* pieces = nullptr;
+    /// #V by 3, those of the undecomposed flow; null without FlowOptions::reference.
+    const Points* reference_positions = nullptr;
 };
 
 /// Called after each step, in the thread that called the flow.

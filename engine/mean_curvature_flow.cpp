@@ -143,7 +143,8 @@ void run_steps(PolygonMesh& mesh, const Topology& topology, const FlowOptions& o
             of_step.distance = vertex_distance(mesh, reference->positions(), flow.positions());
         }
         if (on_step)
-            on_step({step, flow.positions(), of_step, flow.pieces()});
+            on_step({step, flow.positions(), of_step, flow.pieces(),
+                     reference == nullptr ? nullptr : &reference->positions()});
     }
     remark_on_drift(options, report);
     report.displacement = meter.total();

@@ -9,11 +9,14 @@
 //        that it takes values from
 
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/stopwatch.h"
+#include "engine/workers.h"
 #include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
@@ -23,6 +26,7 @@
 #include "samples/common/report_text.h"
 #include "samples/common/schedule_trace.h"
 #include "samples/common/smooth_command.h"
+#include "samples/page/page_html.h"
 
 using namespace seamflow;
 
@@ -41,12 +45,29 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, double me
     command.options.time_step = *command.time_step_edges * mean_edge * mean_edge;
 }
 
-/// Prints every step, and writes it where --every-step asks for that.
-StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds)
+/// What --html shows, so far the input; empty without --html.
+std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh)
+{
+    std::optional<PageFlow> page;
+    if (command.html.empty())
+        return page;
+    require_showable(mesh, command.html);
+    Workers(command.options.threads).execute([&] {
+        page.emplace(std::make_shared<const PageMesh>(mesh), command.output.filename().string(),
+                     command.options.laplacian, command.options.steps, command.options.reference);
+    });
+    return page;
+}
+
+/// Prints every step, writes it where --every-step asks for that, and hands it to the page.
+StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
+                           std::optional<PageFlow>& page)
 {
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &input, &write_seconds, mean_edge, snapshot](const StepState& state) mutable {
+    return [&command, &input, &write_seconds, &page, mean_edge, snapshot](const StepState& state) mutable {
         print_step(std::cout, state.report, state.step, command.options.steps, mean_edge);
+        if (page)
+            page->add_step(state.step, state.positions, state.reference_positions);
         if (!command.every_step)
             return;
         const Stopwatch watch;
@@ -64,6 +85,22 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     if (!command.parts.empty())
         write_labelled_ply(command.parts, file.mesh, report.labels);
     return remarks;
+}
+
+/// What is written about the run: report, trace and page.
+void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
+                   std::optional<PageFlow>& page)
+{
+    if (page && !page->remark().empty())
+        report.remarks.push_back(page->remark());
+    if (!command.report.empty())
+        write_text(command.report, smooth_report_json(run, report));
+    if (!command.trace.empty())
+        write_schedule_trace(command.trace, report);
+    if (page) {
+        page->finish(report, smooth_report_json(run, report));
+        write_text(command.html, page_html(command.input.filename().string(), {&*page, 1}));
+    }
 }
 
 /// Runs the flow; what is wrong with the mesh comes out with the name of its file.
@@ -110,17 +147,15 @@ ExitStatus smooth(int argc, char** argv)
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
-    const StepObserver on_step = make_observer(command, file, run.mean_edge, run.write_seconds);
+    std::optional<PageFlow> page = make_page(command, file.mesh);
+    const StepObserver on_step = make_observer(command, file, run.mean_edge, run.write_seconds, page);
     FlowReport report = run_flow(command, file.mesh, on_step);
 
     const Stopwatch writing;
     for (const auto& remarks : {losses, write_results(command, file, report)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
-    if (!command.report.empty())
-        write_text(command.report, smooth_report_json(run, report));
-    if (!command.trace.empty())
-        write_schedule_trace(command.trace, report);
+    write_reports(command, run, report, page);
     print_summary(std::cout, run, report);
     return require_converged(command, report);
 }

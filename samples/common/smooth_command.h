@@ -26,6 +26,7 @@ struct SmoothCommand {
     std::filesystem::path parts;
     std::filesystem::path report;
     std::filesystem::path trace;
+    std::filesystem::path html;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
     /// As the user typed it.
