@@ -8,8 +8,8 @@ namespace seamflow {
 namespace {
 
 /// What a vertex of one state takes in the file, about: its position, its curvature, its distance.
-constexpr double bytes_of_state = 10.0;
-constexpr double bytes_of_undecomposed_state = 8.0;
+constexpr double bytes_of_state = 8.0;
+constexpr double bytes_of_undecomposed_state = 6.0;
 constexpr double most_bytes = 80e6;
 constexpr int most_steps = 200;
 

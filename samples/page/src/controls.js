@@ -9,7 +9,9 @@ const byId = (id) => document.getElementById(id);
 export function meanings(flow) {
     const list = [["plain", { name: "Plain" }]];
     if (flow.report.subdomains > 1)
-        list.push(["sub-mesh", { name: "Sub-mesh" }], ["class", { name: "Colour class" }]);
+        list.push(["sub-mesh", { name: "Sub-mesh" }]);
+    if (flow.report.colors > 1)
+        list.push(["class", { name: "Colour class" }]);
     list.push(
         flow.has_undecomposed
             ? ["distance", { name: "Distance to the undecomposed flow", unit: "mean edge lengths" }]
@@ -19,14 +21,19 @@ export function meanings(flow) {
     return new Map(list);
 }
 
-/** Where the colours of a ramp end, and the largest value, over all states of a flow: the same for each step. */
-export function rangeOf(flow, colour, full) {
-    const values = flow.states.flatMap((state) =>
-        colour === "distance" ? [state.distance] : [state.surface, state.undecomposed].filter(Boolean).map((surface) => surface.curvature),
+/**
+ * Where the colours of a ramp end, and the largest value: over all steps, or over the one that is shown, the same for
+ * the decomposed and the undecomposed flow.
+ */
+export function rangeOf(flow, chosen) {
+    const shown = flow.states[chosen.colour === "curvature" && chosen.surface === "before" ? 0 : chosen.state];
+    const states = chosen.range === "all" ? flow.states : [shown];
+    const values = states.flatMap((state) =>
+        chosen.colour === "distance" ? [state.distance] : [state.surface, state.undecomposed].filter(Boolean).map((surface) => surface.curvature),
     );
     const largest = Math.max(...values.map((value) => value.largest ?? 0));
     const percentile = Math.max(...values.map((value) => value.percentile_99 ?? 0));
-    return { largest, end: full || percentile === 0 ? largest : percentile };
+    return { largest, end: chosen.range === "largest" || percentile === 0 ? largest : percentile };
 }
 
 /** Fills the controls for a flow; choices that it has, too, stay. */
@@ -53,7 +60,7 @@ export function reflect(flow, chosen) {
     byId("step-name").textContent = step === 0 ? "Input" : `Step ${step} of ${steps}`;
     byId("step").setAttribute("aria-valuetext", byId("step-name").textContent);
     byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour);
-    byId("full-range").checked = chosen.full;
+    byId("range").value = chosen.range;
     byId("edges").checked = chosen.edges;
 }
 
@@ -72,7 +79,7 @@ function rampLegend(name, { unit }, { largest, end }) {
     strip.style.background = cssRamp(name);
     const beyond = largest > end;
     const ends = [0, 0.5, 1].map((part) => element("span", {}, `${part === 1 && beyond ? "≥ " : ""}${digits(part * end)}`));
-    const largestText = beyond ? `; the largest of all steps is ${digits(largest)}` : "";
+    const largestText = beyond ? `; the largest is ${digits(largest)}` : "";
     return [strip, element("div", { className: "ends" }, ...ends), element("div", { className: "quiet" }, `in ${unit}${largestText}`)];
 }
 

@@ -14,7 +14,7 @@ const positionsIn = remembering(6, (block) => unpacked16(block, 3, 4));
 const valuesIn = remembering(6, (block) => unpacked16(block, 1, 2));
 const cornersOnce = remembering(1, (block) => unpacked32(block, 3));
 
-const chosen = { flow: 0, state: 0, surface: "after", colour: "plain", edges: false, full: false };
+const chosen = { flow: 0, state: 0, surface: "after", colour: "plain", edges: false, range: "step" };
 const flow = () => facts.flows[chosen.flow];
 const state = () => flow().states[chosen.state];
 
@@ -38,7 +38,7 @@ async function colour() {
         return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colors[labels[v]] ?? 0));
     const field = chosen.colour === "curvature" ? surface().curvature : state().distance;
     const numbers = await valuesIn(field.block);
-    const { end } = rangeOf(flow(), chosen.colour, chosen.full);
+    const { end } = rangeOf(flow(), chosen);
     return () => view.colourByValue(numbers, end > 0 ? (field.largest ?? 0) / end : 0, ramp(chosen.colour));
 }
 
@@ -55,7 +55,7 @@ async function show() {
     const mine = ++turn;
     byId("stage").setAttribute("aria-busy", "true");
     reflect(flow(), chosen);
-    showLegend(flow(), chosen, rangeOf(flow(), chosen.colour, chosen.full));
+    showLegend(flow(), chosen, rangeOf(flow(), chosen));
     plots.redraw();
     if (view === null)
         return;
@@ -110,7 +110,7 @@ function listen() {
     on("surfaces", "change", ({ value }) => (chosen.surface = value));
     on("colour", "change", ({ value }) => (chosen.colour = value));
     on("edges", "change", ({ checked }) => (chosen.edges = checked));
-    on("full-range", "change", ({ checked }) => (chosen.full = checked));
+    on("range", "change", ({ value }) => (chosen.range = value));
     byId("reset").addEventListener("click", () => view?.reset());
     byId("step").addEventListener("input", ({ target }) => chooseStep(flow().states[target.value].step));
     byId("flow").addEventListener("change", ({ target }) => chooseFlow(Number(target.value)));
@@ -122,7 +122,7 @@ async function start() {
     byId("flow").replaceChildren(...facts.flows.map(({ name }, value) => element("option", { value }, name)));
     byId("flow-choice").hidden = facts.flows.length < 2;
     try {
-        view = new View(byId("canvas"), facts.flows[0].states[0].surface.positions);
+        view = new View(byId("canvas"), facts.flows[0].states[0].surface.positions, facts.flows[0].report.mean_edge);
     } catch {
         byId("message").textContent = "The surface takes WebGL 2, which this browser does not offer here.";
     }

@@ -16,7 +16,7 @@ export function colourOfLabel(label) {
     });
 }
 
-const classes = ["#c8503f", "#3b4450", "#d9a531", "#3f84b5", "#5f9a54", "#8a5ba6"].map(rgb);
+const classes = ["#c8503f", "#56616e", "#d9a531", "#3f84b5", "#5f9a54", "#8a5ba6"].map(rgb);
 
 /** Red and black first, as in red-black order. */
 export const colourOfClass = (index) => classes[index] ?? colourOfLabel(index);

@@ -14,6 +14,12 @@ const axis = (more) => ({
     ...more,
 });
 
+/** Has the legend tell the numbers of a step; step 0 has none. */
+const tellStep = (plot, step) => plot.setLegend({ idx: step > 0 ? step - 1 : null }, false);
+
+/** Those of a logarithmic axis' ticks that are worth a line. */
+const powersOfTen = (_, ticks) => ticks.map((tick) => (Number.isInteger(Math.round(1e6 * Math.log10(tick)) / 1e6) ? tick : null));
+
 /** A line at the step that is shown. */
 function drawStep(plot, step) {
     const x = Math.round(plot.valToPos(step, "x", true));
@@ -31,12 +37,15 @@ function drawStep(plot, step) {
     ctx.restore();
 }
 
+const height = 124;
+
 /** Numbers that a logarithmic axis can show. */
 const positive = (values) => values.map((value) => (value > 0 ? value : null));
 
 /** Curves that have something to show, on axes of steps and of numbers. */
 class Plot {
     #plot;
+    #step;
 
     /**
      * @param curves name, numbers (one per step), place in the list of colours, dash.
@@ -52,7 +61,8 @@ class Plot {
         const steps = shown[0].values.map((_, k) => k + 1);
         const options = {
             width: holder.clientWidth || 320,
-            height: 138,
+            height,
+            padding: [8, 8, 0, 0],
             legend: { markers: { width: 2 } },
             cursor: { y: false, points: { size: 6 }, drag: { x: false, y: false } },
             scales: {
@@ -61,7 +71,14 @@ class Plot {
             },
             axes: [
                 axis({ size: 26, gap: 3, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 5000, 20000], space: 30 }),
-                axis({ size: 50, gap: 3, space: 22, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : format(tick))) }),
+                axis({
+                    size: 50,
+                    gap: 3,
+                    space: 22,
+                    grid: { stroke: colour("--line"), width: 1, ...(logarithmic && { filter: powersOfTen }) },
+                    ticks: { show: false },
+                    values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : format(tick))),
+                }),
             ],
             series: [
                 { label: "step", value: (_, step) => step ?? "–" },
@@ -75,10 +92,15 @@ class Plot {
                     value: (_, value) => format(value),
                 })),
             ],
-            hooks: { draw: [(plot) => drawStep(plot, places.step())] },
+            hooks: {
+                draw: [(plot) => drawStep(plot, places.step())],
+                setCursor: [(plot) => plot.cursor.idx === null && tellStep(plot, places.step())],
+            },
         };
         const data = [steps, ...shown.map(({ values }) => (logarithmic ? positive(values) : values))];
         this.#plot = new uPlot(options, data, holder);
+        this.#step = places.step;
+        tellStep(this.#plot, places.step());
         this.#plot.over.addEventListener("click", () => {
             if (this.#plot.cursor.idx !== null)
                 places.choose(steps[this.#plot.cursor.idx]);
@@ -88,11 +110,14 @@ class Plot {
     resize() {
         const width = this.#plot?.root.parentElement.clientWidth;
         if (width && width !== this.#plot.width)
-            this.#plot.setSize({ width, height: 138 });
+            this.#plot.setSize({ width, height });
     }
 
     redraw() {
-        this.#plot?.redraw(false, false);
+        if (!this.#plot)
+            return;
+        this.#plot.redraw(false, false);
+        tellStep(this.#plot, this.#step());
     }
 
     destroy() {
@@ -105,7 +130,7 @@ const column = (steps, key) => steps.map((step) => step[key] ?? null);
 const kinds = {
     distances: (steps) => ({
         title: "Distance to the undecomposed flow",
-        unit: "mean edge lengths",
+        unit: "mean edges",
         logarithmic: true,
         format: (value) => digits(value, 2),
         curves: [
@@ -117,7 +142,7 @@ const kinds = {
     }),
     displacements: (steps) => ({
         title: "Displacement in each step",
-        unit: "mean edge lengths of the input",
+        unit: "mean edges of the input",
         logarithmic: true,
         format: (value) => digits(value, 2),
         curves: [

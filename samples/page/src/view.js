@@ -2,7 +2,7 @@
 
 import {
     BufferAttribute, BufferGeometry, DataTexture, DoubleSide, GLSL3, LineSegments, Mesh, PerspectiveCamera,
-    RawShaderMaterial, Scene, Vector3, WebGLRenderer,
+    RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
@@ -44,13 +44,13 @@ void main() {
     vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
     float key = max(dot(normal, normalize(vec3(-0.45, 0.65, 0.75))), 0.0);
     float fill = max(dot(normal, normalize(vec3(0.75, -0.2, 0.5))), 0.0);
-    float light = 0.36 + 0.56 * key + 0.16 * fill;
+    float light = 0.46 + 0.5 * key + 0.2 * fill;
     vec3 base = plain;
     if (mode == 1)
         base = faceColour;
     if (mode == 2)
         base = missing > 0.0 ? vec3(0.5) : texture(ramp, vec2(clamp(shown, 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
-    colour = vec4(min(base * light + 0.05 * pow(key, 24.0), 1.0), 1.0);
+    colour = vec4(min(base * light + 0.06 * pow(key, 24.0), 1.0), 1.0);
 }`;
 
 const edgeFragmentShader = `
@@ -79,6 +79,8 @@ export class View {
     #edges;
     #centre;
     #radius;
+    #halves;
+    #meanEdge;
     #up;
     #doubled = new Uint32Array(0);
     #drawing = false;
@@ -86,14 +88,17 @@ export class View {
 
     /**
      * @param box lower and upper corner of the mesh before the flow, which decides what is in view.
+     * @param meanEdge of the mesh, in the same unit.
      * @throws Error without WebGL 2.
      */
-    constructor(canvas, box) {
+    constructor(canvas, box, meanEdge) {
         this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
         this.#renderer.setClearAlpha(0);
         this.#centre = box.lower.map((x, k) => 0.5 * x + 0.5 * box.upper[k]);
         const halves = box.lower.map((x, k) => 0.5 * box.upper[k] - 0.5 * x);
         this.#radius = Math.hypot(...halves) || 1;
+        this.#halves = halves.map((half) => half / this.#radius);
+        this.#meanEdge = meanEdge / this.#radius;
         this.#up = upwards(halves);
         this.#surface = new Mesh(this.#geometry, this.#surfaceMaterial());
         this.#edges = new LineSegments(this.#edgeGeometry, this.#edgeMaterial());
@@ -129,7 +134,7 @@ export class View {
                 largest: { value: 0 },
                 mode: { value: 0 },
                 ramp: { value: ramp },
-                plain: { value: new Vector3(0.8, 0.82, 0.85) },
+                plain: { value: new Vector3(0.86, 0.87, 0.885) },
             },
         });
     }
@@ -144,8 +149,22 @@ export class View {
             transparent: true,
             premultipliedAlpha: true,
             depthWrite: false,
-            uniforms: { lower, extent, largest, ink: { value: [0.06, 0.08, 0.1, 0.45] } },
+            uniforms: { lower, extent, largest, ink: { value: new Vector4(0.06, 0.08, 0.1, 0) } },
         });
+    }
+
+    /** How far away the camera sees the whole box. @param away where it is, of length 1. */
+    #distanceToSeeAll(away) {
+        const right = new Vector3().crossVectors(this.#camera.up, away).normalize();
+        const above = new Vector3().crossVectors(away, right);
+        const slope = Math.tan((this.#camera.fov * Math.PI) / 360);
+        let distance = 0.1;
+        for (let corner = 0; corner < 8; ++corner) {
+            const place = new Vector3(...this.#halves.map((half, k) => ((corner >> k) & 1 ? half : -half)));
+            const aside = Math.max(Math.abs(place.dot(above)), Math.abs(place.dot(right)) / this.#camera.aspect);
+            distance = Math.max(distance, place.dot(away) + aside / slope);
+        }
+        return distance;
     }
 
     /** Puts the camera where it sees all. */
@@ -153,12 +172,11 @@ export class View {
         const up = [0, 0, 0];
         up[this.#up] = 1;
         this.#camera.up.set(...up);
-        const away = [0, 0, 0];
-        away[(this.#up + 1) % 3] = 0.62;
-        away[(this.#up + 2) % 3] = -1;
-        away[this.#up] = 0.62;
-        const distance = 1.04 / Math.sin((this.#camera.fov * Math.PI) / 360) / Math.min(1, this.#camera.aspect ** 0.8);
-        this.#camera.position.set(...away).setLength(distance);
+        const away = new Vector3();
+        away.setComponent((this.#up + 1) % 3, 0.62);
+        away.setComponent((this.#up + 2) % 3, -1);
+        away.setComponent(this.#up, 0.62).normalize();
+        this.#camera.position.copy(away).setLength(1.06 * this.#distanceToSeeAll(away));
         this.#controls.target.set(0, 0, 0);
         this.#controls.update();
         this.#untouched = true;
@@ -258,6 +276,14 @@ export class View {
         uniforms.mode.value = 2;
     }
 
+    /** Edges that are close together on the screen are faint, or they would hide all else. */
+    #inkEdges() {
+        const { height } = this.#renderer.domElement;
+        const distance = this.#camera.position.distanceTo(this.#controls.target);
+        const seen = (this.#meanEdge * height) / (2 * Math.tan((this.#camera.fov * Math.PI) / 360) * distance);
+        this.#edges.material.uniforms.ink.value.w = 0.5 * Math.min(Math.max(seen / 10, 0.02), 1);
+    }
+
     /** Draws in the next frame, once. */
     draw() {
         if (this.#drawing)
@@ -265,8 +291,10 @@ export class View {
         this.#drawing = true;
         requestAnimationFrame(() => {
             this.#drawing = false;
-            if (this.#geometry.getAttribute("position"))
-                this.#renderer.render(this.#scene, this.#camera);
+            if (!this.#geometry.getAttribute("position"))
+                return;
+            this.#inkEdges();
+            this.#renderer.render(this.#scene, this.#camera);
         });
     }
 }
