@@ -57,8 +57,10 @@ async function show() {
     reflect(flow(), chosen);
     showLegend(flow(), chosen, rangeOf(flow(), chosen));
     plots.redraw();
-    if (view === null)
+    if (view === null) {
+        byId("stage").setAttribute("aria-busy", "false");
         return;
+    }
     const { positions } = surface();
     const [places, paint] = await Promise.all([positionsIn(positions.block), colour(), edges()]);
     if (mine !== turn)

@@ -129,7 +129,7 @@ const column = (steps, key) => steps.map((step) => step[key] ?? null);
 
 const kinds = {
     distances: (steps) => ({
-        title: "Distance to the undecomposed flow",
+        title: `${steps.some((step) => step.v_mean !== undefined) ? "Distance" : "Estimated distance"} to the undecomposed flow`,
         unit: "mean edges",
         logarithmic: true,
         format: (value) => digits(value, 2),
