@@ -34,6 +34,7 @@ while (($# > 0)); do
     esac
 done
 
-install_packages
+mapfile -t more < <(page_packages)
+install_packages "${more[@]}"
 build "$preset"
 exec ctest --preset "$preset" --parallel "$(nproc)"
