@@ -44,8 +44,10 @@ std::set<Edge> edges_of(const PolygonMesh& mesh)
 
 TEST_CASE("a face of n sides is n - 2 triangles of its corners")
 {
-    for (const auto& [name, mesh, topology] : test::assorted_meshes()) {
-        CAPTURE(name);
+    for (const test::NamedMesh& named : test::assorted_meshes()) {
+        CAPTURE(named.name);
+        const PolygonMesh& mesh = named.mesh;
+        const Topology& topology = named.topology;
         const PageTriangles triangles = page_triangles(mesh, topology);
         REQUIRE(triangles.per_face.size() == at(mesh.n_faces()));
         std::size_t t = 0;
@@ -63,8 +65,10 @@ TEST_CASE("a face of n sides is n - 2 triangles of its corners")
 
 TEST_CASE("the edges of the mesh are drawn, all of them and nothing else")
 {
-    for (const auto& [name, mesh, topology] : test::assorted_meshes()) {
-        CAPTURE(name);
+    for (const test::NamedMesh& named : test::assorted_meshes()) {
+        CAPTURE(named.name);
+        const PolygonMesh& mesh = named.mesh;
+        const Topology& topology = named.topology;
         const std::multiset<Edge> drawn = drawn_edges(page_triangles(mesh, topology));
         const std::set<Edge> expected = edges_of(mesh);
         CHECK(std::set<Edge>(drawn.begin(), drawn.end()) == expected);
