@@ -244,6 +244,8 @@ test("a page of a figure has all its flows", async () => {
     await opened.selectOption("#colour", "distance");
     await opened.selectOption("#flow", String(flows - 1));
     await settled(opened);
+    const legend = await opened.locator("#legend").textContent();
+    assert.match(legend, /^Distance to the undecomposed flow/);
     await changes(opened, "another flow", () => opened.selectOption("#flow", "0"));
     await changes(opened, "sub-meshes", async () => {
         await opened.selectOption("#flow", String(flows - 1));

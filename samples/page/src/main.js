@@ -14,7 +14,8 @@ const positionsIn = remembering(6, (block) => unpacked16(block, 3, 4));
 const valuesIn = remembering(6, (block) => unpacked16(block, 1, 2));
 const cornersOnce = remembering(1, (block) => unpacked32(block, 3));
 
-const chosen = { flow: 0, state: 0, surface: "after", colour: "plain", edges: false, range: "step" };
+/** The last state at first. */
+const chosen = { flow: 0, state: Infinity, surface: "after", colour: "plain", edges: false, range: "step" };
 const flow = () => facts.flows[chosen.flow];
 const state = () => flow().states[chosen.state];
 
@@ -85,7 +86,6 @@ const plots = new Plots({ step: () => state().step, choose: chooseStep });
 
 async function chooseFlow(index) {
     chosen.flow = index;
-    chosen.state = Math.max(chosen.state, flow().states.length - 1);
     offer(flow(), chosen);
     byId("summary").textContent = summary(facts.mesh, flow().report);
     showFacts(byId("facts-table"), flow());
@@ -96,6 +96,8 @@ async function chooseFlow(index) {
             unpacked32(facts.mesh.per_face, 1),
             unpacked32(flow().labels, 1),
         ]);
+        if (index !== chosen.flow)
+            return;
         const triangles = withFlatLabels(corners, labelsOfTriangles(ofFaces, perFace, facts.mesh.triangles), facts.mesh.vertices);
         labels = triangles.labels;
         view.setTriangles(triangles);
