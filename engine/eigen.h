@@ -11,10 +11,10 @@ namespace seamflow {
 /// Smooths `flowing` and then gives its positions to `vertices`, after an exception as well.
 template <class Vertices>
 FlowReport flow_into(Eigen::MatrixBase<Vertices>& vertices, PolygonMesh flowing, const FlowOptions& options,
-                     const StepObserver& on_step)
+                     const StepObserver& on_step, const FlowControl& control)
 {
     try {
-        FlowReport report = mean_curvature_flow(flowing, options, on_step);
+        FlowReport report = mean_curvature_flow(flowing, options, on_step, control);
         set_positions(vertices, flowing.vertices);
         return report;
     } catch (...) {
@@ -34,9 +34,10 @@ template <class Vertices, class Faces>
 requires std::integral<typename Faces::Scalar> FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices,
                                                                               const Eigen::MatrixBase<Faces>& faces,
                                                                               const FlowOptions& options,
-                                                                              const StepObserver& on_step = {})
+                                                                              const StepObserver& on_step = {},
+                                                                              const FlowControl& control = {})
 {
-    return flow_into(vertices, to_polygon_mesh(vertices, faces), options, on_step);
+    return flow_into(vertices, to_polygon_mesh(vertices, faces), options, on_step, control);
 }
 
 /// The same for faces of any numbers of sides.
@@ -47,9 +48,9 @@ template <class Vertices>
 requires std::floating_point<typename Vertices::Scalar>
     FlowReport mean_curvature_flow(Eigen::MatrixBase<Vertices>& vertices, std::span<const Index> face_offsets,
                                    std::span<const Index> face_vertices, const FlowOptions& options,
-                                   const StepObserver& on_step = {})
+                                   const StepObserver& on_step = {}, const FlowControl& control = {})
 {
-    return flow_into(vertices, to_polygon_mesh(vertices, face_offsets, face_vertices), options, on_step);
+    return flow_into(vertices, to_polygon_mesh(vertices, face_offsets, face_vertices), options, on_step, control);
 }
 
 }  // namespace seamflow

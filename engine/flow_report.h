@@ -129,6 +129,8 @@ struct StepState {
     const StepReport& report;
     /// See FlowReport::pieces; null without FlowOptions::keep_gaps.
     const PolygonMesh* pieces = nullptr;
+    /// #V by 3, those of the undecomposed flow, rescaled as well; null without FlowOptions::reference.
+    const Points* reference_positions = nullptr;
     /// Copies everything that the flow needs to go on from here (see FlowState). May be called while the observer runs.
     std::function<FlowState()> capture = {};
 };

@@ -11,6 +11,7 @@
 
 #include "engine/choose_subdomains.h"
 #include "engine/choose_tolerance.h"
+#include "engine/constraints.h"
 #include "engine/converged_flow.h"
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
@@ -25,7 +26,6 @@
 #include "engine/surface_curvature.h"
 #include "engine/workers.h"
 #include "partition/cut/cut.h"
-#include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
 #include "partition/topology.h"
 #include "solvers/degenerate.h"
@@ -85,37 +85,6 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
                                      " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
                                      "use fewer sub-meshes.");
     }
-}
-
-/// How the mesh hangs together, with what the options say of its vertices.
-Topology make_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop)
-{
-    Topology topology = make_topology(mesh, loop);
-    if (options.boundary == Boundary::Free)
-        free_boundary(topology);
-    hold(topology, options.fixed_vertices);
-    return topology;
-}
-
-bool moves_on_boundary(const Topology& topology, Index v)
-{
-    return topology.kind[at(v)] == VertexKind::Boundary && topology.moves(v);
-}
-
-bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)
-{
-    return !select(run_in_parallel, mesh.n_vertices(), [&](Index v) { return moves_on_boundary(topology, v); }).empty();
-}
-
-/// What holds on Γ between sweeps is not defined where it meets a boundary that moves.
-void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
-{
-    const auto shared = select(run_in_parallel, mesh.n_vertices(), [&](Index v) {
-        return moves_on_boundary(topology, v) && is_on_interface(topology, cut.labels, v);
-    });
-    if (!shared.empty())
-        throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
-                          "what speaks of sweeps (conditions, sweep, p, …), or use one sub-mesh");
 }
 
 /// Failures of `body` come out with a name before them.
@@ -245,6 +214,7 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
     Points rescaled;
+    Points undecomposed;
     for (int step = first; step <= options.steps; ++step) {
         progress.enter(FlowPhase::Step, step, shares.begin(), shares.end_of_tasks());
         Stopwatch watch;
@@ -260,8 +230,11 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         of_step.max_mean_curvature_before = curvature_before;
         of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
         const double measuring = watch.lap();
-        if (reference != nullptr)
+        if (reference != nullptr) {
             compare_with(*reference, run, step, shares, flow.positions(), of_step);
+            undecomposed = reference->positions();
+            rescaling.apply(undecomposed);
+        }
         shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
         mesh.vertices.swap(rescaled);
@@ -269,8 +242,8 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         report.seconds.step += of_step.seconds;
         report.seconds.total += of_step.seconds + measuring;
         if (on_step)
-            on_step(
-                {step, mesh.vertices, of_step, flow.pieces(), [&] { return capture(run, flow, reference, meter); }});
+            on_step({step, mesh.vertices, of_step, flow.pieces(), reference == nullptr ? nullptr : &undecomposed,
+                     [&] { return capture(run, flow, reference, meter); }});
     }
     remark_on_drift(options, report);
     report.displacement = meter.total();

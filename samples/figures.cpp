@@ -18,7 +18,10 @@ namespace {
 /// Writes the table of one experiment, and adds its claims.
 void run_figure(const Experiment& experiment, const FiguresCommand& command, std::vector<Claim>& claims)
 {
-    const Table table = run_experiment(experiment, {command.meshes, command.out}, std::cout);
+    Places places{.meshes = command.meshes, .pictures = command.out, .page = {}};
+    if (command.html)
+        places.page = command.out / (std::string(experiment.name) + ".html");
+    const Table table = run_experiment(experiment, places, std::cout);
     write_csv(command.out / (table.figure + ".csv"), {table});
     for (const std::string& remark : table.remarks)
         std::cout << "  remark: " << remark << '\n';
@@ -32,7 +35,7 @@ void run_many(const FiguresCommand& command, std::vector<Claim>& claims)
     std::vector<Table> tables;
     for (const Experiment& experiment : experiments())
         if (const Experiment many = with_many_sub_meshes(experiment); many.variants.back().pieces == Pieces::Metis)
-            tables.push_back(run_experiment(many, {command.meshes, {}}, std::cout));
+            tables.push_back(run_experiment(many, {command.meshes, {}, {}}, std::cout));
     write_csv(command.out / (std::string(many_sub_meshes) + ".csv"), tables);
     const std::vector<Claim> found = claims_of_many(tables);
     claims.insert(claims.end(), found.begin(), found.end());

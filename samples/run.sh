@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the programs and shows them at work, from a bare Debian 12 on: makes a mesh, smooths it in eight pieces,
-# compares the result with the undecomposed flow. The files are left in output/.
+# compares the result with the undecomposed flow. The files are left in output/; with node and npm on the PATH, among
+# them a page that shows it all in a browser. They are not installed for that: Debian's npm brings hundreds of packages.
 #
 #     samples/run.sh
 
@@ -23,9 +24,16 @@ run() {
 }
 
 readonly flow=(--laplacian alexa-wardetzky --time-step-edges 10 --steps 5)
+if grep -qx 'SEAMFLOW_PAGE_FOUND:INTERNAL=TRUE' build/CMakeCache.txt; then
+    readonly page=(--html "$out/page.html")
+    readonly page_text="page.html           all of it to look at in a browser, step by step, with plots"
+else
+    readonly page=()
+    readonly page_text="(a page for the browser takes node and npm: install them and run this again)"
+fi
 run "$bin/generate" two-level-cylinder "$out/input.ply" --vertices 50000 --noise 0.3
 run "$bin/smooth" "$out/input.ply" "$out/smooth.ply" "${flow[@]}" --subdomains 8 \
-    --reference --parts "$out/parts.ply" --report "$out/report.json"
+    --reference --parts "$out/parts.ply" --report "$out/report.json" "${page[@]}"
 run "$bin/smooth" "$out/input.ply" "$out/undecomposed.ply" "${flow[@]}" --subdomains 1
 run "$bin/compare" "$out/undecomposed.ply" "$out/smooth.ply" --report "$out/compare.json"
 
@@ -41,6 +49,7 @@ In $PWD/$out:
     parts.ply           the eight sub-meshes in colours
     report.json         times, sizes and distances, step by step
     compare.json        the distance of the two results
+    $page_text
 
 Open the .ply files with MeshLab, ParaView or Blender, the .json files with any text editor.
 END

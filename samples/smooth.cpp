@@ -9,11 +9,14 @@
 //        that it takes values from
 
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/stopwatch.h"
+#include "engine/workers.h"
 #include "partition/cut/labels_file.h"
 #include "partition/errors.h"
 #include "partition/io/mesh_io.h"
@@ -26,6 +29,7 @@
 #include "samples/common/report_text.h"
 #include "samples/common/schedule_trace.h"
 #include "samples/common/smooth_command.h"
+#include "samples/page/page_html.h"
 
 using namespace seamflow;
 
@@ -45,13 +49,29 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Mes
     }
 }
 
-/// Prints every step, and writes it where --every-step asks for that.
+/// What --html shows, so far the input; empty without --html.
+std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh)
+{
+    std::optional<PageFlow> page;
+    if (command.html.empty())
+        return page;
+    require_showable(mesh, command.html);
+    Workers(command.options.threads).execute([&] {
+        page.emplace(std::make_shared<const PageMesh>(mesh), command.output.filename().string(),
+                     command.options.laplacian, command.options.steps, command.options.reference);
+    });
+    return page;
+}
+
+/// Prints every step, writes it where --every-step asks for that, and hands it to the page.
 StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
-                           std::ostream& out)
+                           std::optional<PageFlow>& page, std::ostream& out)
 {
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &input, &write_seconds, &out, mean_edge, snapshot](const StepState& state) mutable {
+    return [&command, &input, &write_seconds, &page, &out, mean_edge, snapshot](const StepState& state) mutable {
         print_step(out, state.report, state.step, command.options.steps, mean_edge);
+        if (page)
+            page->add_step(state.step, state.positions, state.reference_positions);
         if (!command.every_step)
             return;
         const Stopwatch watch;
@@ -69,6 +89,22 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     if (!command.parts.empty())
         write_labelled_ply(command.parts, file.mesh, report.labels);
     return remarks;
+}
+
+/// What is written about the run: report, trace and page.
+void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
+                   std::optional<PageFlow>& page)
+{
+    if (page && !page->remark().empty())
+        report.remarks.push_back(page->remark());
+    if (!command.report.empty())
+        write_text(command.report, smooth_report_json(run, report));
+    if (!command.trace.empty())
+        write_schedule_trace(command.trace, report);
+    if (page) {
+        page->finish(report, smooth_report_json(run, report));
+        write_text(command.html, page_html(command.input.filename().string(), {&*page, 1}));
+    }
 }
 
 /// Runs the flow; what is wrong with the mesh comes out with the name of its file.
@@ -120,9 +156,10 @@ ExitStatus smooth(int argc, char** argv)
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
+    std::optional<PageFlow> page = make_page(command, file.mesh);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =
-        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, out));
+        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out));
     FlowReport report;
     try {
         report = run_flow(command, file.mesh, on_step, long_run.control());
@@ -135,10 +172,7 @@ ExitStatus smooth(int argc, char** argv)
     for (const auto& remarks : {losses, write_results(command, file, report)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
-    if (!command.report.empty())
-        write_text(command.report, smooth_report_json(run, report));
-    if (!command.trace.empty())
-        write_schedule_trace(command.trace, report);
+    write_reports(command, run, report, page);
     print_summary(out, run, report);
     return require_converged(command, report);
 }

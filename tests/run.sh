@@ -34,6 +34,7 @@ while (($# > 0)); do
     esac
 done
 
-install_packages doxygen
+mapfile -t more < <(page_packages)
+install_packages doxygen "${more[@]}"
 build "$preset"
 exec ctest --preset "$preset" --parallel "$(nproc)"

@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 readonly packages=(
     g++ cmake ninja-build pkg-config
     libtbb-dev libeigen3-dev libsuitesparse-dev libopenblas-dev libmetis-dev libcgal-dev libopenmesh-dev
-    libhypre-dev
+    libhypre-dev zlib1g-dev
     doctest-dev libcli11-dev nlohmann-json3-dev
 )
 
@@ -22,6 +22,25 @@ missing_packages() {
     for package in "$@"; do
         grep -qxF -- "$package" <<<"$installed" || echo "$package"
     done
+}
+
+# any_command NAME…: whether one of them is there, from whatever source.
+any_command() {
+    local name
+    for name in "$@"; do
+        if command -v "$name" >/dev/null; then
+            return 0
+        fi
+    done
+    return 1
+}
+
+# page_packages: prints what is missing to build the page of --html and to open it in a browser, one a line.
+page_packages() {
+    if ! any_command node nodejs || ! any_command npm; then
+        printf '%s\n' nodejs npm
+    fi
+    any_command chromium-headless-shell chromium chromium-browser google-chrome || echo chromium-headless-shell
 }
 
 # as_root COMMAND…: runs it as root, if that is possible.

@@ -8,6 +8,7 @@
 #include "samples/common/command_line.h"
 #include "samples/common/flow_choices.h"
 #include "samples/common/output_files.h"
+#include "samples/page/page_html.h"
 
 namespace seamflow {
 
@@ -123,6 +124,8 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
     app.add_option("--report", command.report, "write times, sizes and distances")->type_name("REPORT.json");
     app.add_option("--trace", command.trace, "write which task ran when in which thread, for ui.perfetto.dev")
         ->type_name("TRACE.json");
+    app.add_option("--html", command.html, "write a page that shows the surface step by step, and plots, in a browser")
+        ->type_name("PAGE.html");
 }
 
 /// What matters if the flow takes long.
@@ -162,6 +165,8 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         throw OptionError("--trace shows the tasks of the sub-meshes; --scheme explicit has none");
     if (command.options.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
         throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
+    if (!command.html.empty())
+        require_page();
     kind_for_writing(command.output, FileKind{});
     if (command.every_step)
         kind_for_writing(command.every_step->path(1), FileKind{});
@@ -181,7 +186,7 @@ void require_usable_files(const SmoothCommand& command)
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
-    for (const auto& path : {command.parts, command.report, command.trace})
+    for (const auto& path : {command.parts, command.report, command.trace, command.html})
         if (!path.empty())
             results.push_back(path);
     for (const auto& input : {command.input, command.labels, command.fix}) {

@@ -28,6 +28,7 @@ struct SmoothCommand {
     std::filesystem::path parts;
     std::filesystem::path report;
     std::filesystem::path trace;
+    std::filesystem::path html;
     /// The property of vertices that says which are fixed, where `fix` is a PLY file.
     std::string fix_property = "fixed";
     /// The folder of the checkpoint; empty: none is kept.

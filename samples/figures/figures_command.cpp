@@ -7,6 +7,7 @@
 #include "samples/common/command_line.h"
 #include "samples/common/output_files.h"
 #include "samples/figures/experiment.h"
+#include "samples/page/page_html.h"
 
 namespace seamflow {
 
@@ -62,8 +63,12 @@ std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCo
     app.add_option("--meshes", command.meshes, "folder with the authors' own meshes [all are generated]")
         ->type_name("DIR");
     app.add_option("--out", command.out, "folder for tables, meshes and claims")->required()->type_name("DIR");
+    app.add_flag("--html", command.html,
+                 "also write a page for each figure that shows its flows step by step in a browser");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
+    if (command.html)
+        require_page();
     require_known(command.figures);
     require_folders(command);
     return std::nullopt;

@@ -16,6 +16,8 @@ struct FiguresCommand {
     std::filesystem::path meshes;
     /// Folder for all results; made if it is not there.
     std::filesystem::path out;
+    /// Whether to write a page for each figure.
+    bool html = false;
     /// Names; empty: all.
     std::vector<std::string> figures;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "partition/errors.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
+#include "samples/figures/figure_page.h"
 #include "samples/figures/picture.h"
 #include "samples/figures/roughness.h"
 
@@ -38,6 +40,8 @@ class Run {
         table_.steps = experiment.steps;
         table_.roughness = roughness(input_.mesh, topology_, input_.mesh.vertices);
         picture("input", input_.mesh.vertices);
+        if (!places_.page.empty())
+            page_.emplace(input_);
     }
 
     Table all()
@@ -45,26 +49,75 @@ class Run {
         log_ << experiment_.name << ": " << input_.name << ", " << input_.mesh.n_vertices() << " vertices\n";
         for (const Variant& variant : experiment_.variants)
             flow(variant);
+        if (page_)
+            page_->write(places_.page, table_.figure);
         return std::move(table_);
     }
 
   private:
+    /// A flow on its way to the page, if there is one. It is compared if the undecomposed flow has come to its end.
+    class Shown {
+      public:
+        Shown(Run& run, const Variant& variant)
+            : run_(run)
+            , laplacian_(variant.laplacian)
+        {
+            const auto reference = run.reference_.find(variant.laplacian);
+            const auto steps = at(run.experiment_.steps);
+            if (variant.pieces != Pieces::One && reference != run.reference_.end() && reference->second.size() == steps)
+                undecomposed_ = &reference->second;
+            if (run.page_)
+                flow_ =
+                    run.page_->begin(run.title(variant), laplacian_, run.experiment_.steps, undecomposed_ != nullptr);
+        }
+
+        void add_step(const StepState& state)
+        {
+            if (!flow_)
+                return;
+            const Points* other = undecomposed_ == nullptr ? nullptr : &(*undecomposed_)[at(state.step) - 1];
+            flow_->add_step(state.step, state.positions, other);
+            if (other != nullptr)
+                distances_.push_back(vertex_distance(run_.input_.mesh, *other, state.positions));
+        }
+
+        void finish(FlowReport report)
+        {
+            if (!flow_)
+                return;
+            for (std::size_t k = 0; k < distances_.size(); ++k)
+                report.steps[k].distance = distances_[k];
+            run_.page_->add(std::move(*flow_), report, laplacian_);
+        }
+
+      private:
+        Run& run_;
+        Laplacian laplacian_;
+        const std::vector<Points>* undecomposed_ = nullptr;
+        std::optional<PageFlow> flow_;
+        std::vector<VertexDistance> distances_;
+    };
+
     void flow(const Variant& variant)
     {
         PolygonMesh mesh = input_.mesh;
         DisplacementMeter meter(input_.mesh, topology_);
         Points before = mesh.vertices;
         const std::size_t first = table_.rows.size();
+        Shown shown(*this, variant);
         const auto measure = [&](const StepState& state) {
             meter.add_step(before, state.positions);
             before = state.positions;
+            shown.add_step(state);
             if (variant.pieces == Pieces::One)
                 reference_[variant.laplacian].push_back(state.positions);
             table_.rows.push_back(measured(variant, state, meter.total().drift.mean));
         };
         Index subdomains = 1;
         try {
-            subdomains = mean_curvature_flow(mesh, options_of(experiment_, variant, input_), measure).subdomains;
+            const FlowReport report = mean_curvature_flow(mesh, options_of(experiment_, variant, input_), measure);
+            subdomains = report.subdomains;
+            shown.finish(report);
         } catch (const ComputationError& error) {
             table_.remarks.push_back(title(variant) + ": " + error.what());
         }
@@ -147,6 +200,7 @@ class Run {
     Table table_;
     /// Per Laplacian and step, from step 1.
     std::map<Laplacian, std::vector<Points>> reference_;
+    std::optional<FigurePage> page_;
 };
 
 }  // namespace

@@ -14,6 +14,8 @@ struct Places {
     std::filesystem::path meshes;
     /// For PLY files: the input and the last state of each flow (see write_picture); empty: none.
     std::filesystem::path pictures;
+    /// For a page with all flows that come to their end; empty: none.
+    std::filesystem::path page = {};
 };
 
 /// Runs all flows of an experiment and measures each of their steps against the undecomposed flow by the same

@@ -34,6 +34,9 @@ TEST_CASE("the report tells what was done")
     const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
         CHECK(state.step == ++calls);
         CHECK(state.positions.rows() == mesh.n_vertices());
+        REQUIRE(state.reference_positions != nullptr);
+        const VertexDistance distance = vertex_distance(mesh, *state.reference_positions, state.positions);
+        CHECK(distance.max == state.report.distance->max);
     });
     CHECK(calls == 2);
     CHECK(report.vertices == mesh.n_vertices());

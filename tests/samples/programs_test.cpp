@@ -72,6 +72,9 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step 1 --trace out.obj",
              "mesh.obj out.obj --time-step 1 --trace mesh.obj",
              "mesh.obj out.obj --time-step 1 --trace a.json --report a.json",
+             "mesh.obj out.obj --time-step 1 --html out.obj",
+             "mesh.obj out.obj --time-step 1 --html mesh.obj",
+             "mesh.obj out.obj --time-step 1 --html a.html --report a.html",
              "mesh.obj out.obj --time-step 1e-7 --scheme explicit --trace trace.json",
              "mesh.obj out.obj --time-step 1e-7 --scheme explicit --memory-limit 1G",
              "mesh.obj out.obj --time-step 1 --memory-limit 0",
@@ -365,6 +368,33 @@ TEST_CASE("the classical conditions report their gaps, and leave them on request
     CHECK(w.count_lines("apart.obj", "f ") == w.count_lines("joined.obj", "f "));
     CHECK(w.count_lines("apart.obj", "v ") > w.count_lines("joined.obj", "v "));
     CHECK(test::content_of(w.directory / "step2.obj") == test::content_of(w.directory / "apart.obj"));
+}
+
+TEST_CASE("--html writes a page, and changes nothing else" * doctest::skip(!HAS_PAGE))
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj plain.obj --time-step-edges 2 --subdomains 3 --steps 2") == 0);
+    REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 2 --subdomains 3 --steps 2 --reference --html page.html "
+                     "--report report.json") == 0);
+    CHECK(test::content_of(w.directory / "plain.obj") == test::content_of(w.directory / "out.obj"));
+    CHECK(test::content_of(w.directory / "page.html").find("<title>mesh.obj</title>") != std::string::npos);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1e-7 --scheme explicit --steps 300 --html page.html") == 0);
+    CHECK(w.said().find("The page shows 200 of the 300 steps' surfaces") != std::string::npos);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --steps 0 --html page.html") == 0);
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --html nowhere/page.html") == 5);
+    CHECK(w.run(FIGURES " --out results --html texture") == 0);
+    CHECK(test::content_of(w.directory / "results/texture.html").find("<title>texture: generated</title>") !=
+          std::string::npos);
+}
+
+TEST_CASE("--html says what it takes where it is not built" * doctest::skip(HAS_PAGE))
+{
+    const Workshop w;
+    CHECK(w.smooth("mesh.obj out.obj --time-step 1 --html page.html") == 2);
+    CHECK(w.said().find("apt-get install nodejs npm") != std::string::npos);
+    CHECK(w.run(FIGURES " --out results --html texture") == 2);
+    CHECK_FALSE(w.has("out.obj"));
+    CHECK_FALSE(w.has("page.html"));
 }
 
 TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")

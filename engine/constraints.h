@@ -1,0 +1,21 @@
+#pragma once
+
+#include "engine/flow_options.h"
+#include "partition/cut/cut.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// How the mesh hangs together, with what the options say of which vertices move. Runs in parallel.
+/// @throws InputError for a number in FlowOptions::fixed_vertices that is none of a vertex.
+Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options);
+
+/// Whether any vertex on the boundary moves.
+bool boundary_moves(const PolygonMesh& mesh, const Topology& topology);
+
+/// What holds on Γ between sweeps is not defined where Γ meets a boundary that moves.
+/// @throws OptionError if it does.
+void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut);
+
+}  // namespace seamflow

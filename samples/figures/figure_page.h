@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "samples/figures/experiment.h"
+#include "samples/page/page_flow.h"
+
+namespace seamflow {
+
+/// The page of a figure: all its flows.
+class FigurePage {
+  public:
+    explicit FigurePage(const FigureMesh& input);
+
+    /// A flow that begins. @param compared whether its states come with those of the undecomposed flow.
+    [[nodiscard]] PageFlow begin(const std::string& title, Laplacian laplacian, int steps, bool compared) const;
+
+    /// A flow that has come to its end.
+    void add(PageFlow flow, const FlowReport& report, Laplacian laplacian);
+
+    /// Writes the page, unless there are no flows.
+    /// @param figure its name. @throws OutputError.
+    void write(const std::filesystem::path& path, const std::string& figure) const;
+
+  private:
+    std::string mesh_name_;
+    std::shared_ptr<const PageMesh> mesh_;
+    std::vector<PageFlow> flows_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,76 @@
+#include "samples/page/packed_array.h"
+
+#include <cassert>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include <zlib.h>
+
+namespace seamflow {
+
+namespace {
+
+std::string base64(std::span<const std::uint8_t> bytes)
+{
+    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text((bytes.size() + 2) / 3 * 4, '=');
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < n ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k <= n; ++k)
+            text[out + k] = digits[group >> (18 - 6 * k) & 63U];
+        out += 4;
+    }
+    return text;
+}
+
+template <class Number>
+std::vector<std::uint8_t> planes_of_differences(std::span<const Number> numbers, std::size_t columns)
+{
+    assert(numbers.size() % columns == 0);
+    using Signed = std::make_signed_t<Number>;
+    const std::size_t rows = numbers.size() / columns;
+    std::vector<std::uint8_t> bytes(numbers.size_bytes());
+    for (std::size_t column = 0; column < columns; ++column) {
+        std::uint8_t* const planes = bytes.data() + column * rows * sizeof(Number);
+        Number before = 0;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const Number now = numbers[row * columns + column];
+            const auto difference = static_cast<Signed>(static_cast<Number>(now - before));
+            const auto twice = static_cast<Number>(static_cast<Number>(difference) << 1U);
+            const auto folded = static_cast<Number>(difference < 0 ? ~twice : twice);
+            for (std::size_t byte = 0; byte < sizeof(Number); ++byte)
+                planes[byte * rows + row] = static_cast<std::uint8_t>(folded >> (8 * byte) & 255U);
+            before = now;
+        }
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::string packed(std::span<const std::uint8_t> bytes)
+{
+    uLongf size = compressBound(bytes.size());
+    std::vector<std::uint8_t> stream(size);
+    // The only way to fail, with room enough.
+    if (compress2(stream.data(), &size, bytes.data(), bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
+        throw std::bad_alloc();
+    return base64(std::span(stream).first(size));
+}
+
+std::string packed(std::span<const std::uint16_t> numbers, std::size_t columns)
+{
+    return packed(planes_of_differences(numbers, columns));
+}
+
+std::string packed(std::span<const std::uint32_t> numbers, std::size_t columns)
+{
+    return packed(planes_of_differences(numbers, columns));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/flow_report.h"
+#include "partition/topology.h"
+#include "samples/page/packed_state.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// The mesh of a page, as it was before any flow.
+struct PageMesh {
+    explicit PageMesh(const PolygonMesh& input);
+
+    PolygonMesh mesh;
+    Topology topology;
+    double mean_edge = 0.0;
+};
+
+/// A surface after some step, and its mean curvature ‖ΔV‖ at each vertex, in 1/length (see measure_curvature).
+struct PageSurface {
+    PackedPoints positions;
+    PackedValues curvature;
+};
+
+/// What a page shows of one step.
+struct PageState {
+    /// 0: the input.
+    int step = 0;
+    PageSurface surface;
+    std::optional<PageSurface> undecomposed;
+    /// Distance of each vertex to the undecomposed flow, in mean edge lengths of that one's mesh (as V_mean is);
+    /// without it from where it was in the input, in mean edge lengths of the input.
+    PackedValues distance;
+};
+
+/// One flow on the mesh of a page: takes each state when it comes, and keeps it in a few bytes a vertex.
+class PageFlow {
+  public:
+    /// @param name for the user, where a page has several flows.
+    /// @param steps how many states will come. @param undecomposed whether they come with the undecomposed flow.
+    PageFlow(std::shared_ptr<const PageMesh> mesh, std::string name, Laplacian laplacian, int steps, bool undecomposed);
+
+    /// @param positions, undecomposed #V by 3; the latter null without that flow.
+    void add_step(int step, const Points& positions, const Points* undecomposed);
+
+    /// What is known at the end alone. @param report_json see smooth_report_json.
+    void finish(const FlowReport& report, std::string report_json);
+
+    /// A sentence for the user if not all steps are shown, else empty.
+    [[nodiscard]] std::string remark() const;
+
+    [[nodiscard]] const PageMesh& mesh() const { return *mesh_; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] bool has_undecomposed() const { return undecomposed_; }
+    [[nodiscard]] const std::vector<PageState>& states() const { return states_; }
+    [[nodiscard]] const std::string& report_json() const { return report_json_; }
+    /// Sub-mesh of every face.
+    [[nodiscard]] const std::vector<Index>& labels() const { return labels_; }
+
+  private:
+    [[nodiscard]] PageSurface pack_surface(const Points& positions) const;
+
+    std::shared_ptr<const PageMesh> mesh_;
+    std::string name_;
+    Laplacian laplacian_;
+    int steps_;
+    bool undecomposed_;
+    std::vector<int> shown_;
+    std::vector<PageState> states_;
+    std::string report_json_;
+    std::vector<Index> labels_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "samples/page/page_flow.h"
+
+namespace seamflow {
+
+/// A page for a browser that shows flows on one mesh: the surface step by step, coloured by what was measured there,
+/// and plots of distances and times. It holds all it needs: opening it asks for nothing from anywhere.
+/// @param title plain text, in any characters: the name of the input.
+/// @param flows at least one, finished, all on the same mesh.
+/// @throws OptionError as require_page.
+std::string page_html(const std::string& title, std::span<const PageFlow> flows);
+
+/// @throws OptionError saying what to install if this program was built without the page.
+void require_page();
+
+/// @throws OutputError for a mesh of more faces than a browser can show.
+void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path);
+
+}  // namespace seamflow

@@ -1,0 +1,13 @@
+// In place of the page where the project is built without npm.
+
+#include "samples/page/page_template.h"
+
+namespace seamflow {
+
+const std::string& page_template()
+{
+    static const std::string none;
+    return none;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,38 @@
+#include "samples/page/shown_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seamflow {
+
+namespace {
+
+/// What a vertex of one state takes in the file, about: its position, its curvature, its distance.
+constexpr double bytes_of_state = 8.0;
+constexpr double bytes_of_undecomposed_state = 6.0;
+constexpr double most_bytes = 80e6;
+constexpr int most_steps = 200;
+
+}  // namespace
+
+std::vector<int> shown_steps(int steps, Index n_vertices, bool undecomposed)
+{
+    const double per_step =
+        std::max(n_vertices, 1) * (bytes_of_state + (undecomposed ? bytes_of_undecomposed_state : 0));
+    const int room = static_cast<int>(std::clamp(most_bytes / per_step, 1.0, static_cast<double>(most_steps)));
+    const int n = std::min(steps, room);
+    std::vector<int> shown;
+    for (int k = 1; k <= n; ++k)
+        shown.push_back(static_cast<int>(std::lround(static_cast<double>(steps) * k / n)));
+    return shown;
+}
+
+std::string remark_on_shown_steps(int steps, const std::vector<int>& shown)
+{
+    if (static_cast<int>(shown.size()) == steps)
+        return {};
+    return "The page shows " + std::to_string(shown.size()) + " of the " + std::to_string(steps) +
+           " steps' surfaces, so that it stays small enough for a browser; its plots have all steps.";
+}
+
+}  // namespace seamflow

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// The steps whose states a page holds, so that its size stays bounded: all where that is at most about 80 MB and 200
+/// steps; else as many as that allows, evenly spaced, the last one always.
+/// @param steps of the flow. @param undecomposed whether the page holds the undecomposed flow, too.
+/// @returns ascending, from 1 to `steps`.
+std::vector<int> shown_steps(int steps, Index n_vertices, bool undecomposed);
+
+/// A sentence for the user; empty if all steps are shown.
+std::string remark_on_shown_steps(int steps, const std::vector<int>& shown);
+
+}  // namespace seamflow

@@ -1,0 +1,72 @@
+// What is drawn of the faces: triangles of which each has one colour although vertices are shared, and edges.
+//
+// WebGL takes what is flat from the last vertex of a triangle. So each vertex gets a sub-mesh to stand for, and every
+// triangle is turned until its last vertex stands for its own; only along seams vertices are doubled for that.
+
+/** The sub-mesh of each triangle. @param perFace into how many triangles each face is cut. */
+export function labelsOfTriangles(labels, perFace, nTriangles) {
+    const result = new Uint32Array(nTriangles);
+    for (let f = 0, t = 0; f < perFace.length; ++f)
+        for (let k = 0; k < perFace[f]; ++k)
+            result[t++] = labels[f] ?? 0;
+    return result;
+}
+
+/**
+ * @param corners three vertices per triangle. @param labels one per triangle.
+ * @returns index: the triangles, turned; doubled: for each vertex after the n first the one it is a copy of; labels: of
+ *     all vertices, those of the mesh and the doubled ones.
+ */
+export function withFlatLabels(corners, labels, n) {
+    const index = new Uint32Array(corners.length);
+    const standsFor = new Int32Array(n).fill(-1);
+    const doubled = [];
+    const doubledLabels = [];
+    const copies = new Map();
+    const copyOf = (v, label) => {
+        const key = v + n * label;
+        if (!copies.has(key)) {
+            copies.set(key, n + doubled.length);
+            doubled.push(v);
+            doubledLabels.push(label);
+        }
+        return copies.get(key);
+    };
+    for (let t = 0; t < labels.length; ++t) {
+        const label = labels[t];
+        let last = -1;
+        for (let k = 0; k < 3 && last < 0; ++k)
+            if (standsFor[corners[3 * t + k]] === label)
+                last = k;
+        for (let k = 0; k < 3 && last < 0; ++k)
+            if (standsFor[corners[3 * t + k]] < 0) {
+                standsFor[corners[3 * t + k]] = label;
+                last = k;
+            }
+        const vertex = last < 0 ? copyOf(corners[3 * t + 2], label) : corners[3 * t + last];
+        const turn = last < 0 ? 2 : last;
+        index[3 * t] = corners[3 * t + ((turn + 1) % 3)];
+        index[3 * t + 1] = corners[3 * t + ((turn + 2) % 3)];
+        index[3 * t + 2] = vertex;
+    }
+    const allLabels = new Uint32Array(n + doubled.length);
+    for (let v = 0; v < n; ++v)
+        allLabels[v] = Math.max(standsFor[v], 0);
+    allLabels.set(doubledLabels, n);
+    return { index, doubled: Uint32Array.from(doubled), labels: allLabels };
+}
+
+/** The edges of the mesh, two vertices each. @param bits one per triangle, bit k: its side from corner k is one. */
+export function edgesOf(corners, bits) {
+    let count = 0;
+    for (const sides of bits)
+        count += (sides & 1) + ((sides >> 1) & 1) + ((sides >> 2) & 1);
+    const index = new Uint32Array(2 * count);
+    for (let t = 0, place = 0; t < bits.length; ++t)
+        for (let k = 0; k < 3; ++k)
+            if ((bits[t] >> k) & 1) {
+                index[place++] = corners[3 * t + k];
+                index[place++] = corners[3 * t + ((k + 1) % 3)];
+            }
+    return index;
+}

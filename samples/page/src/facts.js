@@ -1,0 +1,70 @@
+// Words and numbers of the report.
+
+/** A number with three digits, or a dash. */
+export function digits(value, n = 3) {
+    if (value === null || value === undefined || !Number.isFinite(value))
+        return "–";
+    if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e6)) {
+        const [mantissa, power] = value.toExponential(n - 1).split("e");
+        return `${Number(mantissa)}e${Number(power)}`;
+    }
+    return Number.isInteger(value) ? value.toLocaleString("en") : String(Number(value.toPrecision(n)));
+}
+
+export const seconds = (value) =>
+    value === null || value === undefined ? "–" : value < 1 ? `${digits(1000 * value)} ms` : `${digits(value)} s`;
+
+export function element(name, attributes = {}, ...children) {
+    const made = Object.assign(document.createElement(name), attributes);
+    made.append(...children);
+    return made;
+}
+
+const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
+
+const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "ptackova-velho": "Ptáčková–Velho" };
+
+/** One line about a flow. */
+export function summary(mesh, report) {
+    return [
+        `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
+        `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
+        `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`,
+        report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colors > 1 ? ` in ${report.colors} colours` : ""}` : "undecomposed",
+    ].join(" · ");
+}
+
+function rows(report) {
+    const last = report.steps.at(-1);
+    const list = [
+        ["Input", report.input],
+        ["Output", report.output],
+        ["Mean edge", `${digits(report.mean_edge)} (length)`],
+        ["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`],
+        ["Sub-meshes", `${digits(report.subdomains)}${report.colors > 1 ? ` in ${report.colors} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`],
+    ];
+    if (report.tolerance !== undefined)
+        list.push(["Steps", `converged to ${digits(report.tolerance)}; iterations ${report.steps.map((step) => step.iterations ?? "–").join(", ")}`]);
+    if (last)
+        list.push(["Largest ‖ΔV‖", `${digits(report.steps[0].max_mean_curvature_before)} before, ${digits(last.max_mean_curvature_after)} after (1/length)`]);
+    if (last?.v_mean !== undefined)
+        list.push(["Distance", `V_mean ${digits(last.v_mean)}, V_RMS ${digits(last.v_rms)}, V_max ${digits(last.v_max)} mean edges after the last step`]);
+    list.push(["Threads", digits(report.threads)], ["Memory", `${digits(report.peak_memory_bytes / 1e6)} MB at most`]);
+    if (report.arguments.length > 0)
+        list.push(["Command", ["smooth", ...report.arguments].join(" ")]);
+    return list;
+}
+
+/** Fills a section with what there is to know of a flow. */
+export function showFacts(section, flow) {
+    const { report } = flow;
+    const list = element("dl");
+    for (const [name, text] of rows(report))
+        list.append(element("dt", {}, name), element("dd", {}, text));
+    const remarks = element("ul");
+    for (const remark of [...report.remarks, flow.remark].filter((text, k, all) => text && all.indexOf(text) === k))
+        remarks.append(element("li", {}, remark));
+    section.replaceChildren(element("h2", {}, "Run"), list);
+    if (remarks.childElementCount > 0)
+        section.append(remarks);
+}

@@ -1,0 +1,320 @@
+// Opens pages that smooth and figures write in a headless Chromium, and looks at what is drawn.
+//
+//     node page_test.mjs NPM_FOLDER CHROMIUM BIN_FOLDER OUTPUT_FOLDER
+//
+// The pages and screenshots stay in OUTPUT_FOLDER.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const [npm, chromium, bin, out] = process.argv.slice(2).map((path) => resolve(path));
+const playwright = createRequire(join(npm, "package.json"))("playwright-core");
+
+/** Nothing in a name may break a page; this one even ends a script, across a folder and a file. */
+const awkward = join(out, "a<");
+const sphere = join(awkward, `script>&"'<!--.ply`);
+const page = (name) => join(out, `${name}.html`);
+
+const program = (name, ...words) => execFileSync(join(bin, name), words.map(String), { stdio: "pipe" }).toString();
+
+/** A browser that draws without a graphics card. */
+const launch = (...more) =>
+    playwright.chromium.launch({
+        executablePath: chromium,
+        args: ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", ...more],
+    });
+
+let browser;
+let reader;
+
+before(async () => {
+    rmSync(out, { recursive: true, force: true });
+    mkdirSync(awkward, { recursive: true });
+    program("generate", "noisy-sphere", sphere, "--vertices", 3000);
+    program("generate", "mixed", join(out, "mixed.obj"), "--vertices", 1500);
+    const sweeps = ["--time-step-edges", 4, "--converge", "never", "--steps", 4];
+    program("smooth", sphere, join(out, "sphere.ply"), ...sweeps, "--subdomains", 6, "--reference", "--html", page("sphere"), "--parts", join(out, "parts.ply"));
+    program("smooth", join(out, "mixed.obj"), join(out, "mixed-smooth.obj"), ...sweeps, "--subdomains", 5, "--html", page("mixed"));
+    program("smooth", join(out, "mixed.obj"), join(out, "none.obj"), "--time-step", 1, "--steps", 0, "--html", page("none"));
+    program("figures", "--out", join(out, "figures"), "--html", "texture");
+    browser = await launch();
+    reader = await browser.newPage();
+});
+
+after(() => browser?.close());
+
+/** Opens a page; whatever it complains about or asks for is kept in its `complaints`. */
+async function open(path, { width = 1280, height = 800, colorScheme = "light", within = browser } = {}) {
+    const opened = await within.newPage({ viewport: { width, height }, colorScheme });
+    opened.complaints = [];
+    opened.on("console", (message) => opened.complaints.push(`${message.type()}: ${message.text()}`));
+    opened.on("pageerror", (error) => opened.complaints.push(error.message));
+    opened.on("request", (request) => {
+        if (request.url() !== pathToFileURL(path).href)
+            opened.complaints.push(`request: ${request.url()}`);
+    });
+    await opened.goto(pathToFileURL(path).href);
+    await settled(opened);
+    return opened;
+}
+
+const settled = (opened) => opened.waitForSelector('#stage[aria-busy="false"]', { timeout: 60000 });
+
+/** The picture of a part of a page, which stays in the reader: its number there, and how many colours it has. */
+async function seen(opened, selector = "#frame") {
+    await settled(opened);
+    const png = (await opened.locator(selector).first().screenshot({ animations: "disabled" })).toString("base64");
+    return reader.evaluate(async (base64) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${base64}`;
+        await image.decode();
+        const canvas = new OffscreenCanvas(image.width, image.height);
+        const context = canvas.getContext("2d");
+        context.drawImage(image, 0, 0);
+        const pixels = new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer);
+        globalThis.pictures ??= [];
+        return { number: pictures.push(pixels) - 1, colours: new Set(pixels).size };
+    }, png);
+}
+
+/** The part of the pixels that are not the same. */
+const difference = (a, b) =>
+    reader.evaluate(
+        ([first, second]) => {
+            const [old, now] = [pictures[first], pictures[second]];
+            return old.length === now.length ? old.reduce((sum, pixel, k) => sum + (pixel !== now[k]), 0) / old.length : 1;
+        },
+        [a.number, b.number],
+    );
+
+/** Does something to a page and requires that the surface looks different afterwards. */
+async function changes(opened, what, act, least = 0.01) {
+    const old = await seen(opened);
+    await act();
+    const now = await seen(opened);
+    const changed = await difference(old, now);
+    assert.ok(changed >= least, `${what} changes ${changed} of the picture`);
+    return now;
+}
+
+/** The surface alone, without what lies over it. */
+const bare = (opened) => opened.addStyleTag({ content: "#legend, #reset { visibility: hidden; }" });
+
+const choose = (opened, surface) => opened.locator(`[name="surface"][value="${surface}"]`).check();
+
+const setStep = (opened, value) =>
+    opened.locator("#step").evaluate((slider, to) => {
+        slider.value = to;
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+    }, value);
+
+test("a page opens without complaints and without asking for anything", async () => {
+    for (const path of [page("sphere"), page("mixed"), page("none"), join(out, "figures", "texture.html")]) {
+        const opened = await open(path);
+        const { colours } = await seen(opened);
+        assert.ok(colours > 50, `${path} shows ${colours} colours`);
+        await opened.waitForTimeout(200);
+        assert.deepEqual(opened.complaints, [], path);
+        await opened.close();
+    }
+});
+
+test("names are shown as they are", async () => {
+    const opened = await open(page("sphere"));
+    assert.equal(await opened.title(), `script>&"'<!--.ply`);
+    assert.equal(await opened.locator("h1").textContent(), `script>&"'<!--.ply`);
+    assert.ok((await opened.locator("#facts-table").textContent()).includes(sphere));
+    await opened.close();
+});
+
+test("every switch changes what is seen", async () => {
+    const opened = await open(page("sphere"));
+    await bare(opened);
+    for (const colour of ["sub-mesh", "class", "distance", "curvature"])
+        await changes(opened, colour, () => opened.selectOption("#colour", colour), 0.05);
+    await changes(opened, "the range of the ramp", () => opened.selectOption("#range", "all"));
+    await opened.selectOption("#colour", "plain");
+    await changes(opened, "edges", () => opened.check("#edges"));
+    await changes(opened, "no edges", () => opened.uncheck("#edges"));
+    await changes(opened, "before", () => choose(opened, "before"));
+    await changes(opened, "after", () => choose(opened, "after"));
+    await opened.selectOption("#colour", "curvature");
+    await changes(opened, "undecomposed", () => choose(opened, "undecomposed"), 0.003);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("the slider goes through the steps, and what is drawn comes again", async () => {
+    const opened = await open(page("sphere"));
+    await bare(opened);
+    const last = await seen(opened);
+    assert.equal(await opened.locator("#step-name").textContent(), "Step 4 of 4");
+    for (const step of [3, 2, 1, 0])
+        await changes(opened, `step ${step}`, () => setStep(opened, step), 0.005);
+    assert.equal(await opened.locator("#step-name").textContent(), "Input");
+    await setStep(opened, 4);
+    assert.equal(await difference(last, await seen(opened)), 0);
+    await choose(opened, "before");
+    await setStep(opened, 2);
+    assert.ok(await opened.locator('[value="after"]').isChecked());
+    await opened.close();
+});
+
+test("the surface is turned, brought nearer, moved, and put back", async () => {
+    const opened = await open(page("mixed"));
+    await bare(opened);
+    const first = await seen(opened);
+    const drag = async (button) => {
+        await opened.mouse.move(400, 400);
+        await opened.mouse.down({ button });
+        await opened.mouse.move(520, 460, { steps: 4 });
+        await opened.mouse.up({ button });
+    };
+    await changes(opened, "turning", () => drag("left"), 0.05);
+    await changes(opened, "moving", () => drag("right"), 0.05);
+    await changes(opened, "coming nearer", async () => {
+        await opened.mouse.wheel(0, -400);
+        await opened.waitForTimeout(200);
+    }, 0.05);
+    await opened.locator("#reset").evaluate((button) => button.click());
+    await opened.waitForTimeout(200);
+    assert.equal(await difference(first, await seen(opened)), 0);
+    await opened.close();
+});
+
+test("legends tell what is seen, its range and its unit", async () => {
+    const opened = await open(page("sphere"));
+    const legend = () => opened.locator("#legend").textContent();
+    const report = await opened.evaluate(() => JSON.parse(document.getElementById("facts").textContent).flows[0].report);
+    assert.equal(await legend(), "");
+    await opened.selectOption("#colour", "sub-mesh");
+    assert.equal(await opened.locator("#legend li").count(), report.subdomains);
+    await opened.selectOption("#colour", "class");
+    assert.equal(await opened.locator("#legend li").count(), report.colors);
+    await opened.selectOption("#colour", "distance");
+    await opened.selectOption("#range", "largest");
+    assert.match(await legend(), /^Distance to the undecomposed flow.*in mean edge lengths/);
+    const end = Number((await opened.locator("#legend .ends span").last().textContent()).replaceAll(",", ""));
+    assert.ok(Math.abs(end - report.steps[3].v_max) <= 0.01 * end, `${end} is not ${report.steps[3].v_max}`);
+    await opened.selectOption("#colour", "curvature");
+    assert.match(await legend(), /^Mean curvature.*in 1\/length/);
+    await opened.close();
+});
+
+test("without the undecomposed flow a page shows displacements", async () => {
+    const opened = await open(page("mixed"));
+    assert.ok(await opened.getByText("Undecomposed", { exact: true }).isHidden());
+    assert.match(await opened.locator('#colour option[value="distance"]').textContent(), /^Displacement from the input/);
+    await bare(opened);
+    await changes(opened, "displacement", () => opened.selectOption("#colour", "distance"), 0.05);
+    await opened.selectOption("#colour", "plain");
+    await changes(opened, "edges of polygons", () => opened.check("#edges"));
+    assert.match(await opened.locator("#distances h2").textContent(), /^Estimated distance/);
+    await opened.close();
+});
+
+test("plots have a curve for all that was measured", async () => {
+    const opened = await open(page("sphere"));
+    const curves = async (id) => (await opened.locator(`#${id} .u-series`).count()) - 1;
+    assert.equal(await curves("distances"), 4);
+    assert.equal(await curves("displacements"), 4);
+    assert.equal(await curves("times"), 2);
+    for (const id of ["distances", "displacements", "times"])
+        assert.ok((await seen(opened, `#${id} canvas`)).colours > 20, id);
+    assert.equal(await opened.locator("#phases i").count(), 9);
+    await setStep(opened, 1);
+    await settled(opened);
+    assert.equal(await opened.locator("#times .u-value").first().textContent(), "1");
+    await opened.locator("#times .u-over").click({ position: { x: 20, y: 40 } });
+    await settled(opened);
+    assert.equal(await opened.locator("#step-name").textContent(), "Step 1 of 4");
+    await opened.close();
+});
+
+test("a page of a figure has all its flows", async () => {
+    const opened = await open(join(out, "figures", "texture.html"));
+    const flows = await opened.locator("#flow option").count();
+    assert.ok(flows >= 6, `${flows} flows`);
+    await bare(opened);
+    await opened.selectOption("#colour", "distance");
+    await opened.selectOption("#flow", String(flows - 1));
+    await settled(opened);
+    const legend = await opened.locator("#legend").textContent();
+    assert.match(legend, /^Distance to the undecomposed flow/);
+    await changes(opened, "another flow", () => opened.selectOption("#flow", "0"));
+    await changes(opened, "sub-meshes", async () => {
+        await opened.selectOption("#flow", String(flows - 1));
+        await settled(opened);
+        await opened.selectOption("#colour", "sub-mesh");
+    });
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("pages fit phones and dark rooms", async () => {
+    for (const [name, options] of [
+        ["desk", {}],
+        ["desk-dark", { colorScheme: "dark" }],
+        ["phone", { width: 390, height: 844 }],
+        ["phone-dark", { width: 390, height: 844, colorScheme: "dark" }],
+    ]) {
+        const opened = await open(page("sphere"), options);
+        await opened.selectOption("#colour", "sub-mesh");
+        await settled(opened);
+        const [wide, window] = await opened.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+        assert.ok(wide <= window, `${name} is ${wide} wide`);
+        const luminance = await opened.evaluate(() => Number(getComputedStyle(document.body).backgroundColor.match(/\d+/)[0]));
+        assert.equal(luminance < 128, name.endsWith("dark"));
+        await opened.screenshot({ path: join(out, `${name}.png`), fullPage: name.startsWith("phone") });
+        await opened.close();
+    }
+});
+
+test("without WebGL a page says so and shows the rest", async () => {
+    const poor = await launch("--disable-3d-apis");
+    try {
+        const opened = await open(page("sphere"), { within: poor });
+        assert.match(await opened.locator("#message").textContent(), /WebGL 2/);
+        assert.equal(await opened.locator("#times canvas").count(), 1);
+        await opened.close();
+    } finally {
+        await poor.close();
+    }
+});
+
+test("every triangle has the sub-mesh of its face at its last vertex", async () => {
+    const source = new URL("../../samples/page/src/", import.meta.url);
+    const { withFlatLabels } = await import(new URL("faces.js", source));
+    const corners = Uint32Array.from([0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 1, 2, 5, 2, 3, 5]);
+    const labels = Uint32Array.from([0, 1, 2, 3, 0, 1]);
+    const { index, doubled, labels: ofVertices } = withFlatLabels(corners, labels, 6);
+    for (let t = 0; t < labels.length; ++t) {
+        assert.equal(ofVertices[index[3 * t + 2]], labels[t]);
+        const original = (v) => (v < 6 ? v : doubled[v - 6]);
+        const turned = [0, 1, 2].map((k) => original(index[3 * t + k]));
+        const as = [0, 1, 2].map((k) => corners[3 * t + k]);
+        const first = turned.indexOf(as[0]);
+        assert.deepEqual([0, 1, 2].map((k) => turned[(first + k) % 3]), as);
+    }
+});
+
+test("sub-meshes have the colours that --parts gives them", async () => {
+    const { colourOfLabel } = await import(new URL("../../samples/page/src/palette.js", import.meta.url));
+    const file = readFileSync(join(out, "parts.ply"));
+    const header = file.subarray(0, file.indexOf("end_header\n")).toString();
+    const count = (name) => Number(header.match(new RegExp(`element ${name} (\\d+)`))[1]);
+    const begin = header.length + "end_header\n".length + 24 * count("vertex");
+    const face = (file.length - begin) / count("face");
+    const labels = new Set();
+    for (let place = begin; place < file.length; place += face) {
+        const label = file.readInt32LE(place + face - 4);
+        labels.add(label);
+        assert.deepEqual(colourOfLabel(label), [...file.subarray(place + face - 7, place + face - 4)]);
+    }
+    assert.equal(labels.size, 6);
+});
