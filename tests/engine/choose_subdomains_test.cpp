@@ -44,9 +44,9 @@ TEST_CASE("the choice and its reason are in the report, and so is a warning of n
     options.time_step = 1e-6;
     PolygonMesh mesh = make_quads(6000);
     const FlowReport chosen = mean_curvature_flow(mesh, options);
-    CHECK(chosen.subdomains == 2);
+    CHECK(chosen.subdomains == 3);
     REQUIRE(chosen.remarks.size() == 1);
-    CHECK(chosen.remarks[0].find("2 sub-meshes chosen") == 0);
+    CHECK(chosen.remarks[0].find("3 sub-meshes chosen") == 0);
 
     options.subdomains = 40;
     options.time_step = 1e-3;
