@@ -74,7 +74,7 @@ void PageFlow::finish(const FlowReport& report, std::string report_json)
 
 std::string PageFlow::remark() const
 {
-    return remark_on_shown_steps(steps_, shown_);
+    return remark_on_shown_steps(steps_, static_cast<int>(states_.size()) - 1);
 }
 
 }  // namespace seamflow

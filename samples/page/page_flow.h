@@ -51,7 +51,7 @@ class PageFlow {
     /// What is known at the end alone. @param report_json see smooth_report_json.
     void finish(const FlowReport& report, std::string report_json);
 
-    /// A sentence for the user if not all steps are shown, else empty.
+    /// After the last step: a sentence for the user if not all are shown, else empty.
     [[nodiscard]] std::string remark() const;
 
     [[nodiscard]] const PageMesh& mesh() const { return *mesh_; }

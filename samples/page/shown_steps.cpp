@@ -27,11 +27,11 @@ std::vector<int> shown_steps(int steps, Index n_vertices, bool undecomposed)
     return shown;
 }
 
-std::string remark_on_shown_steps(int steps, const std::vector<int>& shown)
+std::string remark_on_shown_steps(int steps, int shown)
 {
-    if (static_cast<int>(shown.size()) == steps)
+    if (shown == steps)
         return {};
-    return "The page shows " + std::to_string(shown.size()) + " of the " + std::to_string(steps) +
+    return "The page shows " + std::to_string(shown) + " of the " + std::to_string(steps) +
            " steps' surfaces, so that it stays small enough for a browser; its plots have all steps.";
 }
 

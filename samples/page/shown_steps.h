@@ -14,6 +14,6 @@ namespace seamflow {
 std::vector<int> shown_steps(int steps, Index n_vertices, bool undecomposed);
 
 /// A sentence for the user; empty if all steps are shown.
-std::string remark_on_shown_steps(int steps, const std::vector<int>& shown);
+std::string remark_on_shown_steps(int steps, int shown);
 
 }  // namespace seamflow

@@ -10,8 +10,8 @@ TEST_CASE("a page of a small mesh shows all steps")
 {
     CHECK(shown_steps(0, 100, true).empty());
     CHECK(shown_steps(4, 100, false) == std::vector<int>{1, 2, 3, 4});
-    CHECK(remark_on_shown_steps(4, {1, 2, 3, 4}).empty());
-    CHECK(remark_on_shown_steps(0, {}).empty());
+    CHECK(remark_on_shown_steps(4, 4).empty());
+    CHECK(remark_on_shown_steps(0, 0).empty());
     CHECK(shown_steps(3, 0, true).size() == 3);
 }
 
@@ -33,5 +33,5 @@ TEST_CASE("of more than fit it shows some, evenly, and the last one")
                     CHECK(std::abs(shown[k] - spacing * static_cast<double>(k + 1)) <= 0.5 + 1e-6);
             }
     CHECK(shown_steps(100, 500'000, true).size() < shown_steps(100, 500'000, false).size());
-    CHECK(remark_on_shown_steps(100, {50, 100}).find("2 of the 100 steps") != std::string::npos);
+    CHECK(remark_on_shown_steps(100, 2).find("2 of the 100 steps") != std::string::npos);
 }
