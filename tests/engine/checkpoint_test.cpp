@@ -116,7 +116,7 @@ TEST_CASE("a checksum does not depend on portions, but on every byte and the len
 {
     const std::string text = "what a checksum is made of, 1234567";
     const std::uint64_t expected = checksum_of_text(text, text.size());
-    for (const std::size_t portion : {1, 2, 3, 7, 8, 9, 16, 20})
+    for (const std::size_t portion : {1U, 2U, 3U, 7U, 8U, 9U, 16U, 20U})
         CHECK(checksum_of_text(text, portion) == expected);
     CHECK(checksum_of_text(text + '\0', 8) != expected);
     for (std::size_t i = 0; i < text.size(); ++i) {

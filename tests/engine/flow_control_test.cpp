@@ -50,8 +50,9 @@ std::vector<Points> states_of(PolygonMesh mesh, const FlowOptions& options)
 TEST_CASE("progress goes from 0 to 1 and never back, one call at a time, and changes no bit")
 {
     const PolygonMesh mesh = small_mesh();
-    for (const auto& [name, options] : test::flow_kinds(mean_edge_length(mesh))) {
-        CAPTURE(name);
+    for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+        const FlowOptions& options = kind.options;
+        CAPTURE(kind.name);
         Told told;
         PolygonMesh moved = mesh;
         mean_curvature_flow(moved, options, {}, told.control());
@@ -93,8 +94,9 @@ TEST_CASE("stopped at any call of the observer, the mesh has the last complete s
 {
     const PolygonMesh mesh = small_mesh();
     std::mt19937 random(1);
-    for (const auto& [name, options] : test::flow_kinds(mean_edge_length(mesh))) {
-        CAPTURE(name);
+    for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+        const FlowOptions& options = kind.options;
+        CAPTURE(kind.name);
         const std::vector<Points> states = states_of(mesh, options);
         Told told;
         PolygonMesh moved = mesh;
@@ -127,8 +129,9 @@ TEST_CASE("stopped from another thread at any time, the mesh has the last comple
 {
     const PolygonMesh mesh = make_mixed_polygons(3000);
     std::mt19937 random(2);
-    for (const auto& [name, options] : test::flow_kinds(mean_edge_length(mesh))) {
-        CAPTURE(name);
+    for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+        const FlowOptions& options = kind.options;
+        CAPTURE(kind.name);
         const auto start = std::chrono::steady_clock::now();
         const std::vector<Points> states = states_of(mesh, options);
         const auto all = std::chrono::steady_clock::now() - start;

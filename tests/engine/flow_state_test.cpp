@@ -66,8 +66,9 @@ void check_same(const StepReport& a, const StepReport& b)
 TEST_CASE("a flow that goes on after any step ends with the same bits and the same report")
 {
     for (const PolygonMesh& mesh : {make_mixed_polygons(600), make_noisy_sphere(500)})
-        for (const auto& [name, options] : test::flow_kinds(mean_edge_length(mesh))) {
-            CAPTURE(name);
+        for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+            const FlowOptions& options = kind.options;
+            CAPTURE(kind.name);
             const Outcome whole = run(mesh, options);
             for (int step = 1; step <= options.steps; ++step) {
                 CAPTURE(step);
