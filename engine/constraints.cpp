@@ -15,9 +15,9 @@ bool moves_on_boundary(const Topology& topology, Index v)
 
 }  // namespace
 
-Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options)
+Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop)
 {
-    Topology topology = make_topology(mesh, run_in_parallel);
+    Topology topology = make_topology(mesh, loop);
     if (options.boundary == Boundary::Free)
         free_boundary(topology);
     hold(topology, options.fixed_vertices);

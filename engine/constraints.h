@@ -7,9 +7,9 @@
 
 namespace seamflow {
 
-/// How the mesh hangs together, with what the options say of which vertices move. Runs in parallel.
+/// How the mesh hangs together, with what the options say of which vertices move.
 /// @throws InputError for a number in FlowOptions::fixed_vertices that is none of a vertex.
-Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options);
+Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop);
 
 /// Whether any vertex on the boundary moves.
 bool boundary_moves(const PolygonMesh& mesh, const Topology& topology);

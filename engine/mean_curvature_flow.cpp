@@ -312,7 +312,7 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
     progress.expect(8.0);
     const FlowIdentity identity = require_sound(mesh, options, static_cast<bool>(on_step), resume, progress);
-    const Topology topology = make_topology(mesh, options, progress.loop());
+    const Topology topology = make_constrained_topology(mesh, options, progress.loop());
     progress.count();
     const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
     options.tolerance = choice.tolerance;

@@ -25,7 +25,7 @@ void FigurePage::add(PageFlow flow, const FlowReport& report, Laplacian laplacia
                         .output = flow.name(),
                         .arguments = {},
                         .laplacian = std::string(name_of(laplacian)),
-                        .scale = {.mean_edge = mesh_->mean_edge, .diagonal = mesh_->diagonal}};
+                        .scale = measure_scale(mesh_->mesh)};
     flow.finish(report, smooth_report_json(run, report));
     flows_.push_back(std::move(flow));
 }
