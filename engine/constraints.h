@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "engine/flow_options.h"
 #include "partition/cut/cut.h"
 #include "partition/polygon_mesh.h"
@@ -7,9 +10,14 @@
 
 namespace seamflow {
 
-/// How the mesh hangs together, with what the options say of which vertices move.
-/// @throws InputError for a number in FlowOptions::fixed_vertices that is none of a vertex.
-Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop);
+/// How the mesh hangs together, with what the options say of which vertices move. Those at which the flow is not
+/// defined do not.
+/// @param remarks gets a sentence about those.
+/// @throws InputError for a number in FlowOptions::fixed_vertices that is none of a vertex; with FlowOptions::strict
+///         naming the first vertex, edge or face that the flow is not defined at; without it too if it is defined
+///         nowhere.
+Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+                                   std::vector<std::string>& remarks);
 
 /// Whether any vertex on the boundary moves.
 bool boundary_moves(const PolygonMesh& mesh, const Topology& topology);

@@ -157,6 +157,10 @@ struct FlowOptions {
     Boundary boundary = Boundary::Fixed;
     /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are welcome.
     std::vector<Index> fixed_vertices;
+    /// Refuse meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
+    /// without length (Δ_F) or faces without area (Δ_A, Δ_P) leave the Laplacian undefined at vertices that should
+    /// move. Without it such vertices are held fixed, and a remark says how many.
+    bool strict = false;
     /// Scales what comes out after each step; the flow itself goes on unscaled, and distances to the undecomposed flow
     /// are unscaled, too. Moves every vertex that has faces: none of them may be fixed.
     Rescale rescale = Rescale::None;

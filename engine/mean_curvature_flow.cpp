@@ -28,7 +28,6 @@
 #include "partition/cut/cut.h"
 #include "partition/errors.h"
 #include "partition/topology.h"
-#include "solvers/degenerate.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {
@@ -312,14 +311,15 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     progress.enter(FlowPhase::Cut, 0, 0.0, 0.6 * setup);
     progress.expect(8.0);
     const FlowIdentity identity = require_sound(mesh, options, static_cast<bool>(on_step), resume, progress);
-    const Topology topology = make_constrained_topology(mesh, options, progress.loop());
+    std::vector<std::string> remarks;
+    const Topology topology = make_constrained_topology(mesh, options, progress.loop(), remarks);
     progress.count();
     const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
     options.tolerance = choice.tolerance;
-    require_sound_geometry(mesh, topology, options.laplacian, progress.loop());
     progress.count();
     std::vector<double> curvature;
     Cut cut = cut_and_measure(mesh, topology, choice, options, curvature, progress);
+    cut.remarks.insert(cut.remarks.end(), remarks.begin(), remarks.end());
     if (!options.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(mesh, topology, cut);
     report.tolerance = options.tolerance;

@@ -58,17 +58,72 @@ bool has_area(const PolygonMesh& mesh, const Topology& topology, Laplacian lapla
     return std::isnormal(area(mesh.face(f), mesh.vertices)) || !area_matters(mesh, topology, laplacian, f);
 }
 
+bool divides_by_lengths(Laplacian laplacian)
+{
+    return traits_of(laplacian).divisor == Divisor::EdgeLengths;
+}
+
+/// The faces by whose edges or areas the row of a vertex that may move divides in vain.
+std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                    const Loop& loop)
+{
+    return select(loop, mesh.n_faces(), [&](Index f) {
+        return divides_by_lengths(laplacian) ? edge_without_length(mesh, topology, f) >= 0
+                                             : !has_area(mesh, topology, laplacian, f);
+    });
+}
+
+/// Both ends of every edge of face f that has no sound length.
+void append_ends(const PolygonMesh& mesh, Index f, std::vector<Index>& vertices)
+{
+    const auto corners = mesh.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Index start = corners[k];
+        const Index end = corners[(k + 1) % corners.size()];
+        if (!std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
+            vertices.insert(vertices.end(), {start, end});
+    }
+}
+
+/// The vertices whose rows divide by the area of face f.
+void append_vertices_around(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f,
+                            std::vector<Index>& vertices)
+{
+    const auto append = [&](Index face) {
+        vertices.insert(vertices.end(), mesh.face(face).begin(), mesh.face(face).end());
+    };
+    append(f);
+    if (traits_of(laplacian).reach != Reach::TwoRings)
+        return;
+    for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h)
+        if (const Index twin = topology.twin[at(h)]; twin >= 0)
+            append(topology.face_of[at(twin)]);
+}
+
 }  // namespace
+
+std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                        const Loop& loop)
+{
+    std::vector<Index> vertices;
+    for (const Index f : degenerate_faces(mesh, topology, laplacian, loop)) {
+        if (divides_by_lengths(laplacian))
+            append_ends(mesh, f, vertices);
+        else
+            append_vertices_around(mesh, topology, laplacian, f, vertices);
+    }
+    std::erase_if(vertices, [&](Index v) { return !topology.moves(v); });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
 
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop)
 {
-    const bool lengths_matter = traits_of(laplacian).divisor == Divisor::EdgeLengths;
-    const auto bad = select(loop, mesh.n_faces(), [&](Index f) {
-        return lengths_matter ? edge_without_length(mesh, topology, f) >= 0 : !has_area(mesh, topology, laplacian, f);
-    });
+    const auto bad = degenerate_faces(mesh, topology, laplacian, loop);
     if (bad.empty())
         return;
-    if (lengths_matter)
+    if (divides_by_lengths(laplacian))
         refuse_edge(mesh, bad.front(), edge_without_length(mesh, topology, bad.front()));
     throw InputError("face " + std::to_string(bad.front()) +
                      " (numbered from 0) has no area that is a normal double: remove it, move one of its vertices, "

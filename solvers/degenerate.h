@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/geometry.h"
@@ -12,5 +14,9 @@ namespace seamflow {
 /// @throws InputError naming the first edge without length or face without area, and what to do.
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                             const Loop& loop = run_serially);
+
+/// The vertices that may move and at which that is not so, ascending.
+std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                        const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -71,6 +71,9 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--fix-property", command.fix_property, "the name of that property [fixed]")
         ->needs(fix)
         ->type_name("NAME");
+    app.add_flag("--strict", options.strict,
+                 "refuse meshes that are not manifold, or degenerate where the Laplacian divides, instead of holding "
+                 "such vertices fixed");
     add_choice<Rescale>(app, "--rescale", options.rescale,
                         {{"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}},
                         "scale the result to the area or volume of the input, its centroid kept [none]");

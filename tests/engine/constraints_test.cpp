@@ -197,3 +197,46 @@ TEST_CASE("the bits of constrained flows do not depend on the number of threads"
         }
     }
 }
+
+TEST_CASE("degenerate vertices are held and the rest flows, or the mesh is refused where that is asked for")
+{
+    PolygonMesh mesh = make_triangles(900);
+    const auto corners = mesh.face(700);
+    mesh.vertices.row(corners[0]) = mesh.vertices.row(corners[1]);
+    for (const Laplacian laplacian : all_laplacians)
+        for (const Index subdomains : {1, 2, 8})
+            for (const bool converged : {false, true}) {
+                CAPTURE(name_of(laplacian));
+                CAPTURE(subdomains);
+                FlowOptions options = options_for(laplacian, subdomains);
+                options.steps = 2;
+                if (converged)
+                    options.tolerance = 1e-6;
+                PolygonMesh moved = mesh;
+                const FlowReport report = mean_curvature_flow(moved, options);
+                CHECK(moved.vertices.allFinite());
+                CHECK(same_bits(moved.vertices, mesh.vertices, corners[0]));
+                CHECK(same_bits(moved.vertices, mesh.vertices, corners[1]));
+                CHECK(largest_difference(moved.vertices, mesh.vertices) > 1e-4);
+                CHECK(std::any_of(report.remarks.begin(), report.remarks.end(), [](const std::string& remark) {
+                    return remark.find("leave the Laplacian undefined there") != std::string::npos;
+                }));
+                options.strict = true;
+                PolygonMesh refused = mesh;
+                CHECK_THROWS_AS(mean_curvature_flow(refused, options), InputError);
+                CHECK(refused.vertices == mesh.vertices);
+            }
+}
+
+TEST_CASE("strict refuses what is not manifold, and nothing that is sound")
+{
+    FlowOptions options = options_for(Laplacian::Fujiwara, 1);
+    options.strict = true;
+    PolygonMesh wings = three_wings();
+    CHECK_THROWS_AS(mean_curvature_flow(wings, options), InputError);
+    PolygonMesh sound = make_quads(400);
+    const Points strict = flowed(sound, options);
+    options.strict = false;
+    CHECK(flowed(sound, options) == strict);
+    CHECK_NOTHROW(mean_curvature_flow(wings, options));
+}

@@ -97,3 +97,26 @@ TEST_CASE("Ptáčková-Velho needs the area of faces across an edge too")
     CHECK(!is_finite_where_it_matters(mesh, Laplacian::PtackovaVelho));
     CHECK(has(complaint(mesh, Laplacian::PtackovaVelho), "face 4 (numbered from 0) has no area"));
 }
+
+TEST_CASE("once the vertices without a row are held, no row that matters divides in vain, and few are held")
+{
+    PolygonMesh folded = triangle_grid(8, 8);
+    const auto corners = folded.face(60);
+    folded.vertices.row(corners[1]) = 0.5 * (folded.vertices.row(corners[0]) + folded.vertices.row(corners[2]));
+    PolygonMesh merged = quad_grid(8, 8);
+    merged.vertices.row(40) = merged.vertices.row(41);
+    for (const PolygonMesh& mesh : {folded, merged})
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(name_of(laplacian));
+            Topology topology = make_topology(mesh);
+            const std::vector<Index> held = vertices_without_row(mesh, topology, laplacian);
+            CHECK(held.empty() == complaint(mesh, laplacian).empty());
+            CHECK(held.size() <= 12);
+            hold(topology, held);
+            CHECK(vertices_without_row(mesh, topology, laplacian).empty());
+            const Eigen::MatrixXd matrix = dense_laplacian(laplacian, mesh, topology);
+            for (Index v = 0; v < mesh.n_vertices(); ++v)
+                if (topology.moves(v))
+                    CHECK(matrix.row(v).allFinite());
+        }
+}
