@@ -18,6 +18,7 @@
 #include "engine/explicit_flow.h"
 #include "engine/flow_state.h"
 #include "engine/krylov_flow.h"
+#include "engine/near_origin.h"
 #include "engine/parallel_loop.h"
 #include "engine/progress.h"
 #include "engine/rescaling.h"
@@ -369,7 +370,18 @@ FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, co
         require_ahead(options, *control.resume);
     FlowReport report;
     Workers workers(options.threads);
-    workers.execute([&] { flow_with(workers, mesh, options, on_step, control, report); });
+    const auto flow = [&](const StepObserver& observer) {
+        workers.execute([&] { flow_with(workers, mesh, options, observer, control, report); });
+    };
+    const Point offset = offset_of(mesh.vertices);
+    if (offset.isZero(0.0)) {
+        flow(on_step);
+        return report;
+    }
+    const NearOrigin near(mesh, offset);
+    flow(near.observing(on_step));
+    if (report.pieces)
+        report.pieces = near.brought_back(*std::move(report.pieces));
     return report;
 }
 
