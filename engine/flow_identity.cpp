@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/checksum.h"
+#include "engine/near_origin.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -56,10 +57,14 @@ std::string text_of(const std::vector<Index>& indices)
     return indices.empty() ? std::string(none) : "those with checksum " + hexadecimal(checksum_of(indices));
 }
 
+/// Of the mesh near the origin, where it flows: the same whether it has been brought there or not.
 std::string text_of(const PolygonMesh& mesh)
 {
     Checksum checksum;
-    checksum.add_numbers(std::span<const double>(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size())));
+    const Point offset = offset_of(mesh.vertices);
+    const Points moved = offset.isZero(0.0) ? Points(0, 3) : Points(mesh.vertices.rowwise() - offset);
+    const Points& near = offset.isZero(0.0) ? mesh.vertices : moved;
+    checksum.add_numbers(std::span<const double>(near.data(), static_cast<std::size_t>(near.size())));
     checksum.add_numbers(std::span<const Index>(mesh.face_offsets));
     checksum.add_numbers(std::span<const Index>(mesh.face_vertices));
     return std::to_string(mesh.n_vertices()) + " vertices and " + std::to_string(mesh.n_faces()) +

@@ -18,9 +18,13 @@ void require_movable(const Topology& topology, Index n_vertices)
         return !topology.moves(v) && topology.kind[at(v)] != VertexKind::Isolated;
     });
     if (!held.empty())
-        throw InputError("rescaling moves every vertex, but " + std::to_string(held.size()) +
-                         " are held fixed, vertex " + std::to_string(held.front()) +
-                         " (numbered from 0) among them: leave the size as it comes, or let the boundary move");
+        throw InputError(
+            "rescaling moves every vertex, but " + std::to_string(held.size()) + (held.size() == 1 ? " is" : " are") +
+            " held fixed, vertex " + std::to_string(held.front()) + " (numbered from 0) among them" +
+            (topology.kind[at(held.front())] == VertexKind::Boundary
+                 ? ", which is on the boundary: let the boundary move (--boundary free), or leave the size "
+                   "as it comes"
+                 : ", where the mesh is not manifold or degenerate: mend it, or leave the size as it comes"));
 }
 
 void require_closed(const PolygonMesh& mesh, const Topology& topology)

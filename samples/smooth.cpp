@@ -162,11 +162,18 @@ ExitStatus smooth(int argc, char** argv)
         long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out));
     FlowReport report;
     try {
-        report = run_flow(command, file.mesh, on_step, long_run.control());
+        const FlowControl control = long_run.control();
+        report = run_flow(command, file.mesh, on_step, control);
+        if (control.resume != nullptr && command.every_step)
+            report.remarks.push_back("--every-step has no files of the steps up to " +
+                                     std::to_string(control.resume->n_steps()) + ", which an earlier run took.");
     } catch (const Cancelled&) {
         return long_run.end_early();
     }
     long_run.end();
+    // A run that goes on from its last step has nothing to observe.
+    if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
+        page->add_step(command.options.steps, file.mesh.vertices, nullptr);
 
     const Stopwatch writing;
     for (const auto& remarks : {losses, write_results(command, file, report)})

@@ -63,7 +63,8 @@ std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, cons
     std::error_code error;
     std::filesystem::create_directories(file_.parent_path(), error);
     if (!std::filesystem::is_directory(file_.parent_path()))
-        throw OutputError(file_.parent_path().string() + ": there can be no such folder for checkpoints");
+        throw OutputError(file_.parent_path().string() + ": there can be no such folder for checkpoints, " +
+                          (error ? error.message() : "for that is a file") + "; name another");
     if (!std::filesystem::exists(file_))
         return nullptr;
     auto state = std::make_shared<const FlowState>(read_checkpoint(file_));

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "partition/errors.h"
+#include "partition/version.h"
 
 namespace seamflow {
 
@@ -118,6 +119,7 @@ CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<L
 
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {
+    app.set_version_flag("--version", "seamflow " + std::string(version));
     try {
         app.parse(argc, argv);
         return std::nullopt;

@@ -40,7 +40,12 @@ ExitStatus guarded(const char* program, const std::function<ExitStatus()>& body)
 
 int run_program(const char* program, const std::function<ExitStatus()>& body)
 {
-    return static_cast<int>(guarded(program, body));
+    const ExitStatus status = guarded(program, body);
+    std::cout.flush();
+    if (status == ExitStatus::Success && !std::cout)
+        return static_cast<int>(
+            tell(program, "standard output could not be written: is its disk full?", ExitStatus::OutputNotWritten));
+    return static_cast<int>(status);
 }
 
 }  // namespace seamflow

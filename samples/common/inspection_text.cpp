@@ -1,5 +1,7 @@
 #include "samples/common/inspection_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <ostream>
@@ -42,15 +44,10 @@ class FindingsPrinter {
         if (elements.empty())
             return;
         begin(elements.size(), kind);
-        std::size_t count = 0;
-        for (const Element& element : elements) {
-            if (count++ == most_listed_) {
-                out_ << " …";
-                break;
-            }
-            out_ << ' ' << text_of(element);
-        }
-        out_ << "\n    " << meaning << '\n';
+        const std::size_t n_listed = std::min(elements.size(), most_listed_);
+        for (std::size_t i = 0; i < n_listed; ++i)
+            out_ << (i == 0 ? ": " : " ") << text_of(elements[i]);
+        out_ << (n_listed < elements.size() && n_listed > 0 ? " …" : "") << "\n    " << meaning << '\n';
     }
 
     void print(const FaultLog& faults)
@@ -75,7 +72,7 @@ class FindingsPrinter {
   private:
     void begin(std::uint64_t count, const char* kind)
     {
-        out_ << count << ' ' << kind << ':';
+        out_ << kind << " (" << count << ')';
         any_ = true;
     }
 

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "partition/errors.h"
 #include "samples/common/mesh_results.h"
 
 namespace seamflow {
@@ -27,7 +28,14 @@ LongRun::LongRun(const SmoothCommand& command, const MeshFile& file, Interruptio
 {
     if (!command.checkpoint.empty()) {
         checkpoints_.emplace(command.checkpoint, command.checkpoint_period);
-        resume_ = checkpoints_->find(file.mesh, command.options);
+        try {
+            resume_ = checkpoints_->find(file.mesh, command.options);
+        } catch (const OptionError& error) {
+            if (!command.amount.radius)
+                throw;
+            throw OptionError(std::string(error.what()) +
+                              " (--radius is divided among the steps: to go on with more of them, give --time-step)");
+        }
     }
     if (resume_ != nullptr)
         out << "resumed    after step " << resume_->n_steps() << ", from " << checkpoints_->file().string()

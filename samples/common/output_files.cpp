@@ -57,9 +57,10 @@ void require_different(const std::vector<fs::path>& paths)
     std::set<fs::path> places;
     for (const fs::path& path : paths) {
         std::error_code error;
-        fs::path place = fs::weakly_canonical(path, error);
+        // Absolute first: of a relative path of which nothing exists yet only the text would be compared.
+        fs::path place = fs::weakly_canonical(fs::absolute(path), error);
         if (!places.insert(error ? fs::absolute(path).lexically_normal() : place).second)
-            throw OptionError(path.string() + " is named for two different files");
+            throw OptionError(path.string() + " is named for two different files: give each a name of its own");
     }
 }
 

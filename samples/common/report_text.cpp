@@ -102,11 +102,12 @@ void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mes
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
     const int steps = std::max(options.steps, 1);
-    const double radius = smoothed_radius(options.time_step, steps);
+    const double radius = options.steps == 0 ? 0.0 : smoothed_radius(options.time_step, steps);
     out << "amount     dt " << digits(options.time_step) << " = "
         << digits(options.time_step / (scale.mean_edge * scale.mean_edge)) << " squared mean edge lengths, √dt "
-        << digits(std::sqrt(options.time_step)) << "; " << (steps == 1 ? "one step" : std::to_string(steps) + " steps")
-        << " smooth bumps of radius " << digits(radius) << " = " << digits(100.0 * radius / scale.diagonal, 3)
+        << digits(std::sqrt(options.time_step)) << "; "
+        << (options.steps == 1 ? "one step smooths" : std::to_string(options.steps) + " steps smooth")
+        << " bumps of radius " << digits(radius) << " = " << digits(100.0 * radius / scale.diagonal, 3)
         << "% of the diagonal" << std::endl;
 }
 

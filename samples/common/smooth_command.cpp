@@ -1,5 +1,6 @@
 #include "samples/common/smooth_command.h"
 
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -74,9 +75,11 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_flag("--strict", options.strict,
                  "refuse meshes that are not manifold, or degenerate where the Laplacian divides, instead of holding "
                  "such vertices fixed");
-    add_choice<Rescale>(app, "--rescale", options.rescale,
-                        {{"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}},
-                        "scale the result to the area or volume of the input, its centroid kept [none]");
+    add_choice<Rescale>(
+        app, "--rescale", options.rescale,
+        {{"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}},
+        "scale the result to the area or volume of the input, its centroid kept; where no vertex is held, so of open "
+        "surfaces with --boundary free [none]");
     add_choice<Scheme>(app, "--scheme", options.scheme,
                        {{"implicit", Scheme::BackwardEuler}, {"explicit", Scheme::ExplicitEuler}},
                        "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
@@ -146,8 +149,36 @@ void add_long_run(CLI::App& app, SmoothCommand& command)
     app.add_flag("--quiet", command.quiet, "print nothing but errors");
 }
 
+/// The first of these options that was given; empty: none.
+std::string first_given(const CLI::App& app, std::initializer_list<const char*> names)
+{
+    for (const char* name : names)
+        if (app.count(name) > 0)
+            return name;
+    return {};
+}
+
+/// Options that would have no effect are a mistake of the user's.
+void require_effective(const CLI::App& app, const SmoothCommand& command)
+{
+    const std::string of_sweeps =
+        first_given(app, {"--conditions", "--transmission", "--p", "--p-rule", "--p-edge", "--q", "--overlap",
+                          "--no-correction", "--sweep", "--coloring", "--plain"});
+    if (command.options.tolerance && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
+    if (app.count("--converge") > 0 && command.options.approach == Approach::Sweep && command.limits_iterations)
+        throw OptionError("--converge-iterations is for converged steps, but --converge never takes none");
+    if (app.count("--p") > 0)
+        if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
+            throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
+    const auto extension = command.fix.extension();
+    if (app.count("--fix-property") > 0 && extension != ".ply" && extension != ".PLY")
+        throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
+}
+
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
+    require_effective(app, command);
     if (app.count("--overlap") > 0 && command.options.conditions != Conditions::Schwarz)
         throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
     if (command.options.conditions == Conditions::Schwarz && command.options.sweep == Sweep::Alternating)
@@ -201,7 +232,7 @@ void require_usable_files(const SmoothCommand& command)
     results.push_back(command.output);
     std::vector<std::filesystem::path> all = results;
     if (!command.checkpoint.empty())
-        all.push_back(Checkpoints(command.checkpoint, {}).file());
+        all.insert(all.end(), {command.checkpoint, Checkpoints(command.checkpoint, {}).file()});
     require_different(all);
     for (const auto& path : results)
         require_writable(path);

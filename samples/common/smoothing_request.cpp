@@ -25,9 +25,14 @@ double require_step(double time_step, const char* option)
 LengthOnMesh parse_length(std::string_view text)
 {
     const bool of_diagonal = text.ends_with('%');
-    if (!of_diagonal)
-        return {parse_real(text, positive()), false};
-    return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
+    try {
+        if (!of_diagonal)
+            return {parse_real(text, positive()), false};
+        return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
+    } catch (const OptionError&) {
+        throw OptionError("\"" + std::string(text) +
+                          "\" is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
+    }
 }
 
 MeshScale measure_scale(const PolygonMesh& mesh)
@@ -45,7 +50,10 @@ double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int
     if (!request.radius)
         return request.time_step;
     const double radius = request.radius->value * (request.radius->of_diagonal ? scale.diagonal : 1.0);
-    return require_step(time_step_for_radius(radius, std::max(steps, 1)), "--radius");
+    const double time_step = time_step_for_radius(radius, std::max(steps, 1));
+    if (std::isinf(time_step))
+        throw OptionError("--radius is too large: the time step that it takes is beyond what a double can hold");
+    return require_step(time_step, "--radius");
 }
 
 }  // namespace seamflow

@@ -32,7 +32,7 @@ std::string remark_on_shown_steps(int steps, int shown)
     if (shown == steps)
         return {};
     return "The page shows " + std::to_string(shown) + " of the " + std::to_string(steps) +
-           " steps' surfaces, so that it stays small enough for a browser; its plots have all steps.";
+           " steps' surfaces: of those of this run as many as a browser takes; its plots have all steps.";
 }
 
 }  // namespace seamflow

@@ -1,8 +1,11 @@
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include <doctest/doctest.h>
 
+#include "engine/flow_identity.h"
+#include "engine/flow_state.h"
 #include "engine/mean_curvature_flow.h"
 #include "engine/near_origin.h"
 #include "samples/common/meshes.h"
@@ -102,4 +105,21 @@ TEST_CASE("after a failure the mesh is back where it was")
     options.fixed_vertices = {-1};
     CHECK_THROWS(mean_curvature_flow(mesh, options));
     CHECK(mesh.vertices == before);
+}
+
+TEST_CASE("a flow far away goes on from a step before")
+{
+    PolygonMesh mesh = make_noisy_sphere(800);
+    mesh.vertices = (1e-2 * mesh.vertices.array() + 1e6).matrix();
+    FlowOptions options = options_for(Laplacian::Fujiwara, 3);
+    FlowControl control;
+    PolygonMesh whole = mesh;
+    mean_curvature_flow(whole, options, [&](const StepState& state) {
+        if (state.step == 1)
+            control.resume = std::make_shared<const FlowState>(state.capture());
+    });
+    CHECK_NOTHROW(require_same(control.resume->identity, identify(mesh, options)));
+    PolygonMesh resumed = mesh;
+    mean_curvature_flow(resumed, options, {}, control);
+    CHECK(resumed.vertices == whole.vertices);
 }

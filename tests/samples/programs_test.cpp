@@ -40,6 +40,15 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
              "mesh.obj out.obj --time-step 1 --boundary free --laplacian ptackova-velho",
              "mesh.obj out.obj --time-step 1 --boundary free --subdomains 4 --conditions robin",
              "mesh.obj out.obj --time-step 1 --fix-property locked",
+             "mesh.obj out.obj --time-step 1 --fix labels.txt --fix-property locked",
+             "mesh.obj out.obj --time-step 1 --report ./out.obj",
+             "mesh.obj out.obj --time-step 1 --report a.json --trace ./a.json",
+             "mesh.obj out.obj --time-step 1 --report folder --checkpoint ./folder",
+             "mesh.obj out.obj --time-step 1 --converge 1e-4 --plain",
+             "mesh.obj out.obj --time-step 1 --converge 1e-4 --p 3",
+             "mesh.obj out.obj --time-step 1 --converge never --converge-iterations 3",
+             "mesh.obj out.obj --time-step 1 --p 3 --p-rule paper",
+             "mesh.obj out.obj --radius 1e300",
              "mesh.obj out.obj --time-step 1 --rescale length",
              "mesh.obj out.obj --time-step 1 --fix labels.txt --rescale area",
              "mesh.obj out.obj --time-step 1 --p 0",
@@ -471,7 +480,7 @@ TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot b
     (void)w.directory.with("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nv 0 1 0\nv 0 1 0\nf 1 2 4\nf 1 4 2\nf 1 2\n");
     CHECK(w.run(INSPECT " bad.obj") == 3);
     CHECK(w.said().find("bad.obj:8: the face has 2 corners") != std::string::npos);
-    CHECK(w.said().find("1 faces with the same vertices as one before them: 1") != std::string::npos);
+    CHECK(w.said().find("faces with the same vertices as one before them (1): 1") != std::string::npos);
     REQUIRE(w.run(INSPECT " bad.obj --json") == 3);
     const Json found = Json::parse(w.said());
     CHECK(found["faults"] == 2);
@@ -481,4 +490,25 @@ TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot b
     CHECK(found["isolated_vertices"] == Json{2, 4});
     CHECK(w.run(INSPECT) == 2);
     CHECK(w.run(INSPECT " none.obj") == 3);
+}
+
+TEST_CASE("what standard output could not take ends with 5; every program knows its version")
+{
+    const Workshop w;
+    CHECK(w.run("( " INSPECT " mesh.obj --json >/dev/full )") == 5);
+    CHECK(w.said().find("standard output") != std::string::npos);
+    for (const char* program : {SMOOTH, COMPARE, GENERATE, INSPECT, FIGURES, BENCHMARK}) {
+        CHECK(w.run(std::string(program) + " --version") == 0);
+        CHECK(w.said().starts_with("seamflow "));
+    }
+}
+
+TEST_CASE("a degenerate mesh flows but for its degenerate vertices, or is refused where that is asked for")
+{
+    const Workshop w;
+    (void)w.directory.with("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 .3\nv .5 .5 .3\n"
+                                       "f 1 2 5\nf 2 3 5\nf 3 6 5\nf 3 4 6\nf 4 1 6\nf 1 5 6\n");
+    CHECK(w.smooth("flat.obj out.obj --time-step 0.01 --strict") == 3);
+    CHECK_FALSE(w.has("out.obj"));
+    CHECK(w.smooth("mesh.obj out.obj --time-step 0.01 --strict") == 0);
 }
