@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "engine/decomposed_flow.h"
 #include "engine/displacement_meter.h"
 #include "engine/explicit_flow.h"
+#include "engine/flow_remarks.h"
 #include "engine/flow_state.h"
 #include "engine/krylov_flow.h"
 #include "engine/near_origin.h"
@@ -108,20 +108,6 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
         estimate.reset();
 }
 
-/// What the estimate after the last step means for the user.
-void remark_on_drift(const FlowOptions& options, FlowReport& report)
-{
-    if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)
-        return;
-    char estimate[32];
-    std::snprintf(estimate, sizeof estimate, "%.2g", *report.steps.back().estimated_v_max);
-    report.remarks.push_back("The result is, by estimate, up to " + std::string(estimate) +
-                             " mean edge lengths away from the undecomposed flow: " +
-                             (options.tolerance ? "a smaller tolerance brings it closer."
-                                                : "fewer sub-meshes bring it closer; --converge "
-                                                  "(FlowOptions::tolerance) gives the undecomposed step itself."));
-}
-
 /// What the parts of a flow have to do with.
 struct Run {
     PolygonMesh& mesh;
@@ -212,6 +198,7 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
     const auto first = static_cast<int>(report.steps.size()) + 1;
     double curvature_before =
         report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
+    const double extent = extent_of(mesh.vertices);
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
     Points rescaled;
     Points undecomposed;
@@ -246,6 +233,7 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
                      [&] { return capture(run, flow, reference, meter); }});
     }
     remark_on_drift(options, report);
+    remark_on_collapse(extent, mesh.vertices, report);
     report.displacement = meter.total();
     if (flow.pieces() != nullptr)
         report.pieces = *flow.pieces();

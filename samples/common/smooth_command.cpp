@@ -114,9 +114,10 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_integer(app, "--converge-iterations", options.converge_iterations, 0,
                 "most iterations of a converged step [1000]");
     add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
-    add_bytes(app, "--memory-limit", options.memory_limit,
-              "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, KiB, MiB, GiB; "
-              "changes nothing else [as little as keeps all threads busy]");
+    add_bytes(
+        app, "--memory-limit", options.memory_limit,
+        "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
+        "changes nothing else [as little as keeps all threads busy]");
     app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
 }
 

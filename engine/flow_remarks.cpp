@@ -1,0 +1,38 @@
+#include "engine/flow_remarks.h"
+
+#include <cstdio>
+#include <string>
+
+namespace seamflow {
+
+void remark_on_drift(const FlowOptions& options, FlowReport& report)
+{
+    if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)
+        return;
+    char estimate[32];
+    std::snprintf(estimate, sizeof estimate, "%.2g", *report.steps.back().estimated_v_max);
+    report.remarks.push_back("The result is, by estimate, up to " + std::string(estimate) +
+                             " mean edge lengths away from the undecomposed flow: " +
+                             (options.tolerance ? "a smaller tolerance brings it closer."
+                                                : "fewer sub-meshes bring it closer; --converge "
+                                                  "(FlowOptions::tolerance) gives the undecomposed step itself."));
+}
+
+double extent_of(const Points& positions)
+{
+    return positions.rows() == 0 ? 0.0 : (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+void remark_on_collapse(double extent_before, const Points& after, FlowReport& report)
+{
+    constexpr double next_to_nothing = 1e-3;
+    const double extent = extent_of(after);
+    if (extent >= next_to_nothing * extent_before)
+        return;
+    char part[32];
+    std::snprintf(part, sizeof part, "%.1g", extent / extent_before);
+    report.remarks.push_back("The surface has shrunk to " + std::string(part) +
+                             " of its extent: smaller or fewer steps leave more of it.");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/flow_options.h"
+#include "engine/flow_report.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The diagonal of the bounding box, in units of length; 0 for no positions.
+double extent_of(const Points& positions);
+
+/// Adds what the estimate after the last step means for the user, if it means anything.
+void remark_on_drift(const FlowOptions& options, FlowReport& report);
+
+/// Adds a remark where the flow has drawn the surface together to next to nothing, which is hardly what was wanted.
+/// @param extent_before see extent_of. @param after #V by 3.
+void remark_on_collapse(double extent_before, const Points& after, FlowReport& report);
+
+}  // namespace seamflow
