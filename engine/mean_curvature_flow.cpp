@@ -21,6 +21,7 @@
 #include "engine/near_origin.h"
 #include "engine/parallel_loop.h"
 #include "engine/progress.h"
+#include "engine/repeated_faces_left_out.h"
 #include "engine/rescaling.h"
 #include "engine/step_shares.h"
 #include "engine/stopwatch.h"
@@ -301,7 +302,12 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     progress.expect(8.0);
     const FlowIdentity identity = require_sound(mesh, options, static_cast<bool>(on_step), resume, progress);
     std::vector<std::string> remarks;
-    const Topology topology = make_constrained_topology(mesh, options, progress.loop(), remarks);
+    Topology topology = make_constrained_topology(mesh, options, progress.loop(), remarks);
+    const RepeatedFacesLeftOut left_out(mesh, topology, options);
+    if (left_out.count() > 0) {
+        remarks.clear();
+        topology = make_constrained_topology(mesh, options, progress.loop(), remarks);
+    }
     progress.count();
     const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
     options.tolerance = choice.tolerance;
@@ -328,6 +334,7 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
             reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), curvature, progress);
         }
         run_steps(run, std::move(curvature), flow, reference ? &*reference : nullptr, setup);
+        left_out.complete(report);
         progress.finish();
     };
     if (options.scheme == Scheme::ExplicitEuler)

@@ -13,7 +13,8 @@ namespace seamflow {
 ///
 /// decomposed into sub-meshes, or explicit ones (see Scheme). Boundary vertices stay where they are, bit for bit,
 /// unless FlowOptions::boundary is free; vertices without faces too.
-/// @param mesh its positions are moved; after an exception they are those of the last complete step.
+/// @param mesh its positions are moved; after an exception they are those of the last complete step. While the flow
+///        runs it belongs to that.
 /// @param on_step called after each step.
 /// @param control says how far the flow is, stops it, or lets it go on from a step before: `mesh` is then as it was
 ///        before the first step, and the report is of all steps.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "partition/cut/components.h"
+#include "partition/inspection/repeated_faces.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -165,17 +166,14 @@ std::vector<Index> coincident_vertices(const Points& positions)
                        [&](Index a, Index b) { return positions.row(a) == positions.row(b); });
 }
 
-std::vector<Index> duplicate_faces(PolygonMesh mesh)
+std::vector<Index> duplicate_faces(const PolygonMesh& mesh)
 {
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        std::sort(mesh.face_vertices.begin() + mesh.face_offsets[at(f)],
-                  mesh.face_vertices.begin() + mesh.face_offsets[at(f) + 1]);
-    const auto before = [&](Index a, Index b) {
-        return std::lexicographical_compare(mesh.face(a).begin(), mesh.face(a).end(), mesh.face(b).begin(),
-                                            mesh.face(b).end());
-    };
-    return repetitions(mesh.n_faces(), before,
-                       [&](Index a, Index b) { return std::ranges::equal(mesh.face(a), mesh.face(b)); });
+    std::vector<Index> all(at(mesh.n_faces()));
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<Index> duplicates;
+    for (const RepeatedFace& repeated : find_repeated_faces(mesh, all))
+        duplicates.push_back(repeated.face);
+    return duplicates;
 }
 
 /// Turns faces, one after the other, so that they fit those before; whether all fit each other in the end.
