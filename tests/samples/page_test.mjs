@@ -58,12 +58,20 @@ async function open(path, { width = 1280, height = 800, colorScheme = "light", w
         if (request.url() !== pathToFileURL(path).href)
             opened.complaints.push(`request: ${request.url()}`);
     });
+    opened.setDefaultTimeout(120000);
     await opened.goto(pathToFileURL(path).href);
     await settled(opened);
     return opened;
 }
 
 const settled = (opened) => opened.waitForSelector('#stage[aria-busy="false"]', { timeout: 60000 });
+
+/** Waits until what was done has had time to be drawn, on a busy machine, too. */
+const drawn = async (opened) => {
+    await settled(opened);
+    await opened.waitForTimeout(300);
+    await opened.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+};
 
 /** The picture of a part of a page, which stays in the reader: its number there, and how many colours it has. */
 async function seen(opened, selector = "#frame") {
@@ -118,7 +126,7 @@ test("a page opens without complaints and without asking for anything", async ()
         const opened = await open(path);
         const { colours } = await seen(opened);
         assert.ok(colours > 50, `${path} shows ${colours} colours`);
-        await opened.waitForTimeout(200);
+        await drawn(opened);
         assert.deepEqual(opened.complaints, [], path);
         await opened.close();
     }
@@ -179,10 +187,10 @@ test("the surface is turned, brought nearer, moved, and put back", async () => {
     await changes(opened, "moving", () => drag("right"), 0.05);
     await changes(opened, "coming nearer", async () => {
         await opened.mouse.wheel(0, -400);
-        await opened.waitForTimeout(200);
+        await drawn(opened);
     }, 0.05);
     await opened.locator("#reset").evaluate((button) => button.click());
-    await opened.waitForTimeout(200);
+    await drawn(opened);
     assert.equal(await difference(first, await seen(opened)), 0);
     await opened.close();
 });
