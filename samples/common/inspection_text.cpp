@@ -115,8 +115,9 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     printer.print(found.inconsistent_edges, "edges whose faces are oriented against each other",
                   found.orientable ? "smooth does not mind; normals that it writes do"
                                    : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
-    printer.print(found.duplicate_faces, "faces with the same vertices as one before them",
-                  "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
+    printer.print(
+        found.duplicate_faces, "faces with the same vertices as one before them",
+        "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
     printer.print(found.faces_without_area, "faces without area",
                   "with alexa-wardetzky and ptackova-velho smooth cannot move their vertices");
     printer.print(found.edges_without_length, "edges without length", "with fujiwara smooth cannot move their ends");
