@@ -10,7 +10,7 @@ namespace seamflow {
 /// positions, without assembling anything. Its length is |κ₁ + κ₂| up to discretisation; with Fujiwara it has a
 /// tangential part too.
 /// @param positions #V by 3.
-/// @param v a vertex of kind Interior.
+/// @param v a vertex that moves; on a free boundary the row is no mean curvature.
 Point mean_curvature_vector(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                             Laplacian laplacian, Index v);
 

@@ -12,7 +12,7 @@ namespace seamflow {
 using Adjacency = std::vector<std::vector<Index>>;
 
 /// The adjacency graph of the parts of a cut. Two are adjacent when they share a vertex of the interface Γ, that is a
-/// vertex of kind Interior whose faces lie in two or more parts; boundary vertices, which do not move, do not count.
+/// vertex that moves and whose faces lie in two or more parts; those that are fixed do not count.
 /// @param labels #F, from 0 to n_parts - 1.
 Adjacency adjacency_of(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts);
 

@@ -54,7 +54,7 @@ struct SubMesh {
     /// One entry per half-edge of the sub-mesh (numbered like face_vertices.values): the half-edge of the other face at
     /// the same edge, or -1 on the sub-mesh's own boundary.
     std::vector<Index> twin;
-    /// n_vertices: 1 where a vertex stays where it is: on the boundary of the whole mesh, or not manifold.
+    /// n_vertices: 1 where a vertex stays where it is (see Topology::fixed).
     std::vector<std::uint8_t> fixed;
     /// n_vertices: 1 where this sub-mesh speaks for the vertex when the whole is put together; exactly one sub-mesh
     /// does so for each vertex that may move.

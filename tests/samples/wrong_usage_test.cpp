@@ -1,0 +1,99 @@
+// Command lines that mean nothing.
+
+#include <string>
+
+#include "tests/samples/workshop.h"
+
+using namespace seamflow;
+using test::Workshop;
+
+TEST_CASE("wrong usage ends with 2 and writes nothing")
+{
+    const Workshop w;
+    for (const char* arguments : {
+             "",
+             "mesh.obj",
+             "mesh.obj out.obj",
+             "mesh.obj out.obj --time-step 0.05x",
+             "mesh.obj out.obj --time-step nan",
+             "mesh.obj out.obj --time-step 0",
+             "mesh.obj out.obj --time-step -1",
+             "mesh.obj out.obj --time-step",
+             "mesh.obj out.obj --time-step 1 --time-step-edges 1",
+             "mesh.obj out.obj --time-step 1 --radius 2%",
+             "mesh.obj out.obj --radius 2mm",
+             "mesh.obj out.obj --time-step 1 --boundary natural",
+             "mesh.obj out.obj --time-step 1 --boundary free --laplacian ptackova-velho",
+             "mesh.obj out.obj --time-step 1 --boundary free --subdomains 4 --conditions robin",
+             "mesh.obj out.obj --time-step 1 --fix-property locked",
+             "mesh.obj out.obj --time-step 1 --fix labels.txt --fix-property locked",
+             "mesh.obj out.obj --time-step 1 --report ./out.obj",
+             "mesh.obj out.obj --time-step 1 --report a.json --trace ./a.json",
+             "mesh.obj out.obj --time-step 1 --report folder --checkpoint ./folder",
+             "mesh.obj out.obj --time-step 1 --converge 1e-4 --plain",
+             "mesh.obj out.obj --time-step 1 --converge 1e-4 --p 3",
+             "mesh.obj out.obj --time-step 1 --converge never --converge-iterations 3",
+             "mesh.obj out.obj --time-step 1 --p 3 --p-rule paper",
+             "mesh.obj out.obj --radius 1e300",
+             "mesh.obj out.obj --time-step 1 --rescale length",
+             "mesh.obj out.obj --time-step 1 --fix labels.txt --rescale area",
+             "mesh.obj out.obj --time-step 1 --p 0",
+             "mesh.obj out.obj --time-step 1 --steps -1",
+             "mesh.obj out.obj --time-step 1 --steps 1.5",
+             "mesh.obj out.obj --time-step 1 --subdomains 99999999999",
+             "mesh.obj out.obj --time-step 1 --subdomains 2 --labels labels.txt",
+             "mesh.obj out.obj --time-step 1 --laplacian cotan",
+             "mesh.obj out.obj --time-step 1 --laplacian 1",
+             "mesh.obj out.obj --time-step 1 --coloring best",
+             "mesh.obj out.obj --time-step 1 --conditions none",
+             "mesh.obj out.obj --time-step 1 --plain --sweep alternating",
+             "mesh.obj out.obj --time-step 1 --overlap 2",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --overlap 0",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --sweep alternating",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --p 3",
+             "mesh.obj out.obj --time-step 1 --conditions ventcell",
+             "mesh.obj out.obj --time-step 1 --conditions robin --q 0.1",
+             "mesh.obj out.obj --time-step 1 --conditions robin --transmission predicted",
+             "mesh.obj out.obj --time-step 1 --keep-gaps",
+             "mesh.obj out.obj --time-step 1 --conditions schwarz --keep-gaps",
+             "mesh.obj out.obj --time-step 1e-9 --conditions robin --scheme explicit --keep-gaps",
+             "mesh.obj out.obj --time-step 1 --scheme euler",
+             "mesh.obj out.obj --time-step 1 --scheme explicit",
+             "mesh.obj out.obj --time-step 1 --every-step step.obj",
+             "mesh.obj out.obj --time-step 1 --every-step %d%s.obj",
+             "mesh.obj out.obj --time-step 1 --parts parts.obj",
+             "mesh.obj out.obj --time-step 1 --report out.obj",
+             "mesh.obj out.obj --time-step 1 --report mesh.obj",
+             "mesh.obj out.obj --time-step 1 --trace out.obj",
+             "mesh.obj out.obj --time-step 1 --trace mesh.obj",
+             "mesh.obj out.obj --time-step 1 --trace a.json --report a.json",
+             "mesh.obj out.obj --time-step 1 --html out.obj",
+             "mesh.obj out.obj --time-step 1 --html mesh.obj",
+             "mesh.obj out.obj --time-step 1 --html a.html --report a.html",
+             "mesh.obj out.obj --time-step 1e-7 --scheme explicit --trace trace.json",
+             "mesh.obj out.obj --time-step 1e-7 --scheme explicit --memory-limit 1G",
+             "mesh.obj out.obj --time-step 1 --memory-limit 0",
+             "mesh.obj out.obj --time-step 1 --memory-limit 1",
+             "mesh.obj out.obj --time-step 1 --memory-limit lots",
+             "mesh.obj out.xyz --time-step 1",
+             "mesh.obj out.obj more.obj --time-step 1",
+             "mesh.obj out.obj --time-step 1 --speed 3",
+         }) {
+        CAPTURE(arguments);
+        CHECK(w.smooth(arguments) == 2);
+        CHECK_FALSE(w.said().empty());
+        CHECK_FALSE(w.has("out.obj"));
+    }
+    CHECK(w.run(COMPARE " mesh.obj") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --report mesh.obj") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --direction sideways") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.obj") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.ply --show everything") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.ply --full-scale 0") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map map.ply --report map.ply") == 2);
+    CHECK(w.run(COMPARE " mesh.obj mesh.obj --show normal") == 2);
+    CHECK_FALSE(w.has("map.ply"));
+    CHECK(w.run(GENERATE " dodecahedron out.obj") == 2);
+    CHECK(w.run(GENERATE " quads out.obj --vertices many") == 2);
+    CHECK(w.run(GENERATE " quads out.xyz") == 2);
+}
