@@ -159,9 +159,14 @@ void restore(const Run& run, Flow& flow, DecomposedFlow* reference, const Rescal
     if (state.cut != checksum_of(run.report.labels))
         throw InputError("the state to go on from belongs to another cut of the same mesh: the program that made it "
                          "had another METIS");
-    for (const StepMemory* memory : {&state.flow, state.reference ? &*state.reference : nullptr})
-        if (memory != nullptr && memory->positions.rows() != run.mesh.vertices.rows())
+    for (const StepMemory* memory : {&state.flow, state.reference ? &*state.reference : nullptr}) {
+        if (memory == nullptr)
+            continue;
+        if (memory->positions.rows() != run.mesh.vertices.rows())
             throw InputError("the state to go on from has not the vertices of this mesh");
+        if (!memory->positions.allFinite())
+            throw InputError("the state to go on from has positions that are not finite: it has been changed");
+    }
     if (state.reference.has_value() != (reference != nullptr))
         throw InputError("the state to go on from has not the undecomposed flow");
     flow.restore(state.flow);

@@ -1,0 +1,106 @@
+// Any bytes as a mesh file of the format SEAMFLOW_FUZZED_EXTENSION: they are refused with an InputError, or read as a
+// mesh that is valid, and that comes back as it was from the files that are written of it.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "partition/errors.h"
+#include "partition/inspection/mesh_inspection.h"
+#include "partition/io/extras.h"
+#include "partition/io/mesh_io.h"
+#include "partition/topology.h"
+#include "tests/fuzz/fuzzed_file.h"
+
+namespace {
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+const std::string extension = SEAMFLOW_FUZZED_EXTENSION;
+
+/// Reads the file as far as possible and examines what there is.
+/// @returns how many faults it has; nothing if it is no mesh.
+std::optional<std::uint64_t> faults_of(const FuzzedFile& file)
+{
+    try {
+        FaultLog faults;
+        const MeshFile read = read_faulty_mesh(file.path(), faults);
+        const MeshInspection inspection = inspect(read.mesh, make_topology(read.mesh));
+        demand(faults.count > 0 || inspection.vertices_not_finite.empty(),
+               "a coordinate that is not finite is a fault");
+        return faults.count;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// @param relative by how much coordinates may differ.
+bool same_surface(const PolygonMesh& a, const PolygonMesh& b, double relative)
+{
+    if (a.face_offsets != b.face_offsets || a.face_vertices != b.face_vertices || a.n_vertices() != b.n_vertices())
+        return false;
+    for (Eigen::Index i = 0; i < a.vertices.size(); ++i) {
+        const double x = a.vertices.data()[i];
+        const double y = b.vertices.data()[i];
+        // The second bound: floats near zero are further apart.
+        if (!(std::abs(x - y) <= std::max(relative * std::abs(x), relative > 0.0 ? 1e-44 : 0.0)))
+            return false;
+    }
+    return true;
+}
+
+void demand_same(const FuzzedFile& file, const std::string& name, const PolygonMesh& mesh, double relative)
+{
+    const MeshFile again = read_mesh(file.beside(name));
+    demand(same_surface(mesh, again.mesh, relative), "the mesh comes back from " + name + " as it was");
+}
+
+/// Writes a mesh if the format can hold it.
+template <class Write>
+bool is_written(Write&& write)
+{
+    try {
+        write();
+        return true;
+    } catch (const OutputError&) {
+        return false;
+    }
+}
+
+void write_and_read_again(const FuzzedFile& file, const MeshFile& read)
+{
+    require_valid(read.mesh);
+    static_cast<void>(extras_of(*read.source));
+    const bool stl = read.kind.format == FileFormat::Stl;
+    // Corners of STL files are joined where they are equal: the numbers of the vertices stay only if nothing moves.
+    // Binary OFF files count as text, and stay binary where they are written like what was read.
+    const bool floats = read.kind.encoding != Encoding::Ascii || read.kind.format == FileFormat::Off;
+    PolygonMesh moved = read.mesh;
+    if (!stl)
+        moved.vertices *= 0.75;
+    const std::string like = "like" + extension;
+    if (is_written([&] { write_mesh_like(*read.source, file.beside(like), moved); }))
+        demand_same(file, like, moved, floats ? 1e-7 : 0.0);
+    const std::string anew = "anew" + extension;
+    if (is_written([&] { write_mesh(file.beside(anew), moved, read.kind); }))
+        demand_same(file, anew, moved, stl && floats ? 1e-7 : 0.0);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_bytes)
+{
+    const FuzzedFile file("fuzzed" + extension, bytes, n_bytes);
+    const auto faults = faults_of(file);
+    try {
+        const MeshFile read = read_mesh(file.path());
+        demand(faults == 0U, "what can be read has no faults");
+        write_and_read_again(file, read);
+    } catch (const InputError&) {
+        demand(faults != 0U, "what has no faults can be read");
+    }
+    return 0;
+}
