@@ -7,6 +7,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
 #include "engine/sub_mesh_options.h"
@@ -294,11 +295,14 @@ void DecomposedFlow::describe(FlowReport& report) const
     report.live_factors = window_.size;
     report.factor_memory_bytes = factors_.bytes();
     report.colors = states_.empty() ? 0 : *std::max_element(plans_.front().rank.begin(), plans_.front().rank.end()) + 1;
+    std::vector<Index> n_nearly_singular;
     for (const SubMeshState& state : states_) {
         report.subdomain_faces.push_back(static_cast<Index>(state.sub_mesh->faces.size()));
         report.subdomain_vertices.push_back(state.sub_mesh->n_vertices);
         report.p.push_back(state.p);
+        n_nearly_singular.push_back(state.system->n_nearly_singular());
     }
+    remark_on_near_singularity(n_nearly_singular, report);
     add_seconds(report.seconds);
     if (recorder_)
         report.schedule = recorder_->schedule();

@@ -78,13 +78,15 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     // Every field has a name here, so that a new one cannot be forgotten.
     const auto& [laplacian, time_step, steps, subdomains, labels, coloring, conditions, scheme, transmission, p, p_rule,
                  p_edge, q, overlap, sweep, boundary, fixed_vertices, strict, rescale, correction, keep_gaps, threads,
-                 tolerance, approach, converge_iterations, memory_limit, reference, record_schedule] = options;
+                 tolerance, approach, converge_iterations, memory_limit, largest_update, reference, record_schedule] =
+        options;
     // These do not change results, or (steps) only where they end.
     static_cast<void>(steps);
     static_cast<void>(strict);
     static_cast<void>(keep_gaps);
     static_cast<void>(threads);
     static_cast<void>(memory_limit);
+    static_cast<void>(largest_update);
     static_cast<void>(record_schedule);
     using Names = std::array<std::string_view, 2>;
     return {{

@@ -114,6 +114,8 @@ void require_valid(const FlowOptions& options)
     require(options.overlap >= 1, "overlap", options.overlap, "at least 1 (layers of faces)");
     if (options.memory_limit)
         require(*options.memory_limit >= 1, "memory_limit", *options.memory_limit, "at least 1 (byte)");
+    require(options.largest_update > 0.0, "largest_update", options.largest_update,
+            "positive (diagonals of the mesh's bounding box; infinite: no limit)");
     if (options.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);
     require_valid_copies(options);

@@ -185,6 +185,10 @@ struct FlowOptions {
     /// less the flow throws OptionError that tells how much that is. Empty: as few as keep all threads busy. What
     /// UMFPACK makes counts by its own estimate. Does not change the result, nor limit what `reference` takes.
     std::optional<std::size_t> memory_limit;
+    /// How far a step may move a vertex at most, in diagonals of the bounding box of the mesh before the first step;
+    /// positive. A step that goes beyond, as Δ_P and Δ_A on polygons can where their equations are indefinite, ends the
+    /// flow with the step before. Infinite: whatever comes out, as long as it is finite.
+    double largest_update = 1.0;
     /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
     /// each step.
     bool reference = false;

@@ -1,6 +1,8 @@
 #include "engine/flow_remarks.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <string>
 
 namespace seamflow {
@@ -16,6 +18,18 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report)
                              (options.tolerance ? "a smaller tolerance brings it closer."
                                                 : "fewer sub-meshes bring it closer; --converge "
                                                   "(FlowOptions::tolerance) gives the undecomposed step itself."));
+}
+
+void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report)
+{
+    const auto first = std::ranges::find_if(n_nearly_singular, [](Index n) { return n > 0; });
+    if (first == n_nearly_singular.end())
+        return;
+    const Index total = std::accumulate(first, n_nearly_singular.end(), Index{0});
+    report.remarks.push_back("The equations of sub-meshes were nearly singular " + std::to_string(total) +
+                             (total == 1 ? " time" : " times") + ", first among them sub-mesh " +
+                             std::to_string(first - n_nearly_singular.begin()) +
+                             ": the result may be wrong there; use a smaller time step, or another Laplacian.");
 }
 
 double extent_of(const Points& positions)

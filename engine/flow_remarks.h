@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "partition/polygon_mesh.h"
@@ -11,6 +13,10 @@ double extent_of(const Points& positions);
 
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);
+
+/// Adds a remark where equations were nearly singular.
+/// @param n_nearly_singular for every sub-mesh, how many of its factorisations.
+void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report);
 
 /// Adds a remark where the flow has drawn the surface together to next to nothing, which is hardly what was wanted.
 /// @param extent_before see extent_of. @param after #V by 3.

@@ -7,6 +7,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
@@ -187,6 +188,10 @@ void KrylovFlow::describe(FlowReport& report) const
         report.subdomain_vertices.push_back(part.sub_mesh.n_vertices);
     }
     add_seconds(report.seconds);
+    std::vector<Index> n_nearly_singular;
+    for (const auto& block : blocks_)
+        n_nearly_singular.push_back(block->n_nearly_singular());
+    remark_on_near_singularity(n_nearly_singular, report);
     report.steps_short_of_tolerance = steps_short_of_tolerance_;
     report.steps_stagnated = steps_stagnated_;
     if (steps_short_of_tolerance_ > 0)

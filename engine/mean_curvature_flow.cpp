@@ -26,6 +26,7 @@
 #include "engine/step_shares.h"
 #include "engine/stopwatch.h"
 #include "engine/surface_curvature.h"
+#include "engine/update_limit.h"
 #include "engine/workers.h"
 #include "partition/cut/cut.h"
 #include "partition/errors.h"
@@ -198,13 +199,14 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
 {
     const auto& [mesh, topology, options, on_step, resume, identity, progress, report] = run;
     DisplacementMeter meter(mesh, topology);
+    const double extent = extent_of(mesh.vertices);
+    const UpdateLimit limit(mesh, options.largest_update);
     const Rescaling rescaling(mesh, topology, options.rescale);
     if (resume != nullptr)
         restore(run, flow, reference, rescaling, meter);
     const auto first = static_cast<int>(report.steps.size()) + 1;
     double curvature_before =
         report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
-    const double extent = extent_of(mesh.vertices);
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
     Points rescaled;
     Points undecomposed;
@@ -217,7 +219,10 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
         rescaled = flow.positions();
-        named("step " + std::to_string(step), [&] { rescaling.apply(rescaled); });
+        named("step " + std::to_string(step), [&] {
+            rescaling.apply(rescaled);
+            limit.require(mesh.vertices, rescaled, report.labels);
+        });
         of_step.displacement = meter.add_step(mesh.vertices, rescaled);
         curvature = measure_curvature(mesh, topology, rescaled, options.laplacian);
         of_step.max_mean_curvature_before = curvature_before;

@@ -136,16 +136,19 @@ void LuSolver::eliminate(Index block, Index column, LuWorkspace& workspace) cons
 bool LuSolver::store(Index block, Index column, LuWorkspace& workspace)
 {
     constexpr double largest_multiplier = 1000.0;
+    constexpr double largest_growth = 1e6;
+    constexpr double least_pivot = 1e-12;
     const auto rows = pattern_.rows[block];
     Pair* result = column_of(block, column);
     const double* sizes = workspace.row_sizes.data();
     const double size = sizes[rows[at(column)]];
     const double inverse = 1.0 / workspace.elimination[at(rows[at(column)])][lower];
-    bool will_do = std::isfinite(inverse);
+    bool will_do = std::isfinite(inverse) && std::abs(inverse) * size * least_pivot <= 1.0;
     for (std::size_t m = at(column); m < rows.size(); ++m) {
         Pair& entry = workspace.elimination[at(rows[m])];
         const double multiplier = entry[lower] * inverse;
         will_do &= std::abs(multiplier) * size <= largest_multiplier * sizes[rows[m]];
+        will_do &= std::abs(entry[upper]) <= largest_growth * size;
         result[m] = Pair(multiplier, entry[upper]);
         entry.setZero();
     }

@@ -30,7 +30,8 @@ class LuSolver {
     /// @param values one per entry of the pattern; needed only during the call.
     /// @param memory must outlive the factor.
     /// @returns whether the diagonal will do: with rows divided by their sizes, no pivot is less than a thousandth of
-    ///          an entry below it (the bound that UMFPACK has for symmetric patterns). If not, there is no factor.
+    ///          an entry below it (the bound that UMFPACK has for symmetric patterns), or next to nothing, and no entry
+    ///          of U has grown to a million times its row. If not, there is no factor.
     [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, LuWorkspace& workspace);
 
     /// Whether there is a factor.

@@ -42,6 +42,9 @@ class SubMeshSystem {
     /// @throws ComputationError if the equations are singular or not finite.
     virtual void factorise(SolverWorkspace& workspace) = 0;
 
+    /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
+    [[nodiscard]] virtual Index n_nearly_singular() const { return 0; }
+
     /// Solves with Γ held at Vᵏ where the sub-mesh follows: what it would do if nobody around moved.
     /// @param positions #local by 3: Vᵏ.
     /// @param prediction #local by 3; receives the result at own vertices.

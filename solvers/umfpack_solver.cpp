@@ -38,6 +38,9 @@ struct LongInterface {
 /// Above this number of unknowns a factor may outgrow 32-bit integers.
 constexpr Index most_unknowns_for_int = 100'000;
 
+/// Below this ratio of the smallest pivot to the largest a solution keeps three digits or less.
+constexpr double least_condition = 1e-13;
+
 void require_ok(long status, const char* task)
 {
     if (status == UMFPACK_OK)
@@ -56,6 +59,7 @@ class UmfpackSolver::Backend {
     virtual ~Backend() = default;
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
     virtual void factorise(std::span<const double> values) = 0;
+    [[nodiscard]] virtual bool is_nearly_singular() const = 0;
     virtual void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution) = 0;
     virtual void free_factor() = 0;
 };
@@ -72,20 +76,24 @@ class UmfpackSolver::BackendFor final : public Backend {
         , integer_work_(at(pattern.n()))
         , work_(at(pattern.n()))
     {
-        Interface::defaults(control_.data());
-        control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-        control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
-        control_[UMFPACK_IRSTEP] = 0;
-        require_ok(Interface::symbolic(n_, n_, offsets_.data(), rows_.data(), nullptr, &symbolic_, control_.data(),
-                                       info_.data()),
-                   "analysis");
+        Interface::defaults(fast_.control.data());
+        careful_.control = fast_.control;
+        fast_.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+        fast_.control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
+        fast_.control[UMFPACK_IRSTEP] = 0;
+        careful_.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_UNSYMMETRIC;
+        careful_.control[UMFPACK_PIVOT_TOLERANCE] = 1.0;
+        careful_.control[UMFPACK_IRSTEP] = 2;
+        analyse(fast_);
         factor_bytes_ = static_cast<std::size_t>(info_[UMFPACK_NUMERIC_SIZE_ESTIMATE] * info_[UMFPACK_SIZE_OF_UNIT]);
     }
 
     ~BackendFor() override
     {
         free_factor();
-        Interface::free_symbolic(&symbolic_);
+        for (Way* way : {&fast_, &careful_})
+            if (way->symbolic != nullptr)
+                Interface::free_symbolic(&way->symbolic);
     }
 
     BackendFor(const BackendFor&) = delete;
@@ -95,17 +103,26 @@ class UmfpackSolver::BackendFor final : public Backend {
 
     void factorise(std::span<const double> values) override
     {
-        free_factor();
-        require_ok(Interface::numeric(offsets_.data(), rows_.data(), values.data(), symbolic_, &numeric_,
-                                      control_.data(), info_.data()),
-                   "factorisation");
+        way_ = &fast_;
+        if (pivots_do(values))
+            return;
+        way_ = &careful_;
+        if (careful_.symbolic == nullptr) {
+            analyse(careful_);
+            // Iterative refinement needs more room.
+            work_.resize(5 * integer_work_.size());
+        }
+        is_nearly_singular_ = !pivots_do(values);
+        require_ok(status_, "factorisation");
     }
+
+    [[nodiscard]] bool is_nearly_singular() const override { return is_nearly_singular_; }
 
     void solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution) override
     {
         for (Eigen::Index c = 0; c < 3; ++c)
             require_ok(Interface::solve(UMFPACK_A, offsets_.data(), rows_.data(), values.data(), solution.col(c).data(),
-                                        right_hand_side.col(c).data(), numeric_, control_.data(), info_.data(),
+                                        right_hand_side.col(c).data(), numeric_, way_->control.data(), info_.data(),
                                         integer_work_.data(), work_.data()),
                        "solution");
     }
@@ -118,15 +135,43 @@ class UmfpackSolver::BackendFor final : public Backend {
     }
 
   private:
+    /// How to look for pivots: on the diagonal where that will do, or the largest of every column.
+    struct Way {
+        std::array<double, UMFPACK_CONTROL> control{};
+        void* symbolic = nullptr;
+    };
+
+    void analyse(Way& way)
+    {
+        require_ok(Interface::symbolic(n_, n_, offsets_.data(), rows_.data(), nullptr, &way.symbolic,
+                                       way.control.data(), info_.data()),
+                   "analysis");
+    }
+
+    /// @returns whether there is a factor that can be trusted.
+    bool pivots_do(std::span<const double> values)
+    {
+        free_factor();
+        is_nearly_singular_ = false;
+        status_ = Interface::numeric(offsets_.data(), rows_.data(), values.data(), way_->symbolic, &numeric_,
+                                     way_->control.data(), info_.data());
+        if (status_ != UMFPACK_WARNING_singular_matrix)
+            require_ok(status_, "factorisation");
+        return status_ == UMFPACK_OK && info_[UMFPACK_RCOND] >= least_condition;
+    }
+
     Integer n_;
     std::vector<Integer> offsets_;
     std::vector<Integer> rows_;
     std::vector<Integer> integer_work_;
     std::vector<double> work_;
-    std::array<double, UMFPACK_CONTROL> control_{};
+    Way fast_;
+    Way careful_;
+    Way* way_ = &fast_;
     std::array<double, UMFPACK_INFO> info_{};
     std::size_t factor_bytes_ = 0;
-    void* symbolic_ = nullptr;
+    long status_ = UMFPACK_OK;
+    bool is_nearly_singular_ = false;
     void* numeric_ = nullptr;
 };
 
@@ -150,6 +195,11 @@ std::size_t UmfpackSolver::factor_bytes() const
 void UmfpackSolver::factorise(std::span<const double> values)
 {
     backend_->factorise(values);
+}
+
+bool UmfpackSolver::is_nearly_singular() const
+{
+    return backend_->is_nearly_singular();
 }
 
 void UmfpackSolver::solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution)

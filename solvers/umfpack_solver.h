@@ -24,9 +24,14 @@ class UmfpackSolver {
     /// UMFPACK's estimate of what a factor takes, in bytes; an upper bound for most matrices.
     [[nodiscard]] std::size_t factor_bytes() const;
 
+    /// Pivots are taken from the diagonal; where those would lose nearly all digits, the largest of each column are,
+    /// and solutions are refined.
     /// @param values one per entry of the pattern; must stay as they are until the solve.
     /// @throws ComputationError if the matrix is singular or memory runs out.
     void factorise(std::span<const double> values);
+
+    /// Whether the smallest pivot is below 1e-13 of the largest even so: a solution has three correct digits at most.
+    [[nodiscard]] bool is_nearly_singular() const;
 
     /// Solves for three right-hand sides.
     /// @pre there is a factor: factorise has been called since the last free_factor.

@@ -25,11 +25,13 @@ std::size_t UnsymmetricSolver::factor_bytes() const
 
 void UnsymmetricSolver::factorise(std::span<const double> values, SolverWorkspace& workspace)
 {
+    is_nearly_singular_ = false;
     if (lu_ && lu_->factorise(values, *workspace.factors, workspace.lu))
         return;
     if (!umfpack_)
         umfpack_ = std::make_unique<UmfpackSolver>(*pattern_);
     umfpack_->factorise(values);
+    is_nearly_singular_ = umfpack_->is_nearly_singular();
 }
 
 void UnsymmetricSolver::solve(std::span<const double> values, const Columns& right_hand_side, Columns& solution,

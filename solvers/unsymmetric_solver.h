@@ -26,6 +26,9 @@ class UnsymmetricSolver {
     /// @throws ComputationError if the matrix is singular or memory runs out.
     void factorise(std::span<const double> values, SolverWorkspace& workspace);
 
+    /// Whether the matrix that was factorised last leaves a solution three correct digits at most.
+    [[nodiscard]] bool is_nearly_singular() const { return is_nearly_singular_; }
+
     /// Solves for three right-hand sides.
     /// @pre there is a factor: factorise has been called since the last free_factor.
     /// @param solution n by 3.
@@ -42,6 +45,7 @@ class UnsymmetricSolver {
     std::unique_ptr<LuSolver> lu_;
     /// Nothing until it is needed.
     std::unique_ptr<UmfpackSolver> umfpack_;
+    bool is_nearly_singular_ = false;
 };
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #include "samples/figures/experiment.h"
 
 #include <array>
+#include <limits>
 
 #include "samples/figures/surfaces.h"
 
@@ -128,6 +129,8 @@ FlowOptions options_of(const Experiment& experiment, const Variant& variant, con
     options.laplacian = variant.laplacian;
     options.time_step = experiment.time_step;
     options.steps = experiment.steps;
+    // What the paper shows is shown, spikes included.
+    options.largest_update = std::numeric_limits<double>::infinity();
     if (variant.settings == Settings::Plain)
         options.conditions = variant.conditions;
     options.subdomains = variant.pieces == Pieces::Metis ? variant.subdomains : 1;

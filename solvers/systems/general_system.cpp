@@ -102,6 +102,7 @@ void GeneralSystem::factorise(SolverWorkspace& workspace)
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
     solver_->factorise(values, workspace);
+    n_nearly_singular_ += solver_->is_nearly_singular() ? 1 : 0;
 }
 
 void GeneralSystem::use_other_side(const Points& positions, const Points& other_side)

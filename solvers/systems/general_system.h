@@ -24,6 +24,7 @@ class GeneralSystem final : public SubMeshSystem {
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
     void factorise(SolverWorkspace& workspace) override;
+    [[nodiscard]] Index n_nearly_singular() const override { return n_nearly_singular_; }
     void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
     void solve(const Points& positions, Points& solution, SolverWorkspace& workspace) override;
@@ -54,6 +55,7 @@ class GeneralSystem final : public SubMeshSystem {
     Columns right_hand_side_;
     Columns solution_;
     std::unique_ptr<UnsymmetricSolver> solver_;
+    Index n_nearly_singular_ = 0;
 };
 
 }  // namespace seamflow

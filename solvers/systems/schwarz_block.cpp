@@ -108,8 +108,10 @@ void SchwarzBlock::factorise(SolverWorkspace& workspace)
 {
     if (!std::all_of(values_.begin(), values_.end() - 1, [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (solver_)
-        solver_->factorise(std::span<const double>(values_).first(pattern_->rows.size()), workspace);
+    if (!solver_)
+        return;
+    solver_->factorise(std::span<const double>(values_).first(pattern_->rows.size()), workspace);
+    n_nearly_singular_ += solver_->is_nearly_singular() ? 1 : 0;
 }
 
 void SchwarzBlock::solve(const Points& given, RightHandSide right_hand_side, Columns& solution,

@@ -39,6 +39,9 @@ class SchwarzBlock {
     void assemble(const Points& positions, double time_step);
     void factorise(SolverWorkspace& workspace);
 
+    /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
+    [[nodiscard]] Index n_nearly_singular() const { return n_nearly_singular_; }
+
     /// Which right-hand side stands beside what the vertices beyond contribute.
     enum class RightHandSide {
         /// That of the step.
@@ -82,6 +85,7 @@ class SchwarzBlock {
     Columns right_hand_side_;
     /// Nothing without unknowns.
     std::unique_ptr<UnsymmetricSolver> solver_;
+    Index n_nearly_singular_ = 0;
 };
 
 }  // namespace seamflow

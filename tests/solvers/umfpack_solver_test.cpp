@@ -117,3 +117,43 @@ TEST_CASE("large systems, solved with long integers, agree with small ones")
     large.solve(values, right_hand_side, solution);
     CHECK((solution - expected.replicate(copies, 1)).cwiseAbs().maxCoeff() < 1e-12);
 }
+
+TEST_CASE("where pivots on the diagonal would lose all digits, larger ones are found")
+{
+    // Pivots of 0.002 below entries of 1 are what the first way accepts, and lets entries grow 500-fold for each.
+    const Index n = 14;
+    std::vector<MatrixEntry> entries;
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < n; ++j)
+            entries.push_back({i, j});
+    const SparsePattern pattern = make_pattern(n, entries);
+    std::vector<double> values(entries.size());
+    for (const auto& [i, j] : entries)
+        values[at(pattern.slot({i, j}))] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
+    RandomNumbers random(5);
+    const Columns right_hand_side = random_columns(n, random);
+    Columns solution(n, 3);
+    UmfpackSolver solver(pattern);
+    solver.factorise(values);
+    CHECK_FALSE(solver.is_nearly_singular());
+    solver.solve(values, right_hand_side, solution);
+    CHECK((dense(pattern, values).fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+TEST_CASE("nearly singular matrices are solved as well as that goes, and said to be what they are")
+{
+    const SparsePattern pattern = make_pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
+    UmfpackSolver solver(pattern);
+    const std::vector<double> nearly_singular{1.0, 1.0, 1.0, 1.0 + 1e-15};
+    const std::vector<double> regular{1.0, 1.0, 1.0, 1.0 + 1e-9};
+    solver.factorise(regular);
+    CHECK_FALSE(solver.is_nearly_singular());
+    solver.factorise(nearly_singular);
+    CHECK(solver.is_nearly_singular());
+    Columns right_hand_side = Columns::Constant(2, 3, 2.0);
+    Columns solution(2, 3);
+    solver.solve(nearly_singular, right_hand_side, solution);
+    CHECK((dense(pattern, nearly_singular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-14);
+    solver.factorise(regular);
+    CHECK_FALSE(solver.is_nearly_singular());
+}

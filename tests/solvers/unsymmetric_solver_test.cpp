@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
@@ -74,4 +75,34 @@ TEST_CASE("large systems are solved too")
         for (Index k = pattern.column_offsets[at(column)]; k < pattern.column_offsets[at(column) + 1]; ++k)
             residual.row(pattern.rows[at(k)]) += values[at(k)] * solution.row(column);
     CHECK(residual.cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("matrices that are nearly singular are found out, and those whose pivots merely grow are solved")
+{
+    SolverWorkspace workspace;
+    const SparsePattern pattern = make_pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
+    UnsymmetricSolver solver(pattern);
+    const Columns right_hand_side = Columns::Constant(2, 3, 2.0);
+    const std::vector<double> nearly_singular{1.0, 1.0, 1.0, 1.0 + 1e-15};
+    const Columns solution = solved(solver, nearly_singular, right_hand_side, workspace);
+    CHECK(solver.is_nearly_singular());
+    CHECK((dense(pattern, nearly_singular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-14);
+    solved(solver, std::vector<double>{2.0, 1.0, 1.0, 2.0}, right_hand_side, workspace);
+    CHECK_FALSE(solver.is_nearly_singular());
+
+    const Index n = 14;
+    std::vector<MatrixEntry> entries;
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < n; ++j)
+            entries.push_back({i, j});
+    const SparsePattern full = make_pattern(n, entries);
+    std::vector<double> growing(entries.size());
+    for (const auto& [i, j] : entries)
+        growing[at(full.slot({i, j}))] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
+    UnsymmetricSolver careful(full);
+    RandomNumbers random(6);
+    const Columns of_full = random_columns(n, random);
+    const Columns expected = dense(full, growing).fullPivLu().solve(of_full);
+    CHECK((solved(careful, growing, of_full, workspace) - expected).cwiseAbs().maxCoeff() < 1e-10);
+    CHECK_FALSE(careful.is_nearly_singular());
 }

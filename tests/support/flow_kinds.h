@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     sweeps.steps = 4;
     sweeps.subdomains = 7;
     sweeps.approach = Approach::Sweep;
+    // Some are rough with so many sub-meshes.
+    sweeps.largest_update = std::numeric_limits<double>::infinity();
     std::vector<FlowKind> kinds;
     const auto add = [&](const std::string& name, auto change) {
         kinds.push_back({name, sweeps});

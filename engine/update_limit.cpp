@@ -1,0 +1,101 @@
+#include "engine/update_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/parallel_loop.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Of the vertices that have faces; 0 if none has.
+double diagonal_of(const PolygonMesh& mesh)
+{
+    if (mesh.face_vertices.empty())
+        return 0.0;
+    Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array3d high = -low;
+    for (const Index v : mesh.face_vertices) {
+        const Eigen::Array3d position = mesh.vertices.row(v).transpose();
+        low = low.min(position);
+        high = high.max(position);
+    }
+    return (high - low).matrix().stableNorm();
+}
+
+/// The vertex that moves furthest, or the first whose position is not finite.
+/// @param unit about the size of the mesh, so that squares neither overflow nor vanish.
+Index farthest_mover(const Points& before, const Points& after, double unit)
+{
+    struct Mover {
+        Index vertex = 0;
+        double square = -1.0;
+        void meet(Index v, double of_v)
+        {
+            if (of_v <= square)
+                return;
+            vertex = v;
+            square = std::isnan(of_v) ? std::numeric_limits<double>::infinity() : of_v;
+        }
+    };
+    const auto n = static_cast<Index>(after.rows());
+    const double scale = std::isnormal(1.0 / unit) ? 1.0 / unit : 1.0;
+    std::vector<Mover> of_block(at(n / block_size) + 1);
+    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v)
+            of_block[at(block)].meet(v, ((after.row(v) - before.row(v)) * scale).squaredNorm());
+    });
+    Mover farthest;
+    for (const Mover& mover : of_block)
+        farthest.meet(mover.vertex, mover.square);
+    return farthest.vertex;
+}
+
+std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+}  // namespace
+
+UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
+    : mesh_(mesh)
+    , diagonal_(diagonal_of(mesh))
+    , largest_(diagonals * diagonal_)
+{
+}
+
+void UpdateLimit::require(const Points& before, const Points& after, std::span<const Index> labels) const
+{
+    if (after.rows() == 0)
+        return;
+    const Index vertex = farthest_mover(before, after, diagonal_);
+    const double update = after.row(vertex).allFinite() ? (after.row(vertex) - before.row(vertex)).stableNorm()
+                                                        : std::numeric_limits<double>::infinity();
+    if (!std::isfinite(update) || update > largest_)
+        refuse(vertex, update, labels);
+}
+
+void UpdateLimit::refuse(Index vertex, double update, std::span<const Index> labels) const
+{
+    Index face = 0;
+    while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), vertex) == mesh_.face(face).end())
+        ++face;
+    const std::string where =
+        face < mesh_.n_faces() ? "sub-mesh " + std::to_string(labels[at(face)]) + ", " : std::string();
+    const std::string what =
+        std::isfinite(update) ? "would move by " + number(update) + ", but the mesh is " + number(diagonal_) + " across"
+                              : std::string("would go to a position that is not finite");
+    throw ComputationError(where + "vertex " + std::to_string(vertex) + " " + what +
+                           ": use a smaller time step, another Laplacian, or repair the mesh there");
+}
+
+}  // namespace seamflow
