@@ -6,61 +6,18 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "engine/checkpoint.h"
-#include "engine/mean_curvature_flow.h"
 #include "partition/io/byte_order.h"
 #include "partition/io/mesh_io.h"
 #include "partition/io/palette.h"
-#include "tests/fuzz/checkpointed_flow.h"
+#include "tests/fuzz/seeds.h"
 
 namespace {
 
 using namespace seamflow;
 using namespace seamflow::test;
-
-/// The folder of one harness.
-class Seeds {
-  public:
-    Seeds(const std::filesystem::path& root, const std::string& harness)
-        : folder_(root / harness)
-        , dictionary_(root / (harness + ".dict"))
-    {
-        std::filesystem::create_directories(folder_);
-    }
-
-    [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_ / name; }
-
-    void add(const std::string& name, std::string_view content) const
-    {
-        std::ofstream file(path(name), std::ios::binary);
-        file << content;
-        require(file, path(name));
-    }
-
-    /// Words that mutations put in.
-    void words(const std::vector<std::string>& all) const
-    {
-        std::ofstream file(dictionary_);
-        for (const std::string& word : all)
-            file << '"' << word << "\"\n";
-        require(file, dictionary_);
-    }
-
-  private:
-    static void require(std::ofstream& file, const std::filesystem::path& path)
-    {
-        if (!file.flush())
-            throw std::filesystem::filesystem_error("cannot be written", path, {});
-    }
-
-    std::filesystem::path folder_;
-    std::filesystem::path dictionary_;
-};
 
 /// Faces of three, four and five corners, with a vertex that has none.
 PolygonMesh house()
@@ -225,22 +182,6 @@ void make_lists(const std::filesystem::path& root)
                 "property list uchar int locked\\x0a", "end_header\\x0a", "2147483648", "-1", "# "});
 }
 
-/// Without their checksums, which are the harness's.
-void make_checkpoints(const std::filesystem::path& root)
-{
-    const Seeds seeds(root, "checkpoint");
-    CheckpointedFlow flow;
-    std::vector<std::filesystem::path> written;
-    mean_curvature_flow(flow.mesh, flow.options, [&](const StepState& state) {
-        written.push_back(seeds.path("step" + std::to_string(written.size() + 1)));
-        write_checkpoint(written.back(), state.capture());
-    });
-    for (const auto& path : written)
-        std::filesystem::resize_file(path, std::filesystem::file_size(path) - sizeof(std::uint64_t));
-    seeds.words({"seamflow checkpoint\\x0a", "\\xff\\xff\\xff\\xff\\xff\\xff\\xff\\xff",
-                 "\\x00\\x00\\x00\\x00\\x00\\x00\\xf8\\x7f", "\\x00\\x00\\x00\\x00\\x00\\x00\\xf0\\x7f"});
-}
-
 }  // namespace
 
 int main(int n, char** arguments)
@@ -256,7 +197,6 @@ int main(int n, char** arguments)
         make_ply(root);
         make_stl(root);
         make_lists(root);
-        make_checkpoints(root);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_seeds: %s\n", error.what());
