@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,14 @@ namespace seamflow::test {
 inline double extent_of(const Points& positions)
 {
     return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
+/// A few digits of a number of any size.
+inline std::string text_of(double value)
+{
+    std::array<char, 32> text;
+    return {text.data(),
+            std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr};
 }
 
 /// One random flow, what came of it in one thread, and what was found wrong with it.

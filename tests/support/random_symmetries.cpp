@@ -7,6 +7,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/random_case.h"
+#include "tests/support/undecomposed_step.h"
 
 namespace seamflow::test {
 
@@ -75,17 +76,22 @@ void check_mirrored_and_scaled(Case& c)
     const Outcome outcome = outcome_of(mesh, options);
     c.expect(outcome.refusal == c.expected.refusal, "mirrored and scaled: " + outcome.refusal + outcome.message);
     c.expect(outcome.end == Points(c.expected.end.array().rowwise() * factors.array()),
-             "times " + std::to_string(factors.x()) + " " + std::to_string(factors.y()) + " " +
-                 std::to_string(factors.z()) + ": another result");
+             "times " + text_of(factors.x()) + " " + text_of(factors.y()) + " " + text_of(factors.z()) +
+                 ": another result");
 }
 
 void check_turned_and_renumbered(Case& c)
 {
-    // Badly shaped faces make much of rounding, and so does what is left of a surface that has shrunk to nothing.
+    // Bad shapes make more of rounding than two runs tell.
     const FlowOptions& options = c.flow.options;
-    if (!c.is_sound() || !c.expected.refusal.empty() || !is_cut_alike(c) ||
-        extent_of(c.expected.end) < 1e-3 * c.extent())
+    if (!c.is_sound() || !c.expected.refusal.empty() || !is_cut_alike(c))
         return;
+    PolygonMesh perturbed = c.mesh();
+    perturb(perturbed.vertices, c.random);
+    const Outcome of_perturbed = outcome_of(perturbed, options);
+    if (!of_perturbed.refusal.empty())
+        return;
+    const double most = 1e-9 * c.extent() + 1e4 * largest_difference(of_perturbed.end, c.expected.end);
     const auto new_vertex = random_permutation(c.mesh().n_vertices(), c.random);
     const auto old_face = random_permutation(c.mesh().n_faces(), c.random);
     const Motion motion = random_motion(c.random, c.extent());
@@ -97,8 +103,8 @@ void check_turned_and_renumbered(Case& c)
     double distance = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         distance = std::max(distance, (outcome.end.row(new_vertex[at(v)]) - expected.row(v)).norm());
-    c.expect(distance <= 1e-6 * c.extent(),
-             "turned and renumbered: " + std::to_string(distance / c.extent()) + " extents off");
+    c.expect(distance <= most, "turned and renumbered: " + text_of(distance / c.extent()) + " extents off, may be " +
+                                   text_of(most / c.extent()));
 }
 
 }  // namespace seamflow::test

@@ -4,6 +4,7 @@
 
 #include "engine/flow_options.h"
 #include "partition/polygon_mesh.h"
+#include "samples/common/meshes/random_numbers.h"
 
 namespace seamflow::test {
 
@@ -11,7 +12,8 @@ namespace seamflow::test {
 struct UndecomposedStep {
     /// #V by 3.
     Points positions;
-    /// How far rounding can carry another way to solve the same equations, in units of length.
+    /// How far rounding may carry another way to assemble and solve the same equations, in units of length: a hundred
+    /// times what a change of the last bits of the input does.
     double rounding = 0.0;
     /// ‖A‖∞ ‖A⁻¹‖∞ of the equations: by how much the distance to the solution may exceed the residual, relatively.
     double condition = 1.0;
@@ -21,5 +23,8 @@ struct UndecomposedStep {
 /// @returns empty if more than 150 vertices move, or the equations are as good as singular.
 std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const FlowOptions& options,
                                                   const Points& from);
+
+/// Changes the last two bits of all coordinates.
+void perturb(Points& positions, RandomNumbers& random);
 
 }  // namespace seamflow::test
