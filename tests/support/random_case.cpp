@@ -244,9 +244,10 @@ void check_rescaled(Case& c)
     options.rescale = Rescale::None;
     const double unscaled = measure(mesh, outcome_of(c.mesh(), options).end, origin).area;
     const double scale = std::sqrt(after.area / unscaled);
-    const double offset = (c.mesh().vertices.rowwise() - offset_of(c.mesh().vertices)).cwiseAbs().maxCoeff();
+    const double near = (c.mesh().vertices.rowwise() - offset_of(c.mesh().vertices)).cwiseAbs().maxCoeff();
+    const double lost = 1e-14 * ((1.0 + scale) * near + c.expected.end.cwiseAbs().maxCoeff());
     const double size = std::max(c.extent(), extent_of(c.expected.end));
-    const double most = 1e-10 + 1e-14 * (1.0 + scale) * offset / c.extent();
+    const double most = 1e-10 + lost * size / std::min(before.area, after.area);
     const double full = std::pow(std::max(before.area, after.area), 1.5);
     const double part = kind == Rescale::Area ? 1.0 : std::min(1.0, std::abs(before.volume) / full);
     const double ratio = kind == Rescale::Area ? after.area / before.area : after.volume / before.volume;
