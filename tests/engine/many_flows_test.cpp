@@ -50,7 +50,8 @@ std::vector<test::RandomFlow> small_flows()
         test::RandomFlow flow = test::random_flow(seed);
         if (flow.input.mesh.n_vertices() > 100)
             continue;
-        flow.options.threads = 1 + static_cast<int>(seed % 2);
+        // An arena of more threads is oneTBB's until one of its workers has had the time to leave it.
+        flow.options.threads = static_cast<int>(seed % 2);
         flows.push_back(std::move(flow));
     }
     return flows;
