@@ -11,6 +11,7 @@
 
 #include "engine/checkpoint.h"
 #include "engine/near_origin.h"
+#include "partition/topology.h"
 #include "solvers/geometry.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/temporary_directory.h"
@@ -20,16 +21,19 @@ namespace seamflow::test {
 
 namespace {
 
-/// The mesh without faces that have the vertices of one before them.
+/// The mesh without faces that have the vertices of one before them, where it is not manifold: two faces that have all
+/// their edges in common, and no others, are a closed surface.
 PolygonMesh without_repetitions(const PolygonMesh& mesh)
 {
     PolygonMesh left;
     left.vertices = mesh.vertices;
+    const Topology topology = make_topology(mesh);
+    const auto is_manifold = [&](Index v) { return topology.kind[at(v)] != VertexKind::NonManifold; };
     std::set<std::vector<Index>> seen;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());
         std::sort(corners.begin(), corners.end());
-        if (seen.insert(std::move(corners)).second)
+        if (std::all_of(corners.begin(), corners.end(), is_manifold) || seen.insert(std::move(corners)).second)
             left.add_face(mesh.face(f));
     }
     return left;
