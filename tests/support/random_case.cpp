@@ -227,7 +227,7 @@ void check_undecomposed(Case& c)
         return;
     FlowOptions converged = options;
     converged.tolerance = 1e-10;
-    converged.converge_iterations = 1000;
+    converged.converge_iterations = 300;
     const Outcome outcome = outcome_of(c.mesh(), converged);
     if (outcome.report.steps_short_of_tolerance == 0 && outcome.refusal.empty())
         compare_with_undecomposed(c, outcome, 1e-10, "converged");
