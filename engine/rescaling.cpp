@@ -1,6 +1,7 @@
 #include "engine/rescaling.h"
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -100,7 +101,11 @@ void Rescaling::apply(Points& positions) const
         return;
     const Extent now = measure(positions);
     const double ratio = first_.size / now.size;
-    if (!(std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite()))
+    // A surface that has fewer digits left would come out as what rounding has made of it.
+    constexpr double digits_wanted = 1e4;
+    const double rounding = std::numeric_limits<double>::epsilon() * positions.cwiseAbs().maxCoeff();
+    const bool sound = std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite();
+    if (!sound || !(std::sqrt(now.area) > digits_wanted * rounding))
         throw ComputationError("there is too little left of the surface to scale it back to its size: use a smaller "
                                "time step or fewer steps");
     const double scale = kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio);

@@ -28,12 +28,14 @@ std::vector<Index> elimination_order(const SparsePattern& upper)
 
 std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last)
 {
+    // CAMD has as many groups as there are unknowns at most: a single one cannot be in the second.
+    if (is_last.size() < 2)
+        return elimination_order(upper);
     std::vector<Index> order(is_last.size());
     const std::vector<Index> groups(is_last.begin(), is_last.end());
-    if (!order.empty())
-        require_ok(camd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr,
-                              groups.data()),
-                   CAMD_OK);
+    require_ok(camd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr,
+                          groups.data()),
+               CAMD_OK);
     return order;
 }
 

@@ -33,36 +33,37 @@ void plan_sub_mesh(const Decomposition& decomposition, Index s, SweepPlan& plan)
 }
 
 /// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ.
-std::pair<Index, Index> sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s,
-                                  Index vertex)
+TransferRow sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s, Index halo_vertex)
 {
+    const Index vertex = decomposition.sub_meshes[at(s)].local_to_global[at(halo_vertex)];
     for (const Index t : sharing)
         if (t != s)
             if (const Index local = local_index(decomposition.sub_meshes[at(t)], vertex); local >= 0)
-                return {t, local};
-    return {-1, -1};
+                return {t, local, halo_vertex};
+    return {-1, -1, halo_vertex};
 }
 
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
     const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
     const auto& interface = sub_mesh.interface;
-    std::vector<bool> planned(at(sub_mesh.n_halo), false);
-    std::vector<TransferRow> rows;
+    std::vector<TransferRow> senders(at(sub_mesh.n_halo), {-1, -1, -1});
     for (Index i = 0; i < interface.size(); ++i) {
         if (plan.roles[at(s)][at(i)] == InterfaceRole::Follows)
             continue;
         for (const Index f : interface.complement_faces[i])
             for (const Index v : interface.halo_faces[f]) {
-                if (v < sub_mesh.n_vertices || planned[at(v - sub_mesh.n_vertices)])
+                if (v < sub_mesh.n_vertices)
                     continue;
-                planned[at(v - sub_mesh.n_vertices)] = true;
-                const auto [sender, local] =
-                    sender_of(decomposition, interface.sharing[i], s, sub_mesh.local_to_global[at(v)]);
-                rows.push_back({sender, local, v});
+                // The lowest of all, whichever vertex of Γ comes first: numbers of vertices decide nothing.
+                TransferRow& sender = senders[at(v - sub_mesh.n_vertices)];
+                if (const TransferRow found = sender_of(decomposition, interface.sharing[i], s, v);
+                    sender.from < 0 || found.from < sender.from)
+                    sender = found;
             }
     }
-    plan.predictions[at(s)] = transfers_to(s, rows);
+    std::erase_if(senders, [](const TransferRow& row) { return row.from < 0; });
+    plan.predictions[at(s)] = transfers_to(s, senders);
 }
 
 std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)

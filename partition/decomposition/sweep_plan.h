@@ -30,7 +30,7 @@ struct SweepPlan {
     std::vector<std::vector<Transfer>> traces;
     /// For each receiving sub-mesh, what a prediction of its surroundings consists of: those vertices of its halo that
     /// share a face with a vertex of Γ where it leads. The senders, all of higher rank, know them before the receiver
-    /// solves. Senders in ascending order.
+    /// solves; where several do, the lowest speaks. Senders in ascending order.
     std::vector<std::vector<Transfer>> predictions;
     /// For each receiving sub-mesh of a mutual sweep, the copies that the other sub-meshes have of its Γ: one transfer
     /// from each adjacent one, in ascending order. Empty in other sweeps.

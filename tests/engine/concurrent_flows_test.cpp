@@ -36,7 +36,7 @@ Case make_case(PolygonMesh mesh, Laplacian laplacian, int subdomains, Conditions
     return made;
 }
 
-/// Every kind of flow, with what each gives alone and in one thread.
+/// Ten flows, of every kind, with what each gives alone and in one thread.
 std::vector<Case> all_kinds()
 {
     std::vector<Case> cases;
@@ -50,6 +50,16 @@ std::vector<Case> all_kinds()
     cases.push_back(make_case(make_quads(900), Laplacian::Fujiwara, 1));
     cases.back().options.scheme = Scheme::ExplicitEuler;
     cases.back().options.time_step = 1e-6;
+    cases.push_back(make_case(make_hexagons(1200), Laplacian::Fujiwara, 8, Conditions::AdaptedVentcell));
+    cases.back().options.q = 0.1;
+    cases.push_back(make_case(make_triangles(1000), Laplacian::Fujiwara, 7));
+    cases.back().options.boundary = Boundary::Free;
+    cases.back().options.rescale = Rescale::Area;
+    cases.push_back(make_case(make_mixed_polygons(1200), Laplacian::AlexaWardetzky, 5));
+    cases.back().options.labels = test::random_labels(cases.back().mesh.n_faces(), 6, 1);
+    cases.back().options.fixed_vertices = {100, 300, 301, 700};
+    cases.push_back(make_case(make_cylinder(1300), Laplacian::PtackovaVelho, 11));
+    cases.back().options.memory_limit = std::size_t{64} << 20U;
     for (Case& c : cases)
         c.expected = test::flowed(c.mesh, c.options);
     return cases;
@@ -105,9 +115,10 @@ void check_one_thread(const std::vector<Case>& cases, int threads)
 
 }  // namespace
 
-TEST_CASE("flows in several threads of the program give what each gives alone")
+TEST_CASE("ten flows at once, in ten threads of the program, give what each gives alone")
 {
     const auto cases = all_kinds();
+    REQUIRE(cases.size() == 10);
     for (const int threads : {0, 1, 3}) {
         std::atomic<int> n_same = 0;
         std::vector<std::thread> callers;

@@ -6,7 +6,9 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/topology.h"
 #include "samples/common/meshes.h"
+#include "solvers/geometry.h"
 #include "tests/support/flows.h"
+#include "tests/support/random_meshes.h"
 
 using namespace seamflow;
 using test::all_laplacians;
@@ -25,6 +27,18 @@ PolygonMesh flat(PolygonMesh mesh)
 std::vector<PolygonMesh> height_fields()
 {
     return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900)};
+}
+
+/// Bricks, three of which meet at their corners.
+std::vector<Index> labels_of_tiles(const PolygonMesh& mesh)
+{
+    std::vector<Index> labels;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const Point middle = centroid(mesh.face(f), mesh.vertices);
+        const auto row = static_cast<Index>(3.0 * middle.y());
+        labels.push_back(4 * row + static_cast<Index>(3.0 * middle.x() + 0.5 * (row % 2)));
+    }
+    return labels;
 }
 
 FlowOptions options_for(Laplacian laplacian, Index subdomains)
@@ -95,6 +109,28 @@ TEST_CASE("scaling by s, with dt s² and p / s, scales the result")
                 options.p = 20.0 / s;
                 CHECK(largest_difference(flowed(scaled, options), expected) <= 1e-9 * s);
             }
+}
+
+TEST_CASE("other numbers of the vertices and faces move the result by rounding alone where the cut is given")
+{
+    RandomNumbers random(7);
+    for (const PolygonMesh& mesh : height_fields()) {
+        const auto new_vertex = test::random_permutation(mesh.n_vertices(), random);
+        const auto old_face = test::random_permutation(mesh.n_faces(), random);
+        for (const Laplacian laplacian : all_laplacians) {
+            CAPTURE(name_of(laplacian));
+            FlowOptions options = options_for(laplacian, 0);
+            options.coloring = Coloring::Label;
+            options.labels = labels_of_tiles(mesh);
+            const Points result = flowed(mesh, options);
+            std::vector<Index> labels;
+            for (const Index f : old_face)
+                labels.push_back(options.labels[at(f)]);
+            options.labels = labels;
+            const Points renumbered = flowed(test::renumbered(mesh, new_vertex, old_face), options);
+            CHECK(largest_difference(renumbered(new_vertex, Eigen::all), result) <= 1e-11);
+        }
+    }
 }
 
 TEST_CASE("boundary vertices and vertices without faces stay to the bit")

@@ -36,6 +36,11 @@ Measure measure(const PolygonMesh& mesh, const Points& positions)
     return m;
 }
 
+double extent_of(const Points& positions)
+{
+    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
+
 FlowOptions options_for(Rescale rescale)
 {
     FlowOptions options;
@@ -109,6 +114,24 @@ TEST_CASE("what cannot be scaled is refused")
     const Topology topology = make_topology(both);
     both.vertices.bottomRows(sphere.n_vertices()) = both.vertices.topRows(sphere.n_vertices());
     CHECK_THROWS_AS(Rescaling(both, topology, Rescale::Volume), InputError);
+}
+
+TEST_CASE("a surface of which rounding alone is left is not scaled back")
+{
+    for (const Rescale rescale : {Rescale::Area, Rescale::Volume}) {
+        PolygonMesh mesh = make_noisy_sphere(200);
+        const Points before = mesh.vertices;
+        FlowOptions options = options_for(rescale);
+        options.laplacian = Laplacian::AlexaWardetzky;
+        options.subdomains = 1;
+        options.time_step = 1e6;
+        CHECK_THROWS_AS(mean_curvature_flow(mesh, options), ComputationError);
+        CHECK(mesh.vertices.allFinite());
+        options.steps = 1;
+        mesh.vertices = before;
+        mean_curvature_flow(mesh, options);
+        CHECK(extent_of(mesh.vertices) > 0.5 * extent_of(before));
+    }
 }
 
 TEST_CASE("vertices without faces stay, and without rescaling no bit changes")

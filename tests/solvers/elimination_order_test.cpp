@@ -46,3 +46,10 @@ TEST_CASE("unknowns that are asked to be last are the last")
         CHECK(order[at(u)] == u);
     CHECK(elimination_order(SparsePattern{}).empty());
 }
+
+TEST_CASE("a single unknown that is asked to be last is the first as well")
+{
+    const SparsePattern one = make_pattern(1, {{0, 0}});
+    for (int i = 0; i < 100; ++i)
+        CHECK(elimination_order(one, {true}) == std::vector<Index>{0});
+}

@@ -1,0 +1,128 @@
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/support/mesh_files.h"
+#include "tests/support/random_meshes.h"
+#include "tests/support/temporary_directory.h"
+
+using namespace seamflow;
+using test::identical;
+
+namespace {
+
+/// What holds any mesh.
+struct Form {
+    const char* name;
+    FileKind kind;
+};
+constexpr std::array forms{Form{"mesh.obj", {FileFormat::Obj, Encoding::Ascii}},
+                           Form{"mesh.off", {FileFormat::Off, Encoding::Ascii}},
+                           Form{"mesh.ply", {FileFormat::Ply, Encoding::Ascii}},
+                           Form{"mesh.ply", {FileFormat::Ply, Encoding::BinaryLittleEndian}},
+                           Form{"mesh.ply", {FileFormat::Ply, Encoding::BinaryBigEndian}}};
+
+test::RandomMesh mesh_of(std::uint32_t seed)
+{
+    RandomNumbers random(seed);
+    return test::random_mesh(random);
+}
+
+/// Every face as triangles around its first corner, and the coordinates as their text or bytes will have them.
+PolygonMesh triangulated(const PolygonMesh& mesh, bool single_precision)
+{
+    PolygonMesh triangles;
+    triangles.vertices = mesh.vertices;
+    if (single_precision)
+        triangles.vertices = mesh.vertices.cast<float>().cast<double>();
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (std::size_t k = 2; k < mesh.face(f).size(); ++k)
+            triangles.add_face(std::array{mesh.face(f)[0], mesh.face(f)[k - 1], mesh.face(f)[k]});
+    return triangles;
+}
+
+/// Whether an STL file can tell all corners of each face from each other, and every vertex has a face.
+bool fits_stl(const PolygonMesh& triangles)
+{
+    std::set<Index> used;
+    for (Index f = 0; f < triangles.n_faces(); ++f) {
+        const auto face = triangles.face(f);
+        used.insert(face.begin(), face.end());
+        for (std::size_t k = 0; k < 3; ++k)
+            if (triangles.vertices.row(face[k]) == triangles.vertices.row(face[(k + 1) % 3]))
+                return false;
+    }
+    return static_cast<Index>(used.size()) == triangles.n_vertices();
+}
+
+bool same_corners(const PolygonMesh& a, const PolygonMesh& b)
+{
+    if (a.face_offsets != b.face_offsets)
+        return false;
+    for (Index c = 0; c < a.n_corners(); ++c)
+        if (a.vertices.row(a.face_vertices[at(c)]) != b.vertices.row(b.face_vertices[at(c)]))
+            return false;
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("random meshes come back from every kind of file, to the bit")
+{
+    for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+        const test::RandomMesh random = mesh_of(seed);
+        CAPTURE(seed);
+        CAPTURE(random.description);
+        for (const auto& [name, kind] : forms) {
+            CAPTURE(name);
+            const MeshFile read = test::round_trip(random.mesh, name, kind);
+            CHECK(read.kind == kind);
+            CHECK(identical(read.mesh, random.mesh));
+        }
+    }
+}
+
+TEST_CASE("random meshes that are moved come back from files in the form of those they were read from")
+{
+    for (std::uint32_t seed = 1; seed <= 100; ++seed) {
+        test::RandomMesh random = mesh_of(seed);
+        CAPTURE(seed);
+        CAPTURE(random.description);
+        for (const auto& [name, kind] : forms) {
+            CAPTURE(name);
+            const test::TemporaryDirectory folder;
+            write_mesh(folder / name, random.mesh, kind);
+            const MeshFile read = read_mesh(folder / name);
+            PolygonMesh moved = read.mesh;
+            moved.vertices = 0.75 * moved.vertices.rowwise().reverse();
+            CHECK(write_mesh_like(*read.source, folder / name, moved).empty());
+            const MeshFile again = read_mesh(folder / name);
+            CHECK(again.kind == kind);
+            CHECK(identical(again.mesh, moved));
+        }
+    }
+}
+
+TEST_CASE("random triangles come back from STL files with the same corners, or are refused for a reason")
+{
+    int n_written = 0;
+    for (std::uint32_t seed = 1; seed <= 200; ++seed)
+        for (const Encoding encoding : {Encoding::Ascii, Encoding::BinaryLittleEndian}) {
+            const PolygonMesh triangles = triangulated(mesh_of(seed).mesh, encoding != Encoding::Ascii);
+            CAPTURE(seed);
+            const FileKind kind{FileFormat::Stl, encoding};
+            if (!fits_stl(triangles)) {
+                CHECK_FALSE(test::complaint_of_writing(triangles, "mesh.stl", kind).empty());
+                continue;
+            }
+            ++n_written;
+            const MeshFile read = test::round_trip(triangles, "mesh.stl", kind);
+            CHECK(read.kind == kind);
+            CHECK(same_corners(read.mesh, triangles));
+        }
+    CHECK(n_written > 150);
+}

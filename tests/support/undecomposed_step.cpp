@@ -1,0 +1,110 @@
+#include "tests/support/undecomposed_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "engine/constraints.h"
+#include "engine/near_origin.h"
+#include "engine/repeated_faces_left_out.h"
+#include "tests/support/matrices.h"
+
+namespace seamflow::test {
+
+namespace {
+
+constexpr Eigen::Index most_unknowns = 150;
+
+/// Who moves and who does not.
+struct Vertices {
+    std::vector<Index> moving;
+    std::vector<Index> fixed;
+};
+
+/// I + dt Δ, the rows and columns of the vertices that move, and what the others contribute; the largest coefficient of
+/// each row is 1.
+struct Equations {
+    Eigen::MatrixXd A;
+    Eigen::MatrixXd right_hand_side;
+};
+
+Equations equations_of(const Eigen::MatrixXd& laplacian, double time_step, const Vertices& vertices, const Points& from)
+{
+    const auto& [moving, fixed] = vertices;
+    const Eigen::MatrixXd rows = time_step * laplacian(moving, Eigen::all);
+    Equations equations{rows(Eigen::all, moving), from(moving, Eigen::all)};
+    equations.A.diagonal().array() += 1.0;
+    if (!fixed.empty())
+        equations.right_hand_side -= rows(Eigen::all, fixed) * Eigen::MatrixXd(from(fixed, Eigen::all));
+    const Eigen::VectorXd largest = equations.A.cwiseAbs().rowwise().maxCoeff();
+    equations.A.array().colwise() /= largest.array();
+    equations.right_hand_side.array().colwise() /= largest.array();
+    return equations;
+}
+
+/// @param mesh at the positions before the step.
+Points solve(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Vertices& vertices,
+             double* condition)
+{
+    const auto [A, right_hand_side] =
+        equations_of(dense_laplacian(options.laplacian, mesh, topology), options.time_step, vertices, mesh.vertices);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(A);
+    Eigen::MatrixXd solution = factors.solve(right_hand_side);
+    solution += factors.solve(right_hand_side - A * solution);
+    if (condition != nullptr)
+        *condition = A.cwiseAbs().rowwise().sum().maxCoeff() * factors.inverse().cwiseAbs().rowwise().sum().maxCoeff();
+    Points positions = mesh.vertices;
+    for (std::size_t i = 0; i < vertices.moving.size(); ++i)
+        positions.row(vertices.moving[i]) = solution.row(static_cast<Eigen::Index>(i));
+    return positions;
+}
+
+}  // namespace
+
+std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const FlowOptions& options,
+                                                  const Points& from)
+{
+    const Point offset = offset_of(mesh.vertices);
+    PolygonMesh near = mesh;
+    near.vertices.rowwise() -= offset;
+    FlowOptions constraints = options;
+    std::vector<std::string> remarks;
+    Topology topology = make_constrained_topology(near, constraints, run_serially, remarks);
+    const RepeatedFacesLeftOut left_out(near, topology, constraints);
+    topology = make_constrained_topology(near, constraints, run_serially, remarks);
+    near.vertices = from.rowwise() - offset;
+
+    Vertices vertices;
+    for (Index v = 0; v < near.n_vertices(); ++v)
+        (topology.moves(v) ? vertices.moving : vertices.fixed).push_back(v);
+    if (vertices.moving.size() > most_unknowns)
+        return {};
+    UndecomposedStep step{.positions = from};
+    if (vertices.moving.empty())
+        return step;
+    const Points positions = solve(near, topology, options, vertices, &step.condition);
+    step.rounding = 1e-12 * from.cwiseAbs().maxCoeff();
+    RandomNumbers random(1);
+    for (int i = 0; i < 3; ++i) {
+        PolygonMesh other = near;
+        perturb(other.vertices, random);
+        const Points perturbed = solve(other, topology, options, vertices, nullptr);
+        step.rounding = std::max(step.rounding, 100.0 * (perturbed - positions).cwiseAbs().maxCoeff());
+    }
+    if (!(step.condition < 1e13) || !std::isfinite(step.rounding))
+        return {};
+    step.positions = positions.rowwise() + offset;
+    return step;
+}
+
+void perturb(Points& positions, RandomNumbers& random)
+{
+    for (double& coordinate : positions.reshaped())
+        coordinate *= 1.0 + 4.0 * std::numeric_limits<double>::epsilon() * random.symmetric();
+}
+
+}  // namespace seamflow::test
