@@ -66,6 +66,7 @@ int Gmres::improve(const Multiply& multiply, const Points& residual, double goal
 void Gmres::begin(const Points& residual, const Loop& loop)
 {
     n_used_ = 0;
+    next_size_to_check_ = 0;
     triangle_.clear();
     rotations_.clear();
     right_hand_side_.clear();
@@ -185,10 +186,15 @@ double Gmres::estimated_residual() const
     return std::sqrt(squares);
 }
 
-bool Gmres::has_reached(double goal) const
+/// The amplification takes more the more directions there are: of many, a few more are waited for before it is found
+/// anew.
+bool Gmres::has_reached(double goal)
 {
     const double residual = estimated_residual();
-    return residual <= goal && residual * std::max(1.0, amplification() / most_amplification) <= goal;
+    if (residual > goal || triangle_.size() < next_size_to_check_)
+        return false;
+    next_size_to_check_ = triangle_.size() + triangle_.size() / 64;
+    return residual * std::max(1.0, amplification() / most_amplification) <= goal;
 }
 
 /// By power iteration on (RᵀR)⁻¹, R the triangle.

@@ -56,7 +56,7 @@ class Gmres {
     void take_away(const std::vector<Eigen::Matrix3d>& amounts, const Loop& loop);
     void rotate(std::vector<double> column);
     [[nodiscard]] double estimated_residual() const;
-    [[nodiscard]] bool has_reached(double goal) const;
+    [[nodiscard]] bool has_reached(double goal);
     void divide_by_transpose(Eigen::VectorXd& z) const;
     void divide(Eigen::VectorXd& z) const;
     void add_combination(Points& x, const Loop& loop) const;
@@ -70,6 +70,8 @@ class Gmres {
     Points product_;
     /// What rotations have made of the Hessenberg matrix, column by column, and of the right-hand sides, row by row.
     std::vector<std::vector<double>> triangle_;
+    /// Columns of it from which on the amplification is found anew.
+    std::size_t next_size_to_check_ = 0;
     std::vector<Rotation> rotations_;
     std::vector<Eigen::RowVector3d> right_hand_side_;
 };
