@@ -11,6 +11,7 @@
 #include <oneapi/tbb/task_scheduler_observer.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/thread_order.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 
@@ -127,7 +128,9 @@ TEST_CASE("flows inside the caller's own parallel loop give what each gives alon
     for (const int concurrency : {1, 2, 4}) {
         std::atomic<std::size_t> n_same = 0;
         const auto run_all = [&] {
+            const SharedWork work;
             tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+                const SharedWork::Part part(work);
                 n_same += gives_the_same(cases[i % cases.size()], static_cast<int>(i % 3)) ? 1U : 0U;
             });
         };
