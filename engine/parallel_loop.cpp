@@ -13,7 +13,7 @@ namespace tbb = oneapi::tbb;
 void run_in_parallel(Index n, const LoopBody& body)
 {
     const SharedWork work;
-    tbb::parallel_for(tbb::blocked_range<Index>(0, n), [&](const tbb::blocked_range<Index>& range) SEAMFLOW_UNSEEN {
+    tbb::parallel_for(tbb::blocked_range<Index>(0, n), [&](const tbb::blocked_range<Index>& range) {
         const SharedWork::Part part(work);
         body(range.begin(), range.end());
     });
@@ -26,7 +26,7 @@ void run_both(const std::function<void()>& one, const std::function<void()>& oth
         const SharedWork::Part part(work);
         body();
     };
-    tbb::parallel_invoke([&]() SEAMFLOW_UNSEEN { run(one); }, [&]() SEAMFLOW_UNSEEN { run(other); });
+    tbb::parallel_invoke([&] { run(one); }, [&] { run(other); });
 }
 
 }  // namespace seamflow

@@ -91,7 +91,7 @@ void TaskGraph::Nodes::perform(Node node, const std::function<void()>& body)
 
 /// What a node of the graph runs.
 struct TaskGraph::OrderedTask {
-    SEAMFLOW_UNSEEN flow::continue_msg operator()(const flow::continue_msg& message) const
+    flow::continue_msg operator()(const flow::continue_msg& message) const
     {
         nodes->order.begin(at(node));
         nodes->perform(node, body);

@@ -4,28 +4,18 @@
 #include <cstddef>
 #include <vector>
 
-#if defined(__SANITIZE_THREAD__)
-#define SEAMFLOW_UNDER_THREAD_SANITIZER
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define SEAMFLOW_UNDER_THREAD_SANITIZER
-#endif
-#endif
-
-#ifdef SEAMFLOW_UNDER_THREAD_SANITIZER
+#ifdef SEAMFLOW_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
-#define SEAMFLOW_UNSEEN __attribute__((no_sanitize("thread")))
-#else
-/// Of a function: ThreadSanitizer does not look at what it reads and writes itself.
-#define SEAMFLOW_UNSEEN
 #endif
 
 namespace seamflow {
 
 // oneTBB comes without ThreadSanitizer, which thus sees that its threads work, but not that one waits for another, and
 // would call all that they hand on a race. So it is told here what oneTBB guarantees at the few places where work is
-// handed to it, and no more than that: tasks that nothing orders stay unordered. Built otherwise, all of this is empty.
-#ifdef SEAMFLOW_UNDER_THREAD_SANITIZER
+// handed to it, and no more than that: tasks that nothing orders stay unordered. These places, and with them what is
+// compiled of oneTBB's templates, are not looked at themselves (see CMakeLists.txt). Built otherwise, all of this is
+// empty.
+#ifdef SEAMFLOW_THREAD_SANITIZER
 inline constexpr bool under_thread_sanitizer = true;
 /// All that this thread did until now happened before what a thread does after a later `take_over` with this token.
 inline void hand_over(const void* token)

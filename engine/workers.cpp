@@ -45,7 +45,7 @@ Workers::~Workers() = default;
 void Workers::execute(const std::function<void()>& work)
 {
     const SharedWork shared;
-    arena_->arena.execute([&]() SEAMFLOW_UNSEEN {
+    arena_->arena.execute([&] {
         const SharedWork::Part part(shared);
         work();
     });
