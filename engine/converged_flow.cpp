@@ -4,8 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "engine/choose_subdomains.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
@@ -51,7 +49,7 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
 void ConvergedFlow::make_systems(const FlowOptions& options)
 {
     progress_->expect(static_cast<double>(systems_.size()));
-    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(systems_.size()), [&](Index s) {
+    for_each(run_in_parallel, static_cast<Index>(systems_.size()), [&](Index s) {
         progress_->require_going_on();
         const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
         on_behalf_of(sub_mesh, s,

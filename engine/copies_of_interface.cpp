@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include <oneapi/tbb/parallel_for.h>
+#include "engine/parallel_loop.h"
 
 namespace seamflow {
 
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 /// Where the copies of a vertex of Γ lie: one row of a sub-mesh's positions each.
 class CopiesOfVertex {
@@ -68,13 +66,13 @@ CopiesOfInterface::CopiesOfInterface(const PolygonMesh& mesh, const Decompositio
 
 void CopiesOfInterface::join(const std::vector<SubMeshState>& states, Points& positions)
 {
-    tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t s) {
-        join_interface_of(static_cast<Index>(s), states, positions);
+    for_each(run_in_parallel, static_cast<Index>(states.size()), [&](Index s) {
+        join_interface_of(s, states, positions);
         if (!unjoined_)
             return;
-        const auto& vertex_of = unjoined_->vertex_of[s];
+        const auto& vertex_of = unjoined_->vertex_of[at(s)];
         for (std::size_t v = 0; v < vertex_of.size(); ++v)
-            unjoined_->mesh.vertices.row(vertex_of[v]) = states[s].position.row(static_cast<Eigen::Index>(v));
+            unjoined_->mesh.vertices.row(vertex_of[v]) = states[at(s)].position.row(static_cast<Eigen::Index>(v));
     });
 }
 

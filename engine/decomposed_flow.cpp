@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
@@ -21,8 +19,6 @@ namespace seamflow {
 
 namespace {
 
-namespace tbb = oneapi::tbb;
-
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> rank, int layers)
@@ -30,8 +26,8 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
     const Overlap overlap{cut.labels, rank, layers};
     auto faces = faces_by_label(cut.labels, cut.n_parts);
     std::vector<SubMesh> sub_meshes(faces.size());
-    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
-        sub_meshes[s] = make_overlapping_sub_mesh(mesh, topology, overlap, static_cast<Index>(s), std::move(faces[s]));
+    for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
+        sub_meshes[at(s)] = make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[at(s)]));
     });
     return connect_overlapping(std::move(sub_meshes), topology, overlap);
 }
@@ -93,13 +89,13 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
 {
     std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
     progress.expect(static_cast<double>(made.size()));
-    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t s) {
+    for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
         progress.require_going_on();
-        const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
-        on_behalf_of(sub_mesh, static_cast<Index>(s), [&] {
-            made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
+        const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+        on_behalf_of(sub_mesh, s, [&] {
+            made[at(s)].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
         });
-        made[s]->p = robin_parameter(sub_mesh, made[s]->position, options);
+        made[at(s)]->p = robin_parameter(sub_mesh, made[at(s)]->position, options);
         progress.count();
     });
     states_.reserve(made.size());
@@ -228,11 +224,11 @@ void DecomposedFlow::step()
 
 void DecomposedFlow::join()
 {
-    tbb::parallel_for(std::size_t{0}, states_.size(), [&](std::size_t s) {
-        const SubMesh& sub_mesh = *states_[s].sub_mesh;
+    for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
+        const SubMesh& sub_mesh = *states_[at(s)].sub_mesh;
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             if (sub_mesh.owned[at(v)] != 0)
-                positions_.row(sub_mesh.local_to_global[at(v)]) = states_[s].position.row(v);
+                positions_.row(sub_mesh.local_to_global[at(v)]) = states_[at(s)].position.row(v);
     });
     if (copies_)
         copies_->join(states_, positions_);

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "engine/parallel_loop.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -39,8 +38,8 @@ DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& to
 
 void DisplacementMeter::measure_normals(const Points& positions)
 {
-    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(positions.rows()),
-                              [&](Index v) { normal_.row(v) = normals_(v, positions); });
+    for_each(run_in_parallel, static_cast<Index>(positions.rows()),
+             [&](Index v) { normal_.row(v) = normals_(v, positions); });
 }
 
 DisplacementSums DisplacementMeter::sums() const
@@ -60,7 +59,7 @@ void DisplacementMeter::restore(const DisplacementSums& sums, const Points& now)
 
 DisplacementStatistics DisplacementMeter::add_step(const Points& before, const Points& after)
 {
-    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(after.rows()), [&](Index v) {
+    for_each(run_in_parallel, static_cast<Index>(after.rows()), [&](Index v) {
         const Point normal_after = normals_(v, after);
         const Displacement d = split_displacement(after.row(v) - before.row(v), normal_.row(v), normal_after);
         normal_.row(v) = normal_after;

@@ -4,19 +4,15 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
+#include "engine/parallel_loop.h"
 #include "partition/errors.h"
 #include "solvers/mean_curvature.h"
 
 namespace seamflow {
 
 namespace {
-
-namespace tbb = oneapi::tbb;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -48,14 +44,15 @@ double shortest_edge_squared(const PolygonMesh& mesh, const Topology& topology, 
 
 double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions)
 {
-    const auto of_range = [&](const tbb::blocked_range<Index>& range, double shortest) {
-        for (Index v = range.begin(); v != range.end(); ++v)
+    std::vector<double> of_block(at(mesh.n_vertices() / block_size) + 1, infinity);
+    for_each_block(run_in_parallel, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
+        double shortest = infinity;
+        for (Index v = begin; v < end; ++v)
             if (topology.moves(v))
                 shortest = std::min(shortest, shortest_edge_squared(mesh, topology, positions, v));
-        return shortest;
-    };
-    return tbb::parallel_reduce(tbb::blocked_range<Index>(0, mesh.n_vertices()), infinity, of_range,
-                                [](double a, double b) { return std::min(a, b); });
+        of_block[at(block)] = shortest;
+    });
+    return *std::min_element(of_block.begin(), of_block.end());
 }
 
 ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,

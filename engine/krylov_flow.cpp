@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
@@ -48,9 +46,8 @@ void KrylovFlow::cut_out(const Topology& topology, const Cut& cut)
     const Overlap overlap{cut.labels, rank, overlap_layers};
     auto faces = faces_by_label(cut.labels, cut.n_parts);
     parts_.resize(faces.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t s) {
-        parts_[s] =
-            make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, static_cast<Index>(s), std::move(faces[s]));
+    for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
+        parts_[at(s)] = make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, s, std::move(faces[at(s)]));
     });
     n_interface_vertices_ = static_cast<Index>(select(progress_->loop(), mesh_->n_vertices(), [&](Index v) {
                                                    return is_on_interface(topology, cut.labels, v);
@@ -62,7 +59,7 @@ void KrylovFlow::make_blocks(const FlowOptions& options)
     blocks_.resize(parts_.size());
     seconds_.resize(parts_.size());
     progress_->expect(static_cast<double>(parts_.size()));
-    oneapi::tbb::parallel_for(Index{0}, static_cast<Index>(parts_.size()), [&](Index s) {
+    for_each(run_in_parallel, static_cast<Index>(parts_.size()), [&](Index s) {
         progress_->require_going_on();
         on_behalf_of(parts_[at(s)].sub_mesh, s,
                      [&] { blocks_[at(s)] = std::make_unique<SchwarzBlock>(parts_[at(s)], options.laplacian); });

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include "engine/choose_subdomains.h"
 #include "engine/choose_tolerance.h"
 #include "engine/constraints.h"
@@ -289,9 +287,8 @@ Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const Tol
                     FlowOptions& options, std::vector<double>& curvature, const Progress& progress)
 {
     Cut cut;
-    oneapi::tbb::parallel_invoke(
-        [&] { cut = make_cut(mesh, topology, options, progress.loop()); },
-        [&] { curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian); });
+    run_both([&] { cut = make_cut(mesh, topology, options, progress.loop()); },
+             [&] { curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian); });
     // A whole mesh is solved exactly either way.
     if (cut.n_parts == 1 && !choice.reason.empty())
         options.tolerance.reset();

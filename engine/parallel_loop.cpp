@@ -2,6 +2,9 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include "engine/thread_order.h"
 
 namespace seamflow {
 
@@ -9,8 +12,21 @@ namespace tbb = oneapi::tbb;
 
 void run_in_parallel(Index n, const LoopBody& body)
 {
-    tbb::parallel_for(tbb::blocked_range<Index>(0, n),
-                      [&](const tbb::blocked_range<Index>& range) { body(range.begin(), range.end()); });
+    const SharedWork work;
+    tbb::parallel_for(tbb::blocked_range<Index>(0, n), [&](const tbb::blocked_range<Index>& range) {
+        const SharedWork::Part part(work);
+        body(range.begin(), range.end());
+    });
+}
+
+void run_both(const std::function<void()>& one, const std::function<void()>& other)
+{
+    const SharedWork work;
+    const auto run = [&](const std::function<void()>& body) {
+        const SharedWork::Part part(work);
+        body();
+    };
+    tbb::parallel_invoke([&] { run(one); }, [&] { run(other); });
 }
 
 }  // namespace seamflow

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "engine/parallel_loop.h"
 #include "solvers/mean_curvature.h"
 
 namespace seamflow {
@@ -13,7 +12,7 @@ std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& t
                                       Laplacian laplacian)
 {
     std::vector<double> curvature(at(mesh.n_vertices()), 0.0);
-    oneapi::tbb::parallel_for(Index{0}, mesh.n_vertices(), [&](Index v) {
+    for_each(run_in_parallel, mesh.n_vertices(), [&](Index v) {
         if (topology.moves(v) && topology.kind[at(v)] == VertexKind::Interior)
             curvature[at(v)] = mean_curvature_vector(mesh, topology, positions, laplacian, v).norm();
     });

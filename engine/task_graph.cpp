@@ -11,6 +11,7 @@
 
 #include "engine/progress.h"
 #include "engine/schedule_recorder.h"
+#include "engine/thread_order.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -53,8 +54,15 @@ class TaskGraph::Nodes {
   public:
     ~Nodes() { graph.wait_for_all(); }
 
+    /// Runs a task, or leaves it out. Exceptions stay inside: a flow graph that one has left starts its next run with
+    /// wrong counts.
+    void perform(Node node, const std::function<void()>& body);
+
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
+    TaskOrder order;
+    ScheduleRecorder* recorder = nullptr;
+    Progress* progress = nullptr;
     FirstFailure failure;
     /// Set where a task was not run because the flow is to stop. oneTBB's own cancellation would also make the loops
     /// within running tasks leave out what they have not begun.
@@ -64,11 +72,43 @@ class TaskGraph::Nodes {
     Node latest_root = -1;
 };
 
+void TaskGraph::Nodes::perform(Node node, const std::function<void()>& body)
+{
+    if (failure.failed())
+        return;
+    if (progress != nullptr && progress->is_stopped()) {
+        skipped.store(true, std::memory_order_relaxed);
+        return;
+    }
+    try {
+        recorder != nullptr ? recorder->timed(node, body) : body();
+        if (progress != nullptr)
+            progress->count();
+    } catch (...) {
+        failure.record(node, std::current_exception());
+    }
+}
+
+/// What a node of the graph runs.
+struct TaskGraph::OrderedTask {
+    flow::continue_msg operator()(const flow::continue_msg& message) const
+    {
+        nodes->order.begin(at(node));
+        nodes->perform(node, body);
+        nodes->order.end(at(node));
+        return message;
+    }
+
+    Nodes* nodes;
+    Node node;
+    std::function<void()> body;
+};
+
 TaskGraph::TaskGraph(ScheduleRecorder* recorder, Progress* progress)
     : nodes_(std::make_unique<Nodes>())
-    , recorder_(recorder)
-    , progress_(progress)
 {
+    nodes_->recorder = recorder;
+    nodes_->progress = progress;
 }
 
 TaskGraph::~TaskGraph() = default;
@@ -83,26 +123,7 @@ TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priorit
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
     ++nodes_->n_tasks[nodes_->latest_root];
-    // Exceptions stay inside: a flow graph that one has left starts its next run with wrong counts.
-    auto guarded = [nodes = nodes_.get(), recorder = recorder_, progress = progress_, node,
-                    body = std::move(body)](const flow::continue_msg& message) {
-        FirstFailure* const failure = &nodes->failure;
-        if (failure->failed())
-            return message;
-        if (progress != nullptr && progress->is_stopped()) {
-            nodes->skipped.store(true, std::memory_order_relaxed);
-            return message;
-        }
-        try {
-            recorder != nullptr ? recorder->timed(node, body) : body();
-            if (progress != nullptr)
-                progress->count();
-        } catch (...) {
-            failure->record(node, std::current_exception());
-        }
-        return message;
-    };
-    nodes_->nodes.emplace_back(nodes_->graph, std::move(guarded),
+    nodes_->nodes.emplace_back(nodes_->graph, OrderedTask{nodes_.get(), node, std::move(body)},
                                priority == Priority::High ? flow::node_priority_t{1} : flow::no_priority);
     return node;
 }
@@ -110,16 +131,19 @@ TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priorit
 void TaskGraph::add_dependency(Node before, Node after)
 {
     flow::make_edge(nodes_->nodes[at(before)], nodes_->nodes[at(after)]);
-    if (recorder_ != nullptr)
-        recorder_->add_dependency(before, after);
+    nodes_->order.add_dependency(at(before), at(after));
+    if (nodes_->recorder != nullptr)
+        nodes_->recorder->add_dependency(before, after);
 }
 
 void TaskGraph::run(Node root, double further_parts)
 {
-    if (progress_ != nullptr)
-        progress_->expect(nodes_->n_tasks[root] + further_parts);
+    if (nodes_->progress != nullptr)
+        nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);
+    nodes_->order.end(at(root));
     nodes_->nodes[at(root)].try_put(flow::continue_msg());
     nodes_->graph.wait_for_all();
+    nodes_->order.end_run();
     const bool skipped = nodes_->skipped.exchange(false, std::memory_order_relaxed);
     nodes_->failure.rethrow();
     if (skipped)

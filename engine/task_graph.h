@@ -46,9 +46,8 @@ class TaskGraph {
 
   private:
     class Nodes;
+    struct OrderedTask;
     std::unique_ptr<Nodes> nodes_;
-    ScheduleRecorder* recorder_;
-    Progress* progress_;
 };
 
 }  // namespace seamflow

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "engine/single_threaded_libraries.h"
+#include "engine/thread_order.h"
 
 namespace seamflow {
 
@@ -43,7 +44,11 @@ Workers::~Workers() = default;
 
 void Workers::execute(const std::function<void()>& work)
 {
-    arena_->arena.execute(work);
+    const SharedWork shared;
+    arena_->arena.execute([&] {
+        const SharedWork::Part part(shared);
+        work();
+    });
 }
 
 int Workers::threads() const

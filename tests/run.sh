@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests, from a bare Debian 12 on. Ends with the summary of ctest and its exit status.
 #
-#     tests/run.sh [--preset release|debug|asan|tsan]
+#     tests/run.sh [--preset release|debug|asan|tsan|coverage]
+#     tests/run.sh --sanitizers     # all tests under ASan and UBSan, the engine's under TSan, a flow under valgrind
+#     tests/run.sh --coverage       # which lines the tests reach, at least 90 % of them
 #
-# The tests that need a corpus of meshes look for it in the directory SEAMFLOW_CORPUS.
+# The last two are described in tests/sanitizers/run.sh and tests/coverage/run.sh. The tests that need a corpus of meshes
+# look for it in the directory SEAMFLOW_CORPUS.
 
 set -euo pipefail
 if [[ -n "${SEAMFLOW_CORPUS:-}" ]]; then
@@ -13,16 +16,17 @@ fi
 # shellcheck source=samples/common/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../samples/common/setup.sh"
 
+# usage STATUS: to standard output when it was asked for.
 usage() {
-    echo "usage: tests/run.sh [--preset release|debug|asan|tsan]" >&2
-    exit 2
+    sed -n 's/^#  *tests\/run.sh/tests\/run.sh/p' tests/run.sh >&$(($1 == 0 ? 1 : 2))
+    exit "$1"
 }
 
 preset=release
 while (($# > 0)); do
     case "$1" in
     --preset)
-        (($# >= 2)) || usage
+        (($# >= 2)) || usage 2
         preset="$2"
         shift 2
         ;;
@@ -30,11 +34,19 @@ while (($# > 0)); do
         preset="${1#*=}"
         shift
         ;;
-    *) usage ;;
+    --sanitizers | --coverage)
+        (($# == 1)) || usage 2
+        exec "tests/${1#--}/run.sh"
+        ;;
+    -h | --help) usage 0 ;;
+    *) usage 2 ;;
     esac
 done
 
 mapfile -t more < <(page_packages)
+case "$preset" in
+asan | tsan) more+=("${sanitizer_packages[@]}") ;;
+esac
 install_packages doxygen "${more[@]}"
 build "$preset"
 exec ctest --preset "$preset" --parallel "$(nproc)"

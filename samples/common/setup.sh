@@ -13,6 +13,10 @@ readonly packages=(
     doctest-dev libcli11-dev nlohmann-json3-dev
 )
 
+# For the presets asan and tsan, and for tests/sanitizers/run.sh.
+# shellcheck disable=SC2034
+readonly sanitizer_packages=(clang llvm libclang-rt-dev valgrind)
+
 # missing_packages PACKAGE…: prints those that are not installed, one a line.
 missing_packages() {
     local installed

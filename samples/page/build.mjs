@@ -49,7 +49,7 @@ function literals(text) {
     const pieces = [];
     const letters = Array.from(text);
     for (let k = 0; k < letters.length; k += 15000)
-        pieces.push(`    R"seamflow(${letters.slice(k, k + 15000).join("")})seamflow",`);
+        pieces.push(`    R"seamflow(${letters.slice(k, k + 15000).join("")})seamflow"sv,`);
     return pieces.join("\n");
 }
 
@@ -71,6 +71,8 @@ namespace seamflow {
 
 namespace {
 
+// With their lengths: counting letters at compile time takes more steps than clang allows.
+using namespace std::string_view_literals;
 constexpr std::string_view pieces[] = {
 ${literals(html)}
 };

@@ -6,11 +6,11 @@
 
 #include <doctest/doctest.h>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_scheduler_observer.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/parallel_loop.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 
@@ -133,14 +133,13 @@ TEST_CASE("ten flows at once, in ten threads of the program, give what each give
 TEST_CASE("flows inside the caller's own parallel loop give what each gives alone")
 {
     const auto cases = all_kinds();
-    const std::size_t n = 3 * cases.size();
+    const auto n = static_cast<Index>(3 * cases.size());
     const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
     for (const int concurrency : {1, 2, 4}) {
-        std::atomic<std::size_t> n_same = 0;
+        std::atomic<Index> n_same = 0;
         const auto run_all = [&] {
-            tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-                n_same += gives_the_same(cases[i % cases.size()], static_cast<int>(i % 3)) ? 1U : 0U;
-            });
+            for_each(run_in_parallel, n,
+                     [&](Index i) { n_same += gives_the_same(cases[at(i) % cases.size()], i % 3) ? 1 : 0; });
         };
         tbb::task_arena(concurrency).execute(run_all);
         CHECK(n_same == n);

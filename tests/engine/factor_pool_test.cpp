@@ -4,9 +4,9 @@
 #include <new>
 
 #include <doctest/doctest.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "engine/factor_pool.h"
+#include "engine/parallel_loop.h"
 #include "engine/workers.h"
 
 using namespace seamflow;
@@ -53,7 +53,7 @@ TEST_CASE("threads that take and give back at the same time never have the same 
     pool.use_blocks_of(sizeof(int));
     std::atomic<int> n_shared = 0;
     Workers(threads).execute([&] {
-        oneapi::tbb::parallel_for(0, 20'000, [&](int i) {
+        for_each(run_in_parallel, 20'000, [&](Index i) {
             const auto memory = pool.take(sizeof(int));
             auto* const number = new (memory.data()) volatile int(i);
             n_shared += *number == i ? 0 : 1;

@@ -17,6 +17,7 @@
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
+#include "tests/support/owned_memory.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -172,7 +173,9 @@ TEST_CASE("equations that are not finite are refused, and the system goes on wit
     const PolygonMesh mesh = cut_meshes().front().mesh;
     const Topology topology = make_topology(mesh);
     const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(at(mesh.n_faces()), 0), 1);
+    OwnedMemory memory;
     SolverWorkspace workspace;
+    workspace.factors = &memory;
     const auto system = make_system(whole.sub_meshes.front(), Laplacian::Fujiwara,
                                     make_adapted_robin(whole.sub_meshes.front()), workspace);
     Points positions = mesh.vertices;

@@ -9,6 +9,7 @@
 #include "solvers/systems/schwarz_block.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/matrices.h"
+#include "tests/support/owned_memory.h"
 
 namespace seamflow::test {
 
@@ -25,14 +26,16 @@ inline Points undecomposed_step(const CutMesh& cut, Laplacian laplacian, double 
     return A.partialPivLu().solve(cut.mesh.vertices);
 }
 
-/// Overlapping blocks of a whole cut mesh, assembled and factorised.
+/// Overlapping blocks of a whole cut mesh, assembled and factorised. Their factors live as long as they do.
 struct Blocks {
+    OwnedMemory memory;
     std::deque<GrownPart> parts;
     std::vector<std::unique_ptr<SchwarzBlock>> blocks;
     std::vector<SchwarzBlock*> views;
 
     Blocks(const CutMesh& cut, Laplacian laplacian, int layers, SolverWorkspace& workspace)
     {
+        workspace.factors = &memory;
         const std::vector<Index> rank(at(cut.n_parts), 0);
         auto faces = faces_by_label(cut.labels, cut.n_parts);
         for (Index s = 0; s < cut.n_parts; ++s) {
