@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -123,6 +124,8 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
         const int status = partition(&n_nodes, &n_constraints, offsets.data(), targets.data(), node_weights.data(),
                                      nullptr, arc_weights.data(), &n_parts, weights.empty() ? nullptr : weights.data(),
                                      nullptr, settings.data(), &cut_weight, labels.data());
+        if (status == METIS_ERROR_MEMORY)
+            throw std::bad_alloc();
         if (status != METIS_OK)
             throw ComputationError("METIS could not divide a graph of " + std::to_string(n_nodes) + " nodes into " +
                                    std::to_string(n_parts) + " parts (METIS status " + std::to_string(status) +
