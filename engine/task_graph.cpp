@@ -51,8 +51,16 @@ class FirstFailure {
 
 class TaskGraph::Nodes {
   public:
+    /// What a node runs. oneTBB copies what a node is given, and loses a copy where memory lacks for the next one: so it
+    /// is given no more than where this is.
+    struct Task {
+        Node node = -1;
+        std::function<void()> body;
+    };
+
     ~Nodes() { graph.wait_for_all(); }
 
+    std::deque<Task> tasks;
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     FirstFailure failure;
@@ -82,10 +90,10 @@ TaskGraph::Node TaskGraph::add_root()
 TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priority)
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
-    ++nodes_->n_tasks[nodes_->latest_root];
+    nodes_->tasks.push_back({node, std::move(body)});
     // Exceptions stay inside: a flow graph that one has left starts its next run with wrong counts.
-    auto guarded = [nodes = nodes_.get(), recorder = recorder_, progress = progress_, node,
-                    body = std::move(body)](const flow::continue_msg& message) {
+    auto guarded = [nodes = nodes_.get(), recorder = recorder_, progress = progress_,
+                    task = &nodes_->tasks.back()](const flow::continue_msg& message) {
         FirstFailure* const failure = &nodes->failure;
         if (failure->failed())
             return message;
@@ -94,16 +102,17 @@ TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priorit
             return message;
         }
         try {
-            recorder != nullptr ? recorder->timed(node, body) : body();
+            recorder != nullptr ? recorder->timed(task->node, task->body) : task->body();
             if (progress != nullptr)
                 progress->count();
         } catch (...) {
-            failure->record(node, std::current_exception());
+            failure->record(task->node, std::current_exception());
         }
         return message;
     };
     nodes_->nodes.emplace_back(nodes_->graph, std::move(guarded),
                                priority == Priority::High ? flow::node_priority_t{1} : flow::no_priority);
+    ++nodes_->n_tasks[nodes_->latest_root];
     return node;
 }
 

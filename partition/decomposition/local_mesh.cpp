@@ -112,7 +112,7 @@ SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::
 {
     const std::size_t n_corners = count_corners(mesh, faces);
     // Of triangles there are twice as many as vertices, of other faces fewer. Both tables are made before the aggregate:
-    // where memory lacks for the second member, GCC 12 would destroy the first one twice.
+    // where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
     PositionTable vertices(n_corners / 4);
     PositionTable of_faces(faces.size());
     SubMeshDraft draft{.sub_mesh = {}, .vertices = std::move(vertices), .faces = std::move(of_faces)};

@@ -1,5 +1,10 @@
 // Flows of every kind with every single allocation failing: the mesh then has the last complete step.
 
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/flow_state.h"
 #include "engine/mean_curvature_flow.h"
 #include "tests/faults/every_allocation.h"
 #include "tests/faults/small_runs.h"
@@ -13,9 +18,11 @@ std::string bytes_of(const Points& points)
     return {reinterpret_cast<const char*>(points.data()), static_cast<std::size_t>(points.size()) * sizeof(double)};
 }
 
-void fail_every_allocation_of(const FlowOptions& options, const PolygonMesh& input,
-                              std::shared_ptr<const FlowState> resume = nullptr)
+/// @param resume where to go on; nullptr: the flow begins.
+void fail_every_allocation_of(const FlowOptions& options, const std::vector<test::Failing>& ways,
+                              const std::shared_ptr<const FlowState>& resume = nullptr)
 {
+    const PolygonMesh input = test::small_mesh();
     PolygonMesh mesh = input;
     std::vector<Points> states{input.vertices};
     mean_curvature_flow(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
@@ -23,25 +30,56 @@ void fail_every_allocation_of(const FlowOptions& options, const PolygonMesh& inp
     const auto run = [&] {
         mesh.vertices = input.vertices;
         steps_done = 0;
+        const FlowControl control{.stop = {}, .on_progress = {}, .resume = resume};
         mean_curvature_flow(
-            mesh, options, [&](const StepState& state) { steps_done = state.step; }, {.resume = resume});
+            mesh, options, [&](const StepState& state) { steps_done = state.step; }, control);
+    };
+    const auto check = [&] {
+        // That of the state to go on from counts as soon as it is taken over.
+        const bool has_taken_over = resume != nullptr && steps_done == 0 && mesh.vertices != input.vertices;
+        const int step = has_taken_over ? resume->n_steps() : steps_done;
+        CHECK(test::same_bits(mesh.vertices, states[static_cast<std::size_t>(step)]));
     };
     test::fail_every_allocation({.run = run,
                                  .result = [&] { return bytes_of(mesh.vertices); },
-                                 .check_failed =
-                                     [&] {
-                                         const auto step = static_cast<std::size_t>(steps_done);
-                                         CHECK(test::same_bits(mesh.vertices, states[step]));
-                                     }});
+                                 .check_failed = check,
+                                 .most_lost = 100,
+                                 .ways = ways});
+}
+
+FlowOptions options_of(const std::string& name)
+{
+    for (const test::FlowKind& kind : test::small_flows(2, 2))
+        if (kind.name == name)
+            return kind.options;
+    FAIL("there is no flow called " << name);
+    return {};
 }
 
 }  // namespace
 
-TEST_CASE("flows of every kind")
+TEST_CASE("sweeps, with one allocation failing and with all from one on")
 {
-    for (const test::FlowKind& kind : test::small_flows(2, 2)) {
-        CAPTURE(kind.name);
-        MESSAGE(kind.name);
-        fail_every_allocation_of(kind.options, test::small_mesh());
+    fail_every_allocation_of(options_of("fujiwara by sweeps"), {test::Failing::Once, test::Failing::FromThenOn});
+}
+
+TEST_CASE("flows of other kinds, with one allocation failing")
+{
+    for (const char* name : {"fujiwara converged", "fujiwara by Schwarz", "ptackova-velho by sweeps",
+                             "ptackova-velho converged", "robin with gaps", "explicit"}) {
+        CAPTURE(name);
+        fail_every_allocation_of(options_of(name), {test::Failing::Once});
     }
+}
+
+TEST_CASE("a flow that goes on from a state")
+{
+    const FlowOptions options = options_of("alexa-wardetzky converged");
+    std::shared_ptr<const FlowState> first;
+    PolygonMesh mesh = test::small_mesh();
+    mean_curvature_flow(mesh, options, [&](const StepState& state) {
+        if (state.step == 1)
+            first = std::make_shared<const FlowState>(state.capture());
+    });
+    fail_every_allocation_of(options, {test::Failing::Once}, first);
 }

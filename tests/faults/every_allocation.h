@@ -4,6 +4,7 @@
 #include <functional>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -21,6 +22,11 @@ struct Work {
     std::function<std::string()> result;
     /// Checks what a run that has failed leaves.
     std::function<void()> check_failed = [] {};
+    /// How often a run may lose one block: in the constructor of each of its nodes, oneTBB 2021.8 keeps two copies of a
+    /// task by plain pointers, and loses the first where memory lacks for the second.
+    long most_lost = 0;
+    /// How allocations fail.
+    std::vector<Failing> ways{Failing::Once, Failing::FromThenOn};
 };
 
 enum class Ending { Success, OutOfMemory, Other };
@@ -58,27 +64,28 @@ inline void fail_every_allocation(const Work& work)
     static_cast<void>(has_failing_malloc());
     work.run();
     const std::string expected = work.result();
-    for (const Failing failing : {Failing::Once, Failing::FromThenOn}) {
-        long n = 1;
-        for (;; ++n) {
+    for (const Failing failing : work.ways) {
+        long n_lost = 0;
+        for (long n = 1;; ++n) {
             CAPTURE(n);
             const long before = live_blocks();
             const Outcome outcome(work.run, n, failing);
             const long lost = live_blocks() - before;
             if (!outcome.has_failed) {
+                CHECK(n > 1);
                 CHECK(work.result() == expected);
                 break;
             }
             CAPTURE(std::string(outcome.message));
-            CHECK(lost == 0);
+            n_lost += lost;
+            CHECK((lost == 0 || (lost == 1 && outcome.ending == Ending::OutOfMemory)));
             CHECK(outcome.ending != Ending::Other);
             if (outcome.ending == Ending::Success)
                 CHECK(work.result() == expected);
             else
                 work.check_failed();
         }
-        MESSAGE(std::to_string(n - 1));
-        CHECK(n > 1);
+        CHECK(n_lost <= work.most_lost);
     }
 }
 
