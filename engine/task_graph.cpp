@@ -51,8 +51,8 @@ class FirstFailure {
 
 class TaskGraph::Nodes {
   public:
-    /// What a node runs. oneTBB copies what a node is given, and loses a copy where memory lacks for the next one: so it
-    /// is given no more than where this is.
+    /// What a node runs. oneTBB copies what a node is given, and loses a copy where memory lacks for the next one: so
+    /// it is given no more than where this is.
     struct Task {
         Node node = -1;
         std::function<void()> body;

@@ -76,8 +76,9 @@ MeshFile read_with(const std::filesystem::path& path, Read&& read)
     try {
         return read(*format);
     } catch (const std::bad_alloc&) {
-        throw ComputationError(path.string() + ": there is not enough memory for this mesh; close other programs, raise "
-                                               "the limit of this one (ulimit -v), or use a machine with more");
+        throw ComputationError(path.string() +
+                               ": there is not enough memory for this mesh; close other programs, raise "
+                               "the limit of this one (ulimit -v), or use a machine with more");
     }
 }
 

@@ -65,7 +65,8 @@ TEST_CASE("reading a file of any format")
     for (const fs::path& path : mesh_files(directory)) {
         CAPTURE(path.filename());
         PolygonMesh mesh;
-        fail_every_allocation({.run = [&] { mesh = read_mesh(path).mesh; }, .result = [&] { return bytes_of_mesh(mesh); }});
+        fail_every_allocation(
+            {.run = [&] { mesh = read_mesh(path).mesh; }, .result = [&] { return bytes_of_mesh(mesh); }});
     }
 }
 

@@ -55,7 +55,7 @@ struct Code {
     std::uintptr_t end = 0;
 };
 
-constexpr std::array counted_libraries{"libseamflow", "libmetis", "libcholmod", "libumfpack", "libamd",
+constexpr std::array counted_libraries{"libseamflow", "libmetis", "libcholmod", "libumfpack",          "libamd",
                                        "libcolamd",   "libcamd",  "libccolamd", "libsuitesparseconfig"};
 
 /// Fixed in size, since it is used where memory is asked for.

@@ -87,15 +87,17 @@ using namespace seamflow;
 using namespace seamflow::test;
 
 #define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEENS0_8PriorityE"
-#define SEAMFLOW_LDL "_ZN8seamflow9LdlSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_12LdlWorkspaceE"
-#define SEAMFLOW_LU "_ZN8seamflow8LuSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_11LuWorkspaceE"
+#define SEAMFLOW_LDL                                                                                                   \
+    "_ZN8seamflow9LdlSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_12LdlWorkspaceE"
+#define SEAMFLOW_LU                                                                                                    \
+    "_ZN8seamflow8LuSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_11LuWorkspaceE"
 
 using Values = std::span<const double>;
 
 TaskGraph::Node real_add_task(TaskGraph* graph, std::function<void()> body,
                               TaskGraph::Priority priority) asm("__real_" SEAMFLOW_ADD_TASK);
-bool real_ldl(LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace) asm(
-    "__real_" SEAMFLOW_LDL);
+bool real_ldl(LdlSolver* solver, Values values, FactorMemory& memory,
+              LdlWorkspace& workspace) asm("__real_" SEAMFLOW_LDL);
 bool real_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace) asm("__real_" SEAMFLOW_LU);
 
 namespace {
@@ -129,8 +131,8 @@ TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, Task
     return node;
 }
 
-bool wrap_ldl(LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace) asm(
-    "__wrap_" SEAMFLOW_LDL);
+bool wrap_ldl(LdlSolver* solver, Values values, FactorMemory& memory,
+              LdlWorkspace& workspace) asm("__wrap_" SEAMFLOW_LDL);
 bool wrap_ldl(LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace)
 {
     const bool done = real_ldl(solver, values, memory, workspace);
@@ -140,8 +142,7 @@ bool wrap_ldl(LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspa
     return false;
 }
 
-bool wrap_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace) asm(
-    "__wrap_" SEAMFLOW_LU);
+bool wrap_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace) asm("__wrap_" SEAMFLOW_LU);
 bool wrap_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace)
 {
     const bool done = real_lu(solver, values, memory, workspace);

@@ -22,8 +22,8 @@ class FailingTask {
 };
 
 /// While this lives the n-th numeric factorisation, from 1, finds its matrix singular, and if told so all after it: by
-/// LdlSolver, LuSolver and UMFPACK (CHOLMOD factorises what is too large for a test). A program is told by the environment
-/// variable FAIL_FACTORISATION: from this one on, all fail. One at a time.
+/// LdlSolver, LuSolver and UMFPACK (CHOLMOD factorises what is too large for a test). A program is told by the
+/// environment variable FAIL_FACTORISATION: from this one on, all fail. One at a time.
 class FailingFactorisation {
   public:
     enum class After { Works, Fails };
