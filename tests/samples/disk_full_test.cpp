@@ -43,7 +43,9 @@ TEST_CASE("on a disk that is full, smooth says so with status 5, and leaves noth
     is_refused(command, "small/out.obj");
     is_refused(elsewhere + "--parts small/parts.ply", "small/parts.ply");
     is_refused(elsewhere + "--every-step small/at-%d.ply", "small/at-1.ply");
-    is_refused(elsewhere + "--steps 200 --time-step-edges 1e-9 --trace small/trace.json", "small/trace.json");
+    is_refused(SMOOTH " large.obj there.obj --time-step 1e-12 --steps 100 --subdomains 9 --converge never "
+                      "--trace small/trace.json",
+               "small/trace.json");
     if (HAS_PAGE)
         is_refused(elsewhere + "--html small/page.html", "small/page.html");
     CHECK(run_on_small_disk(w, "200k", elsewhere + "--checkpoint small") == 5);

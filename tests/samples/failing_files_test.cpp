@@ -20,14 +20,13 @@ struct Fault {
     std::string further = {};
 };
 
-const std::vector<Fault> faults_of_outputs{{"open", ENOSPC},
-                                           {"open", EACCES, "NO_TMPFILE=1 "},
+/// Where a file without a name cannot be opened, one with a name is: so that this fails is of no consequence.
+const std::vector<Fault> faults_of_outputs{{"open", EACCES, "NO_TMPFILE=1 "},
                                            {"write", ENOSPC},
                                            {"write", EIO, "NO_TMPFILE=1 SHORT=1 "},
                                            {"fsync", EIO},
                                            {"close", EIO},
                                            {"linkat", ENOSPC},
-                                           {"rename", EIO},
                                            {"rename", EIO, "NO_TMPFILE=1 "}};
 
 /// Runs a program whose n-th such call fails.
@@ -108,15 +107,12 @@ TEST_CASE("whatever call fails while smooth writes: status 5, the reason, every 
     return;
 #endif
     const Workshop w;
-    fs::create_directory(w.directory / "kept");
-    std::vector<std::string> outputs{"out.obj", "at-1.ply", "parts.ply", "report.json", "trace.json"};
-    std::string command = SMOOTH " mesh.obj out.obj --time-step-edges 2 --subdomains 3 --every-step at-%d.ply "
-                                 "--parts parts.ply --report report.json --trace trace.json";
-    if (HAS_PAGE) {
-        outputs.emplace_back("page.html");
-        command += " --html page.html";
-    }
-    fail_every_output(w, command, outputs);
+    fail_every_output(w,
+                      SMOOTH " mesh.obj out.obj --time-step-edges 2 --subdomains 3 --every-step at-%d.ply --parts "
+                             "parts.ply --report report.json --trace trace.json",
+                      {"out.obj", "at-1.ply", "parts.ply", "report.json", "trace.json"});
+    if (HAS_PAGE)
+        fail_every_output(w, SMOOTH " mesh.obj out.obj --time-step-edges 2 --html page.html", {"out.obj", "page.html"});
 }
 
 TEST_CASE("the same of a checkpoint: the next run goes on from the one before")
@@ -174,7 +170,7 @@ TEST_CASE("whatever call fails while a file is read: status 3, and a message tha
     for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl"})
         commands.push_back(std::string(INSPECT " ") + name);
     for (const std::string& command : commands)
-        for (const std::string& further : {"", "SHORT=1 "}) {
+        for (const std::string further : {"", "SHORT=1 "}) {
             int n = 1;
             for (;; ++n) {
                 CAPTURE(command);

@@ -26,7 +26,7 @@
 
 namespace {
 
-constexpr std::size_t few_bytes = 1000;
+constexpr std::size_t few_bytes = 10'000;
 
 std::string_view setting(const char* name)
 {
