@@ -8,6 +8,7 @@
 #include <umfpack.h>
 
 #include "partition/errors.h"
+#include "solvers/blas_turn.h"
 
 namespace seamflow {
 
@@ -96,6 +97,7 @@ class UmfpackSolver::BackendFor final : public Backend {
     void factorise(std::span<const double> values) override
     {
         free_factor();
+        const BlasTurn turn;
         require_ok(Interface::numeric(offsets_.data(), rows_.data(), values.data(), symbolic_, &numeric_,
                                       control_.data(), info_.data()),
                    "factorisation");
