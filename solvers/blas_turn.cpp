@@ -13,7 +13,7 @@ namespace {
 
 /// One for the whole process, as OpenBLAS has its areas.
 struct Area {
-    std::mutex mutex;
+    LibraryMutex mutex;
     bool is_there = false;
 };
 
@@ -52,7 +52,7 @@ BlasTurn::BlasTurn()
 {
     if (!is_address_space_limited())
         return;
-    turn_ = std::unique_lock(area().mutex);
+    turn_ = LibraryLock(area().mutex);
     if (!area().is_there)
         take_area();
     area().is_there = true;

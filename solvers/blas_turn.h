@@ -1,6 +1,6 @@
 #pragma once
 
-#include <mutex>
+#include "partition/library_lock.h"
 
 namespace seamflow {
 
@@ -13,7 +13,7 @@ class BlasTurn {
     BlasTurn();
 
   private:
-    std::unique_lock<std::mutex> turn_;
+    LibraryLock turn_;
 };
 
 }  // namespace seamflow

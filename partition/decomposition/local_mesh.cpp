@@ -111,8 +111,8 @@ void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v,
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
 {
     const std::size_t n_corners = count_corners(mesh, faces);
-    // Of triangles there are twice as many as vertices, of other faces fewer. Both tables are made before the aggregate:
-    // where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    // Of triangles there are twice as many as vertices, of other faces fewer. Both tables are made before the
+    // aggregate: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
     PositionTable vertices(n_corners / 4);
     PositionTable of_faces(faces.size());
     SubMeshDraft draft{.sub_mesh = {}, .vertices = std::move(vertices), .faces = std::move(of_faces)};

@@ -1,11 +1,11 @@
 #include "solvers/interface/trace_equation.h"
 
-#include "solvers/set_rows.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "solvers/set_rows.h"
 
 namespace seamflow {
 
