@@ -9,6 +9,7 @@
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
 #include "partition/errors.h"
+#include "solvers/set_rows.h"
 
 namespace seamflow {
 
@@ -109,7 +110,7 @@ void ConvergedFlow::eliminate(Index s)
     SolverWorkspace& workspace = workspaces_.local();
     NeumannSystem& system = *systems_[at(s)];
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
-    workspace.positions.resize(sub_mesh.n_vertices, 3);
+    set_rows(workspace.positions, sub_mesh.n_vertices);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
         workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
     system.assemble(workspace.positions, time_step_, workspace);

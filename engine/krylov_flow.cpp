@@ -11,6 +11,7 @@
 #include "engine/stopwatch.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
+#include "solvers/set_rows.h"
 
 namespace seamflow {
 
@@ -114,7 +115,7 @@ void KrylovFlow::assemble_and_factorise(Index s)
     Stopwatch watch;
     SolverWorkspace& workspace = workspaces_.local();
     const SubMesh& sub_mesh = parts_[at(s)].sub_mesh;
-    workspace.positions.resize(sub_mesh.n_vertices, 3);
+    set_rows(workspace.positions, sub_mesh.n_vertices);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
         workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
     blocks_[at(s)]->assemble(workspace.positions, time_step_);

@@ -233,13 +233,17 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         }
         shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
-        mesh.vertices.swap(rescaled);
+        // What takes memory comes first: the mesh moves when nothing but the observer can fail any more.
+        const StepState state{
+            step, mesh.vertices, of_step, flow.pieces(), reference == nullptr ? nullptr : &undecomposed, [&] {
+                return capture(run, flow, reference, meter);
+            }};
         report.steps.push_back(of_step);
         report.seconds.step += of_step.seconds;
         report.seconds.total += of_step.seconds + measuring;
+        mesh.vertices.swap(rescaled);
         if (on_step)
-            on_step({step, mesh.vertices, of_step, flow.pieces(), reference == nullptr ? nullptr : &undecomposed,
-                     [&] { return capture(run, flow, reference, meter); }});
+            on_step(state);
     }
     remark_on_drift(options, report);
     remark_on_collapse(extent, mesh.vertices, report);

@@ -52,12 +52,20 @@ class FirstFailure {
 
 class TaskGraph::Nodes {
   public:
+    /// What there is to do at a node. oneTBB copies what a node is given, and loses a copy where memory lacks for the
+    /// next one: so it is given no more than where this is.
+    struct Task {
+        Node node = -1;
+        std::function<void()> body;
+    };
+
     ~Nodes() { graph.wait_for_all(); }
 
     /// Runs a task, or leaves it out. Exceptions stay inside: a flow graph that one has left starts its next run with
     /// wrong counts.
-    void perform(Node node, const std::function<void()>& body);
+    void perform(const Task& task);
 
+    std::deque<Task> tasks;
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     TaskOrder order;
@@ -72,7 +80,7 @@ class TaskGraph::Nodes {
     Node latest_root = -1;
 };
 
-void TaskGraph::Nodes::perform(Node node, const std::function<void()>& body)
+void TaskGraph::Nodes::perform(const Task& task)
 {
     if (failure.failed())
         return;
@@ -81,27 +89,26 @@ void TaskGraph::Nodes::perform(Node node, const std::function<void()>& body)
         return;
     }
     try {
-        recorder != nullptr ? recorder->timed(node, body) : body();
+        recorder != nullptr ? recorder->timed(task.node, task.body) : task.body();
         if (progress != nullptr)
             progress->count();
     } catch (...) {
-        failure.record(node, std::current_exception());
+        failure.record(task.node, std::current_exception());
     }
 }
 
-/// What a node of the graph runs.
+/// What oneTBB runs at a node of the graph.
 struct TaskGraph::OrderedTask {
     flow::continue_msg operator()(const flow::continue_msg& message) const
     {
-        nodes->order.begin(at(node));
-        nodes->perform(node, body);
-        nodes->order.end(at(node));
+        nodes->order.begin(at(task->node));
+        nodes->perform(*task);
+        nodes->order.end(at(task->node));
         return message;
     }
 
     Nodes* nodes;
-    Node node;
-    std::function<void()> body;
+    const Nodes::Task* task;
 };
 
 TaskGraph::TaskGraph(ScheduleRecorder* recorder, Progress* progress)
@@ -122,9 +129,10 @@ TaskGraph::Node TaskGraph::add_root()
 TaskGraph::Node TaskGraph::add_task(std::function<void()> body, Priority priority)
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
-    ++nodes_->n_tasks[nodes_->latest_root];
-    nodes_->nodes.emplace_back(nodes_->graph, OrderedTask{nodes_.get(), node, std::move(body)},
+    nodes_->tasks.push_back({node, std::move(body)});
+    nodes_->nodes.emplace_back(nodes_->graph, OrderedTask{nodes_.get(), &nodes_->tasks.back()},
                                priority == Priority::High ? flow::node_priority_t{1} : flow::no_priority);
+    ++nodes_->n_tasks[nodes_->latest_root];
     return node;
 }
 

@@ -1,17 +1,60 @@
 #include "engine/workers.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <latch>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
+#include <pthread.h>
+#include <sys/resource.h>
 
 #include "engine/single_threaded_libraries.h"
 #include "engine/thread_order.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
 namespace tbb = oneapi::tbb;
+
+namespace {
+
+/// oneTBB ends the program where the system refuses it a thread, which is so where the address space is limited and
+/// full. So that it does not come to that, threads are made here first; the C library keeps the memory of their stacks
+/// for those that oneTBB makes.
+/// @throws ComputationError if there is no room for them.
+void require_room_for_threads(int n)
+{
+    constexpr std::size_t stack_bytes_of_tbb = std::size_t{4} << 20;
+    rlimit limit = {};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return;
+    std::vector<pthread_t> threads(static_cast<std::size_t>(std::max(n, 0)));
+    std::latch all_made(1);
+    const auto wait = [](void* latch) -> void* {
+        static_cast<std::latch*>(latch)->wait();
+        return nullptr;
+    };
+    pthread_attr_t attributes;
+    int error = ::pthread_attr_init(&attributes);
+    ::pthread_attr_setstacksize(&attributes, stack_bytes_of_tbb);
+    std::size_t n_made = 0;
+    while (error == 0 && n_made < threads.size())
+        if (error = ::pthread_create(&threads[n_made], &attributes, wait, &all_made); error == 0)
+            ++n_made;
+    all_made.count_down();
+    for (std::size_t i = 0; i < n_made; ++i)
+        ::pthread_join(threads[i], nullptr);
+    ::pthread_attr_destroy(&attributes);
+    if (error != 0)
+        throw ComputationError("there is no memory for " + std::to_string(n) +
+                               " more threads: use fewer (--threads), or raise the limit of this program (ulimit -v)");
+}
+
+}  // namespace
 
 class Workers::Arena {
   public:
@@ -28,6 +71,7 @@ class Workers::Arena {
         } else {
             arena.initialize(tbb::task_arena::attach());
         }
+        require_room_for_threads(arena.max_concurrency() - 1);
     }
 
     std::optional<tbb::global_control> limit;

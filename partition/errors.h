@@ -17,7 +17,8 @@ class OptionError : public std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-/// The flow itself failed: a singular system, a result that is not finite. The message names the sub-mesh.
+/// The work itself failed: a singular system, a result that is not finite, not enough memory. The message names the
+/// sub-mesh, or the file.
 /// The programs answer it with exit status 4.
 class ComputationError : public std::runtime_error {
   public:

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "engine/parallel_loop.h"
+#include "engine/workers.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/io/mesh_io.h"
 #include "samples/common/command_line.h"
@@ -28,7 +29,8 @@ ExitStatus inspect_file(int argc, char** argv)
 
     FaultLog faults;
     const PolygonMesh mesh = read_faulty_mesh(input, faults).mesh;
-    const MeshInspection found = inspect(mesh, make_topology(mesh, run_in_parallel), run_in_parallel);
+    MeshInspection found;
+    Workers(0).execute([&] { found = inspect(mesh, make_topology(mesh, run_in_parallel), run_in_parallel); });
     if (as_json)
         std::cout << inspection_json(input.string(), faults, found);
     else

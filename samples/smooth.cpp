@@ -10,6 +10,7 @@
 
 #include <iostream>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -169,6 +170,12 @@ ExitStatus smooth(int argc, char** argv)
                                      std::to_string(control.resume->n_steps()) + ", which an earlier run took.");
     } catch (const Cancelled&) {
         return long_run.end_early();
+    } catch (const ComputationError&) {
+        long_run.keep_last_step();
+        throw;
+    } catch (const std::bad_alloc&) {
+        long_run.keep_last_step();
+        throw;
     }
     long_run.end();
     // A run that goes on from its last step has nothing to observe.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "solvers/set_rows.h"
 
 namespace seamflow {
 
@@ -125,6 +126,7 @@ void LdlSolver::solve(const Columns& right_hand_side, Columns& solution, LdlWork
     x = right_hand_side;
     eliminate(x.data(), n());
     substitute_back(x.data(), n());
+    set_rows(solution, n());
     solution = x;
 }
 

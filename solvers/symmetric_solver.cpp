@@ -1,5 +1,7 @@
 #include "solvers/symmetric_solver.h"
 
+#include "solvers/set_rows.h"
+
 namespace seamflow {
 
 namespace {
@@ -30,6 +32,7 @@ bool SymmetricSolver::factorise(std::span<const double> values, SolverWorkspace&
 
 void SymmetricSolver::solve(Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) const
 {
+    set_rows(solution, right_hand_side.rows());
     if (ldl_)
         ldl_->solve(right_hand_side, solution, workspace.ldl);
     else

@@ -8,6 +8,7 @@
 #include <umfpack.h>
 
 #include "partition/errors.h"
+#include "solvers/blas_turn.h"
 
 namespace seamflow {
 
@@ -153,6 +154,7 @@ class UmfpackSolver::BackendFor final : public Backend {
     {
         free_factor();
         is_nearly_singular_ = false;
+        const BlasTurn turn;
         status_ = Interface::numeric(offsets_.data(), rows_.data(), values.data(), way_->symbolic, &numeric_,
                                      way_->control.data(), info_.data());
         if (status_ != UMFPACK_WARNING_singular_matrix)

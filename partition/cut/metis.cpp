@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <mutex>
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -12,6 +12,7 @@
 
 #include "partition/errors.h"
 #include "partition/index.h"
+#include "partition/library_lock.h"
 
 namespace seamflow {
 
@@ -25,9 +26,9 @@ constexpr Index min_nodes_per_part_k_way = 50;
 constexpr Index min_nodes_per_refined_part_k_way = 120;
 
 /// METIS draws from the C library's random numbers and installs signal handlers: one caller at a time.
-std::mutex& metis_mutex()
+LibraryMutex& metis_mutex()
 {
-    static std::mutex mutex;
+    static LibraryMutex mutex;
     return mutex;
 }
 
@@ -103,7 +104,7 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
     std::vector<idx_t> labels(at(graph.n_nodes()), 0);
     auto n_parts = static_cast<idx_t>(std::min(shares.size(), labels.size()));
     if (n_parts > 1) {
-        const std::lock_guard lock(metis_mutex());
+        const LibraryLock lock(metis_mutex());
         const OwnRandomNumbers own;
         const bool k_way =
             graph.n_nodes() / n_parts >=
@@ -123,6 +124,8 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
         const int status = partition(&n_nodes, &n_constraints, offsets.data(), targets.data(), node_weights.data(),
                                      nullptr, arc_weights.data(), &n_parts, weights.empty() ? nullptr : weights.data(),
                                      nullptr, settings.data(), &cut_weight, labels.data());
+        if (status == METIS_ERROR_MEMORY)
+            throw std::bad_alloc();
         if (status != METIS_OK)
             throw ComputationError("METIS could not divide a graph of " + std::to_string(n_nodes) + " nodes into " +
                                    std::to_string(n_parts) + " parts (METIS status " + std::to_string(status) +

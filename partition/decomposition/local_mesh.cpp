@@ -1,6 +1,7 @@
 #include "partition/decomposition/local_mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace seamflow {
 
@@ -110,8 +111,11 @@ void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v,
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
 {
     const std::size_t n_corners = count_corners(mesh, faces);
-    // Of triangles there are twice as many as vertices, of other faces fewer.
-    SubMeshDraft draft{.sub_mesh = {}, .vertices = PositionTable(n_corners / 4), .faces = PositionTable(faces.size())};
+    // Of triangles there are twice as many as vertices, of other faces fewer. Both tables are made before the
+    // aggregate: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    PositionTable vertices(n_corners / 4);
+    PositionTable of_faces(faces.size());
+    SubMeshDraft draft{.sub_mesh = {}, .vertices = std::move(vertices), .faces = std::move(of_faces)};
     draft.faces.insert_list(faces);
     draft.sub_mesh.faces = std::move(faces);
     copy_vertices(mesh, n_corners, draft);

@@ -66,7 +66,7 @@ MeshFile read_known(const std::filesystem::path& path, FileFormat format)
     return file;
 }
 
-/// Finds the format and reads; a lack of memory is told as what is wrong with the file.
+/// Finds the format and reads; a lack of memory comes out with the name of the file.
 template <class Read>
 MeshFile read_with(const std::filesystem::path& path, Read&& read)
 {
@@ -76,8 +76,9 @@ MeshFile read_with(const std::filesystem::path& path, Read&& read)
     try {
         return read(*format);
     } catch (const std::bad_alloc&) {
-        throw InputError(path.string() + ": there is not enough memory for this mesh; close other programs or use a "
-                                         "machine with more");
+        throw ComputationError(path.string() +
+                               ": there is not enough memory for this mesh; close other programs, raise "
+                               "the limit of this one (ulimit -v), or use a machine with more");
     }
 }
 

@@ -47,6 +47,7 @@ struct MeshFile {
 /// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
+/// @throws ComputationError naming the file, or std::bad_alloc, if there is not enough memory.
 MeshFile read_mesh(const std::filesystem::path& path);
 
 /// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite

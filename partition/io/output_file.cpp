@@ -149,7 +149,8 @@ void OutputFile::flush()
     used_ = 0;
 }
 
-/// A temporary one: only by being renamed can a file replace another.
+/// A temporary one: only by being renamed can a file replace another. Once it has it, nothing may fail before that is
+/// noted.
 void OutputFile::give_name()
 {
     const std::string source = name_of_descriptor(descriptor_);
@@ -161,11 +162,13 @@ void OutputFile::give_name()
     } while (status != 0 && errno == EEXIST);
     if (status != 0)
         fail(errno);
-    temporary_ = name;
+    temporary_ = std::move(name);
 }
 
 void OutputFile::commit()
 {
+    // What takes memory comes first: with its name the file is there, and nothing may fail any more.
+    const std::filesystem::path folder = folder_of(target_);
     flush();
     if (const int error = synchronise(descriptor_); error != 0)
         fail(error);
@@ -176,7 +179,7 @@ void OutputFile::commit()
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(errno);
     temporary_.clear();
-    synchronise_folder(folder_of(target_));
+    synchronise_folder(folder);
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "partition/errors.h"
+#include "samples/common/blas_threads.h"
 
 namespace seamflow {
 
@@ -28,7 +29,11 @@ ExitStatus guarded(const char* program, const std::function<ExitStatus()>& body)
     } catch (const OutputError& error) {
         return tell(program, error.what(), ExitStatus::OutputNotWritten);
     } catch (const std::bad_alloc&) {
-        return tell(program, "the memory of this machine does not suffice", ExitStatus::ComputationFailed);
+        return tell(program,
+                    "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or "
+                    "give it less to do "
+                    "at once (more --subdomains, fewer --threads, fewer vertices)",
+                    ExitStatus::ComputationFailed);
     } catch (const std::exception& error) {
         return tell(program, error.what(), ExitStatus::ComputationFailed);
     } catch (...) {
@@ -40,7 +45,10 @@ ExitStatus guarded(const char* program, const std::function<ExitStatus()>& body)
 
 int run_program(const char* program, const std::function<ExitStatus()>& body)
 {
-    const ExitStatus status = guarded(program, body);
+    const ExitStatus status = guarded(program, [&] {
+        do_without_blas_threads_where_limited();
+        return body();
+    });
     std::cout.flush();
     if (status == ExitStatus::Success && !std::cout)
         return static_cast<int>(

@@ -1,5 +1,6 @@
 #include "samples/common/long_run.h"
 
+#include <exception>
 #include <iostream>
 #include <string>
 #include <system_error>
@@ -73,10 +74,8 @@ ExitStatus LongRun::end_early()
     if (step_ == 0) {
         message = "interrupted before a step was complete; no mesh was written";
     } else {
-        const auto path = interrupted_path(command_->output, command_->input);
-        write_state(path, file_->mesh, pieces_ ? &*pieces_ : nullptr, *file_);
-        message = "interrupted; " + path.string() + " has the mesh after step " + std::to_string(step_) + " of " +
-                  std::to_string(command_->options.steps);
+        message = "interrupted; " + write_last_step().string() + " has the mesh after step " + std::to_string(step_) +
+                  " of " + std::to_string(command_->options.steps);
     }
     const int kept = !checkpoints_              ? 0
                      : checkpoints_->step() > 0 ? checkpoints_->step()
@@ -86,6 +85,27 @@ ExitStatus LongRun::end_early()
         message += "; the same command goes on after step " + std::to_string(kept);
     std::cerr << "smooth: " << message << '\n';
     return interruption_->status();
+}
+
+void LongRun::keep_last_step()
+{
+    bar_.erase();
+    if (step_ == 0)
+        return;
+    try {
+        const auto path = write_last_step();
+        std::cerr << "smooth: " << path.string() << " has the mesh after step " << step_ << " of "
+                  << command_->options.steps << '\n';
+    } catch (const std::exception&) {
+        // What made the flow fail is what the user has to know, and comes out.
+    }
+}
+
+std::filesystem::path LongRun::write_last_step() const
+{
+    const auto path = interrupted_path(command_->output, command_->input);
+    write_state(path, file_->mesh, pieces_ ? &*pieces_ : nullptr, *file_);
+    return path;
 }
 
 }  // namespace seamflow

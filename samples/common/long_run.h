@@ -41,7 +41,12 @@ class LongRun {
     /// @throws OutputError.
     [[nodiscard]] ExitStatus end_early();
 
+    /// After the flow has failed: writes the last complete step, if there was one and it can be written, and says so.
+    void keep_last_step();
+
   private:
+    [[nodiscard]] std::filesystem::path write_last_step() const;
+
     const SmoothCommand* command_;
     const MeshFile* file_;
     Interruption* interruption_;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "solvers/set_rows.h"
+
 namespace seamflow {
 
 namespace {
@@ -140,7 +142,7 @@ void TraceEquation::solve_block(SchwarzBlock& block, const Ends& ends, const Poi
                                 SchwarzBlock::RightHandSide right_hand_side, SolverWorkspace& workspace) const
 {
     Points& given = workspace.positions;
-    given.resize(static_cast<Eigen::Index>(ends.inputs.size()), 3);
+    set_rows(given, static_cast<Eigen::Index>(ends.inputs.size()));
     for (std::size_t i = 0; i < ends.inputs.size(); ++i)
         given.row(static_cast<Eigen::Index>(i)) = traces.row(ends.inputs[i]);
     block.solve(given, right_hand_side, workspace.solution, workspace);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "partition/errors.h"
+#include "solvers/set_rows.h"
 #include "solvers/systems/messages.h"
 
 namespace seamflow {
@@ -117,14 +118,15 @@ void SchwarzBlock::factorise(SolverWorkspace& workspace)
 void SchwarzBlock::solve(const Points& given, RightHandSide right_hand_side, Columns& solution,
                          SolverWorkspace& workspace)
 {
-    solution.resize(right_hand_side_.rows(), 3);
+    set_rows(solution, right_hand_side_.rows());
     if (!solver_)
         return;
     Columns& right = workspace.right_hand_side;
+    set_rows(right, right_hand_side_.rows());
     if (right_hand_side == RightHandSide::Step)
         right = right_hand_side_;
     else
-        right.setZero(right_hand_side_.rows(), 3);
+        right.setZero();
     const double* value = values_.data() + pattern_->rows.size();
     for (const auto& [unknown, place] : beyond_couplings_)
         right.row(unknown) -= *value++ * given.row(place);

@@ -6,6 +6,7 @@
 #include "partition/errors.h"
 #include "solvers/conditions/remainder.h"
 #include "solvers/elimination_order.h"
+#include "solvers/set_rows.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
 
@@ -253,7 +254,7 @@ void SymmetricSystem::solve_with(const Points& positions, Points& solution, Solv
 
 void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points& known, Columns& right) const
 {
-    right.resize(static_cast<Eigen::Index>(vertex_of_.size()), 3);
+    set_rows(right, static_cast<Eigen::Index>(vertex_of_.size()));
     for (std::size_t u = 0; u < vertex_of_.size(); ++u)
         right.row(static_cast<Eigen::Index>(u)) = mass_[u] * positions.row(vertex_of_[u]);
     for (const auto* couplings : {&fixed_, &held_})

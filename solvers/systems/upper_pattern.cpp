@@ -58,7 +58,9 @@ UpperPattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vect
     sort_by(&PairEntry::row, n, entries);
     sort_by(&PairEntry::column, n, entries);
 
-    UpperPattern upper{.pattern = {}, .slots = std::vector<Index>(pairs.size(), -1)};
+    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    UpperPattern upper;
+    upper.slots.assign(pairs.size(), -1);
     auto& [offsets, rows] = upper.pattern;
     offsets.reserve(at(n) + 1);
     rows.reserve(entries.size() + at(n));

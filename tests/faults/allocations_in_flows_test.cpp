@@ -1,0 +1,106 @@
+// Flows of every kind with every single allocation failing: the mesh then has the last complete step.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/flow_state.h"
+#include "engine/mean_curvature_flow.h"
+#include "tests/faults/every_allocation.h"
+#include "tests/faults/small_runs.h"
+
+using namespace seamflow;
+
+namespace {
+
+std::string bytes_of(const Points& points)
+{
+    return {reinterpret_cast<const char*>(points.data()), static_cast<std::size_t>(points.size()) * sizeof(double)};
+}
+
+/// @param resume where to go on; nullptr: the flow begins.
+void fail_every_allocation_of(const FlowOptions& options, const std::vector<test::Failing>& ways,
+                              const std::shared_ptr<const FlowState>& resume = nullptr)
+{
+    const PolygonMesh input = test::small_mesh();
+    PolygonMesh mesh = input;
+    std::vector<Points> states{input.vertices};
+    mean_curvature_flow(mesh, options, [&](const StepState& state) { states.push_back(state.positions); });
+    int steps_done = 0;
+    const auto run = [&] {
+        mesh.vertices = input.vertices;
+        steps_done = 0;
+        const FlowControl control{.stop = {}, .on_progress = {}, .resume = resume};
+        mean_curvature_flow(
+            mesh, options, [&](const StepState& state) { steps_done = state.step; }, control);
+    };
+    const auto check = [&] {
+        // That of the state to go on from counts as soon as it is taken over.
+        const bool has_taken_over = resume != nullptr && steps_done == 0 && mesh.vertices != input.vertices;
+        const int step = has_taken_over ? resume->n_steps() : steps_done;
+        CHECK(test::same_bits(mesh.vertices, states[static_cast<std::size_t>(step)]));
+    };
+    test::fail_every_allocation({.run = run,
+                                 .result = [&] { return bytes_of(mesh.vertices); },
+                                 .check_failed = check,
+                                 .most_lost = 100,
+                                 .ways = ways});
+}
+
+FlowOptions options_of(const std::string& name)
+{
+    for (const test::FlowKind& kind : test::small_flows(2, 2))
+        if (kind.name == name)
+            return kind.options;
+    FAIL("there is no flow called " << name);
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("sweeps, with one allocation failing and with all from one on")
+{
+    fail_every_allocation_of(options_of("fujiwara by sweeps"), {test::Failing::Once, test::Failing::FromThenOn});
+}
+
+TEST_CASE("converged steps")
+{
+    fail_every_allocation_of(options_of("fujiwara converged"), {test::Failing::Once});
+}
+
+TEST_CASE("overlapping sub-meshes")
+{
+    fail_every_allocation_of(options_of("fujiwara by Schwarz"), {test::Failing::Once});
+}
+
+TEST_CASE("sweeps with systems that are not symmetric")
+{
+    fail_every_allocation_of(options_of("ptackova-velho by sweeps"), {test::Failing::Once});
+}
+
+TEST_CASE("converged steps with systems that are not symmetric")
+{
+    fail_every_allocation_of(options_of("ptackova-velho converged"), {test::Failing::Once});
+}
+
+TEST_CASE("the classical conditions, with gaps between the sub-meshes")
+{
+    fail_every_allocation_of(options_of("robin with gaps"), {test::Failing::Once});
+}
+
+TEST_CASE("explicit steps")
+{
+    fail_every_allocation_of(options_of("explicit"), {test::Failing::Once});
+}
+
+TEST_CASE("a flow that goes on from a state")
+{
+    const FlowOptions options = options_of("alexa-wardetzky converged");
+    std::shared_ptr<const FlowState> first;
+    PolygonMesh mesh = test::small_mesh();
+    mean_curvature_flow(mesh, options, [&](const StepState& state) {
+        if (state.step == 1)
+            first = std::make_shared<const FlowState>(state.capture());
+    });
+    fail_every_allocation_of(options, {test::Failing::Once}, first);
+}

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "tests/faults/failing_malloc.h"
+#include "tests/support/allocations.h"
+
+namespace seamflow::test {
+
+/// Something that takes memory.
+struct Work {
+    /// Allocations of this fail.
+    std::function<void()> run;
+    /// What has come of it, for comparisons.
+    std::function<std::string()> result;
+    /// Checks what a run that has failed leaves.
+    std::function<void()> check_failed = [] {};
+    /// How often a run may lose one block: in the constructor of each of its nodes, oneTBB 2021.8 keeps two copies of a
+    /// task by plain pointers, and loses the first where memory lacks for the second.
+    long most_lost = 0;
+    /// How allocations fail.
+    std::vector<Failing> ways{Failing::Once, Failing::FromThenOn};
+};
+
+enum class Ending { Success, OutOfMemory, Other };
+
+/// How a run with a failing allocation has ended. Without taking memory.
+struct Outcome {
+    Ending ending = Ending::Success;
+    char message[300] = {};
+    bool has_failed = false;
+
+    Outcome(const std::function<void()>& run, long n, Failing failing)
+    {
+        const FailingAllocation allocation(n, failing);
+        try {
+            run();
+        } catch (const std::bad_alloc&) {
+            ending = Ending::OutOfMemory;
+        } catch (const ComputationError& error) {
+            note(error);
+            ending = std::strstr(message, "memory") != nullptr ? Ending::OutOfMemory : Ending::Other;
+        } catch (const std::exception& error) {
+            note(error);
+            ending = Ending::Other;
+        }
+        has_failed = FailingAllocation::has_failed();
+    }
+
+    void note(const std::exception& error) { std::strncpy(message, error.what(), sizeof message - 1); }
+};
+
+/// Runs it again and again, each time with the next allocation failing, alone or with all after it, until there are no
+/// more. The caller always hears of it, or gets the same result, and no memory is lost.
+inline void fail_every_allocation(const Work& work)
+{
+    static_cast<void>(has_failing_malloc());
+    work.run();
+    const std::string expected = work.result();
+    for (const Failing failing : work.ways) {
+        long n_lost = 0;
+        for (long n = 1;; ++n) {
+            CAPTURE(n);
+            const long before = live_blocks();
+            const Outcome outcome(work.run, n, failing);
+            const long lost = live_blocks() - before;
+            if (!outcome.has_failed) {
+                CHECK(n > 1);
+                CHECK(work.result() == expected);
+                break;
+            }
+            CAPTURE(std::string(outcome.message));
+            n_lost += lost;
+            CHECK((lost == 0 || (lost == 1 && outcome.ending == Ending::OutOfMemory)));
+            CHECK(outcome.ending != Ending::Other);
+            if (outcome.ending == Ending::Success)
+                CHECK(work.result() == expected);
+            else
+                work.check_failed();
+        }
+        CHECK(n_lost <= work.most_lost);
+    }
+}
+
+}  // namespace seamflow::test

@@ -1,0 +1,68 @@
+// Every numeric factorisation fails, alone or with all after it.
+
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "partition/errors.h"
+#include "tests/faults/failing_work.h"
+#include "tests/faults/small_runs.h"
+
+using namespace seamflow;
+using After = test::FailingFactorisation::After;
+
+namespace {
+
+constexpr int n_steps = 2;
+
+/// Runs a flow whose n-th factorisation fails.
+/// @returns whether there was such a one.
+bool fails_well(const FlowOptions& options, int n, After after, int& n_complaints)
+{
+    PolygonMesh mesh = test::small_mesh();
+    Points latest = mesh.vertices;
+    int steps_done = 0;
+    std::string message;
+    const test::FailingFactorisation failing(n, after);
+    try {
+        mean_curvature_flow(mesh, options, [&](const StepState& state) {
+            steps_done = state.step;
+            latest = state.positions;
+        });
+    } catch (const ComputationError& error) {
+        message = error.what();
+    }
+    CAPTURE(message);
+    CHECK(test::same_bits(mesh.vertices, latest));
+    CHECK(mesh.vertices.allFinite());
+    CHECK(message.empty() == (steps_done == n_steps));
+    if (!message.empty()) {
+        ++n_complaints;
+        CHECK(message.starts_with("step " + std::to_string(steps_done + 1)));
+        CHECK(message.find("sub-mesh ") != std::string::npos);
+        CHECK(message.find("singular") != std::string::npos);
+    }
+    return failing.has_failed();
+}
+
+}  // namespace
+
+TEST_CASE("a factorisation that fails is made up for, or comes out with its step and its sub-mesh")
+{
+    for (const test::FlowKind& kind : test::small_flows(n_steps, 2))
+        for (const After after : {After::Works, After::Fails}) {
+            CAPTURE(kind.name);
+            int n_complaints = 0;
+            int n = 1;
+            while (fails_well(kind.options, n, after, n_complaints)) {
+                ++n;
+                REQUIRE(n < 1000);
+            }
+            const bool is_explicit = kind.options.scheme == Scheme::ExplicitEuler;
+            CHECK((n > 2 || is_explicit));
+            // The last system of all has another chance when rows stop yielding, or with other pivots.
+            if (after == After::Fails)
+                CHECK((n_complaints > 0 || is_explicit));
+        }
+}
