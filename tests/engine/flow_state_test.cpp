@@ -1,3 +1,4 @@
+#include <limits>
 #include <memory>
 
 #include <doctest/doctest.h>
@@ -154,6 +155,14 @@ TEST_CASE("a state of another flow is refused by what differs")
     CHECK_THROWS_AS(run(mesh, options, std::make_shared<const FlowState>(broken)), InputError);
     broken = *state;
     broken.flow.positions.conservativeResize(599, 3);
+    CHECK_THROWS_AS(run(mesh, options, std::make_shared<const FlowState>(broken)), InputError);
+    broken = *state;
+    broken.flow.positions(300, 1) = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH_AS(run(mesh, options, std::make_shared<const FlowState>(broken)),
+                         doctest::Contains("positions that are not finite"), InputError);
+    broken = *state;
+    REQUIRE(!broken.flow.arrays.empty());
+    broken.flow.arrays.front().setConstant(std::numeric_limits<double>::infinity());
     CHECK_THROWS_AS(run(mesh, options, std::make_shared<const FlowState>(broken)), InputError);
     broken = *state;
     broken.displacement.drift.resize(0, 3);
