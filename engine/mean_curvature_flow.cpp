@@ -219,7 +219,7 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         rescaled = flow.positions();
         named("step " + std::to_string(step), [&] {
             rescaling.apply(rescaled);
-            limit.require(mesh.vertices, rescaled, report.labels);
+            limit.require(run.mesh.vertices, rescaled, run.report.labels);
         });
         of_step.displacement = meter.add_step(mesh.vertices, rescaled);
         curvature = measure_curvature(mesh, topology, rescaled, options.laplacian);

@@ -34,6 +34,7 @@ std::vector<std::uint8_t> with_checksum(std::span<const std::uint8_t> bytes)
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_bytes)
 {
     std::shared_ptr<const FlowState> state;

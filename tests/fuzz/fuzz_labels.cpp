@@ -8,6 +8,7 @@
 #include "partition/errors.h"
 #include "tests/fuzz/fuzzed_file.h"
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_bytes)
 {
     using namespace seamflow;

@@ -91,6 +91,7 @@ void write_and_read_again(const FuzzedFile& file, const MeshFile& read)
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_bytes)
 {
     const FuzzedFile file("fuzzed" + extension, bytes, n_bytes);

@@ -15,7 +15,9 @@ TEST_CASE("a factorisation that fails in a later step: status 4, step and sub-me
     REQUIRE(w.smooth(arguments + " --every-step at-%d.obj") == 0);
     std::filesystem::remove(w.directory / "out.obj");
     // Three a step, and a second attempt for each that fails.
-    for (const auto& [n, steps_done] : {std::pair{1, 0}, std::pair{4, 1}, std::pair{6, 1}, std::pair{7, 2}}) {
+    for (const auto& of_case : {std::pair{1, 0}, std::pair{4, 1}, std::pair{6, 1}, std::pair{7, 2}}) {
+        const int n = of_case.first;
+        const int steps_done = of_case.second;
         CAPTURE(n);
         std::filesystem::remove(w.directory / "out.interrupted.obj");
         const std::string first = "FAIL_FACTORISATION=" + std::to_string(n);

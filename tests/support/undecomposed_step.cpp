@@ -28,7 +28,7 @@ struct Vertices {
 /// I + dt Δ, the rows and columns of the vertices that move, and what the others contribute; the largest coefficient of
 /// each row is 1.
 struct Equations {
-    Eigen::MatrixXd A;
+    Eigen::MatrixXd matrix;
     Eigen::MatrixXd right_hand_side;
 };
 
@@ -37,11 +37,11 @@ Equations equations_of(const Eigen::MatrixXd& laplacian, double time_step, const
     const auto& [moving, fixed] = vertices;
     const Eigen::MatrixXd rows = time_step * laplacian(moving, Eigen::all);
     Equations equations{rows(Eigen::all, moving), from(moving, Eigen::all)};
-    equations.A.diagonal().array() += 1.0;
+    equations.matrix.diagonal().array() += 1.0;
     if (!fixed.empty())
         equations.right_hand_side -= rows(Eigen::all, fixed) * Eigen::MatrixXd(from(fixed, Eigen::all));
-    const Eigen::VectorXd largest = equations.A.cwiseAbs().rowwise().maxCoeff();
-    equations.A.array().colwise() /= largest.array();
+    const Eigen::VectorXd largest = equations.matrix.cwiseAbs().rowwise().maxCoeff();
+    equations.matrix.array().colwise() /= largest.array();
     equations.right_hand_side.array().colwise() /= largest.array();
     return equations;
 }
@@ -50,13 +50,14 @@ Equations equations_of(const Eigen::MatrixXd& laplacian, double time_step, const
 Points solve(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Vertices& vertices,
              double* condition)
 {
-    const auto [A, right_hand_side] =
+    const auto [matrix, right_hand_side] =
         equations_of(dense_laplacian(options.laplacian, mesh, topology), options.time_step, vertices, mesh.vertices);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(A);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(matrix);
     Eigen::MatrixXd solution = factors.solve(right_hand_side);
-    solution += factors.solve(right_hand_side - A * solution);
+    solution += factors.solve(right_hand_side - matrix * solution);
     if (condition != nullptr)
-        *condition = A.cwiseAbs().rowwise().sum().maxCoeff() * factors.inverse().cwiseAbs().rowwise().sum().maxCoeff();
+        *condition =
+            matrix.cwiseAbs().rowwise().sum().maxCoeff() * factors.inverse().cwiseAbs().rowwise().sum().maxCoeff();
     Points positions = mesh.vertices;
     for (std::size_t i = 0; i < vertices.moving.size(); ++i)
         positions.row(vertices.moving[i]) = solution.row(static_cast<Eigen::Index>(i));

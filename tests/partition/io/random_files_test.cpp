@@ -77,7 +77,9 @@ TEST_CASE("random meshes come back from every kind of file, to the bit")
         const test::RandomMesh random = mesh_of(seed);
         CAPTURE(seed);
         CAPTURE(random.description);
-        for (const auto& [name, kind] : forms) {
+        for (const auto& form : forms) {
+            const auto& name = form.name;
+            const auto& kind = form.kind;
             CAPTURE(name);
             const MeshFile read = test::round_trip(random.mesh, name, kind);
             CHECK(read.kind == kind);
@@ -92,7 +94,9 @@ TEST_CASE("random meshes that are moved come back from files in the form of thos
         test::RandomMesh random = mesh_of(seed);
         CAPTURE(seed);
         CAPTURE(random.description);
-        for (const auto& [name, kind] : forms) {
+        for (const auto& form : forms) {
+            const auto& name = form.name;
+            const auto& kind = form.kind;
             CAPTURE(name);
             const test::TemporaryDirectory folder;
             write_mesh(folder / name, random.mesh, kind);
