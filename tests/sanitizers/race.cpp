@@ -5,7 +5,8 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstring>
+#include <memory>
+#include <string>
 
 #include "engine/parallel_loop.h"
 #include "engine/task_graph.h"
@@ -30,13 +31,16 @@ class Meeting {
     std::atomic<int> n_arrived_{0};
 };
 
+/// So often is a race made: now and then one thread does both parts before another has come.
+constexpr int attempts = 20;
+
 /// Two tasks after one, both of which write; or the second after the first.
 void write_in_tasks(long& number, bool ordered)
 {
-    Meeting meeting;
+    std::unique_ptr<Meeting> meeting;
     const auto write = [&] {
         if (!ordered)
-            meeting.arrive();
+            meeting->arrive();
         ++number;
     };
     TaskGraph graph;
@@ -47,30 +51,39 @@ void write_in_tasks(long& number, bool ordered)
     graph.add_dependency(root, before);
     graph.add_dependency(before, one);
     graph.add_dependency(ordered ? one : before, other);
-    for (int run = 0; run < 50; ++run)
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        meeting = std::make_unique<Meeting>();
         graph.run(root);
+    }
+}
+
+/// Both parts of a loop, or of a pair, write.
+void write_at_once(long& number, bool in_loop)
+{
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        Meeting meeting;
+        const auto write = [&] {
+            meeting.arrive();
+            ++number;
+        };
+        if (in_loop)
+            for_each(run_in_parallel, 2, [&](Index) { write(); });
+        else
+            run_both(write, write);
+    }
 }
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-    const char* const kind = argc == 2 ? argv[1] : "";
+    const std::string kind = argc == 2 ? argv[1] : "";
     long number = 0;
-    Meeting meeting;
-    const auto write = [&] {
-        meeting.arrive();
-        ++number;
-    };
     Workers(2).execute([&] {
-        if (std::strcmp(kind, "tasks") == 0)
-            write_in_tasks(number, false);
-        else if (std::strcmp(kind, "loop") == 0)
-            for_each(run_in_parallel, 2, [&](Index) { write(); });
-        else if (std::strcmp(kind, "pair") == 0)
-            run_both(write, write);
+        if (kind == "loop" || kind == "pair")
+            write_at_once(number, kind == "loop");
         else
-            write_in_tasks(number, true);
+            write_in_tasks(number, kind != "tasks");
     });
     return number > 0 ? 0 : 1;
 }
