@@ -20,8 +20,8 @@ namespace seamflow {
 ///        before the first step, and the report is of all steps.
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits, both for
 ///         a state to go on from that belongs to another flow; ComputationError, naming step and sub-mesh, for a system
-///         that is singular or a result that is not finite, and for a failure of METIS; Cancelled where control.stop
-///         was requested and work was left; std::bad_alloc.
+///         that is singular, a result that is not finite or beyond FlowOptions::largest_update, and for a failure of
+///         METIS; Cancelled where control.stop was requested and work was left; std::bad_alloc.
 FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
                                const FlowControl& control = {});
 
