@@ -121,8 +121,9 @@ void DriftEstimate::save(StepMemory& memory) const
 
 void DriftEstimate::restore(StepMemoryReader& memory)
 {
-    corrected_ = memory.array(corrected_.rows());
-    swept_ = memory.array(swept_.rows());
+    // An estimate that has overflowed is no reason to stop the flow, and none to refuse to go on.
+    corrected_ = memory.array_of_any(corrected_.rows());
+    swept_ = memory.array_of_any(swept_.rows());
 }
 
 std::optional<double> DriftEstimate::largest() const

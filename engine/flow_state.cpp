@@ -11,19 +11,20 @@ namespace {
     throw InputError("the state to go on from does not fit the flow: it has been changed or belongs to another one");
 }
 
-void require_finite(const Points& points)
-{
-    if (!points.allFinite())
-        refuse();
-}
-
 }  // namespace
 
 const Points& StepMemoryReader::array(Eigen::Index rows)
 {
+    const Points& points = array_of_any(rows);
+    if (!points.allFinite())
+        refuse();
+    return points;
+}
+
+const Points& StepMemoryReader::array_of_any(Eigen::Index rows)
+{
     if (next_array_ == memory_->arrays.size() || memory_->arrays[next_array_].rows() != rows)
         refuse();
-    require_finite(memory_->arrays[next_array_]);
     return memory_->arrays[next_array_++];
 }
 

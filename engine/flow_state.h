@@ -27,8 +27,11 @@ class StepMemoryReader {
     {
     }
 
-    /// @throws InputError if there is no further array, or it has not that many rows.
+    /// @throws InputError if there is no further array, or it has not that many rows, or numbers that are not finite.
     const Points& array(Eigen::Index rows);
+
+    /// The same for an array whose numbers may be any.
+    const Points& array_of_any(Eigen::Index rows);
 
     /// The same for an array with that many rows or none.
     const Points& array_or_none(Eigen::Index rows);

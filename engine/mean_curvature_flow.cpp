@@ -206,6 +206,8 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
     double curvature_before =
         report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
+    const bool is_rescaled = options.rescale != Rescale::None;
+    Points before = is_rescaled ? flow.positions() : Points();
     Points rescaled;
     Points undecomposed;
     for (int step = first; step <= options.steps; ++step) {
@@ -217,9 +219,12 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
         rescaled = flow.positions();
+        // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named("step " + std::to_string(step), [&] {
+            limit.require(is_rescaled ? before : run.mesh.vertices, rescaled, run.report.labels);
+            if (is_rescaled)
+                before = rescaled;
             rescaling.apply(rescaled);
-            limit.require(run.mesh.vertices, rescaled, run.report.labels);
         });
         of_step.displacement = meter.add_step(mesh.vertices, rescaled);
         curvature = measure_curvature(mesh, topology, rescaled, options.laplacian);
@@ -229,7 +234,7 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         if (reference != nullptr) {
             compare_with(*reference, run, step, shares, flow.positions(), of_step);
             undecomposed = reference->positions();
-            rescaling.apply(undecomposed);
+            named("step " + std::to_string(step) + " of the undecomposed flow", [&] { rescaling.apply(undecomposed); });
         }
         shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 

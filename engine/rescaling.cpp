@@ -103,7 +103,8 @@ void Rescaling::apply(Points& positions) const
     const double ratio = first_.size / now.size;
     // A surface that has fewer digits left would come out as what rounding has made of it.
     constexpr double digits_wanted = 1e4;
-    const double rounding = std::numeric_limits<double>::epsilon() * positions.cwiseAbs().maxCoeff();
+    const double farthest = now.centroid.cwiseAbs().maxCoeff() + std::sqrt(now.area);
+    const double rounding = std::numeric_limits<double>::epsilon() * farthest;
     const bool sound = std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite();
     if (!sound || !(std::sqrt(now.area) > digits_wanted * rounding))
         throw ComputationError("there is too little left of the surface to scale it back to its size: use a smaller "

@@ -29,7 +29,7 @@ double diagonal_of(const PolygonMesh& mesh)
     return (high - low).matrix().stableNorm();
 }
 
-/// The vertex that moves furthest, or the first whose position is not finite.
+/// The first vertex whose position is not finite, or the one that moves furthest.
 /// @param unit about the size of the mesh, so that squares neither overflow nor vanish.
 Index farthest_mover(const Points& before, const Points& after, double unit)
 {
@@ -41,15 +41,20 @@ Index farthest_mover(const Points& before, const Points& after, double unit)
             if (of_v <= square)
                 return;
             vertex = v;
-            square = std::isnan(of_v) ? std::numeric_limits<double>::infinity() : of_v;
+            square = of_v;
         }
     };
     const auto n = static_cast<Index>(after.rows());
     const double scale = std::isnormal(1.0 / unit) ? 1.0 / unit : 1.0;
+    // What overflows is far, but less far than what is not finite.
+    const auto square_of = [scale](const auto& to, const auto& from) {
+        return to.allFinite() ? std::min(((to - from) * scale).squaredNorm(), std::numeric_limits<double>::max())
+                              : std::numeric_limits<double>::infinity();
+    };
     std::vector<Mover> of_block(at(n / block_size) + 1);
     for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
         for (Index v = begin; v < end; ++v)
-            of_block[at(block)].meet(v, ((after.row(v) - before.row(v)) * scale).squaredNorm());
+            of_block[at(block)].meet(v, square_of(after.row(v), before.row(v)));
     });
     Mover farthest;
     for (const Mover& mover : of_block)
@@ -78,22 +83,24 @@ void UpdateLimit::require(const Points& before, const Points& after, std::span<c
     if (after.rows() == 0)
         return;
     const Index vertex = farthest_mover(before, after, diagonal_);
-    const double update = after.row(vertex).allFinite() ? (after.row(vertex) - before.row(vertex)).stableNorm()
-                                                        : std::numeric_limits<double>::infinity();
-    if (!std::isfinite(update) || update > largest_)
-        refuse(vertex, update, labels);
+    if (!after.row(vertex).allFinite())
+        refuse(vertex, "would go to a position that is not finite", labels);
+    const double update = (after.row(vertex) - before.row(vertex)).stableNorm();
+    if (update > largest_)
+        refuse(vertex,
+               "would move by " + number(update) +
+                   (largest_ == diagonal_ ? ", but the mesh is " + number(diagonal_) + " across"
+                                          : ", but largest_update allows " + number(largest_) + " at most"),
+               labels);
 }
 
-void UpdateLimit::refuse(Index vertex, double update, std::span<const Index> labels) const
+void UpdateLimit::refuse(Index vertex, const std::string& what, std::span<const Index> labels) const
 {
     Index face = 0;
     while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), vertex) == mesh_.face(face).end())
         ++face;
     const std::string where =
         face < mesh_.n_faces() ? "sub-mesh " + std::to_string(labels[at(face)]) + ", " : std::string();
-    const std::string what =
-        std::isfinite(update) ? "would move by " + number(update) + ", but the mesh is " + number(diagonal_) + " across"
-                              : std::string("would go to a position that is not finite");
     throw ComputationError(where + "vertex " + std::to_string(vertex) + " " + what +
                            ": use a smaller time step, another Laplacian, or repair the mesh there");
 }

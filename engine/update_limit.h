@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "partition/polygon_mesh.h"
 
@@ -22,7 +23,7 @@ class UpdateLimit {
     void require(const Points& before, const Points& after, std::span<const Index> labels) const;
 
   private:
-    [[noreturn]] void refuse(Index vertex, double update, std::span<const Index> labels) const;
+    [[noreturn]] void refuse(Index vertex, const std::string& what, std::span<const Index> labels) const;
 
     const PolygonMesh& mesh_;
     double diagonal_ = 0.0;

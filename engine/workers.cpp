@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <latch>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,17 +23,11 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// oneTBB ends the program where the system refuses it a thread, which is so where the address space is limited and
-/// full. So that it does not come to that, threads are made here first; the C library keeps the memory of their stacks
-/// for those that oneTBB makes.
-/// @throws ComputationError if there is no room for them.
-void require_room_for_threads(int n)
+/// Makes that many threads with stacks like oneTBB's, and ends them.
+/// @returns whether the system has let it.
+bool can_make_threads(int n)
 {
-    constexpr std::size_t stack_bytes_of_tbb = std::size_t{4} << 20;
-    rlimit limit = {};
-    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-        return;
-    std::vector<pthread_t> threads(static_cast<std::size_t>(std::max(n, 0)));
+    std::vector<pthread_t> threads(static_cast<std::size_t>(n));
     std::latch all_made(1);
     const auto wait = [](void* latch) -> void* {
         static_cast<std::latch*>(latch)->wait();
@@ -40,7 +35,7 @@ void require_room_for_threads(int n)
     };
     pthread_attr_t attributes;
     int error = ::pthread_attr_init(&attributes);
-    ::pthread_attr_setstacksize(&attributes, stack_bytes_of_tbb);
+    ::pthread_attr_setstacksize(&attributes, tbb::global_control::active_value(tbb::global_control::thread_stack_size));
     std::size_t n_made = 0;
     while (error == 0 && n_made < threads.size())
         if (error = ::pthread_create(&threads[n_made], &attributes, wait, &all_made); error == 0)
@@ -49,9 +44,28 @@ void require_room_for_threads(int n)
     for (std::size_t i = 0; i < n_made; ++i)
         ::pthread_join(threads[i], nullptr);
     ::pthread_attr_destroy(&attributes);
-    if (error != 0)
+    return error == 0;
+}
+
+/// oneTBB ends the program where the system refuses it a thread, which is so where the address space is limited and
+/// full. So that it does not come to that, threads are made here first. The C library keeps the memory of their stacks
+/// for those that oneTBB makes, of the first nine or so (40 MiB); that of more could be taken in between.
+/// @throws ComputationError if there is no room for them.
+void require_room_for_threads(int n)
+{
+    static std::mutex mutex;
+    // oneTBB keeps its threads.
+    static int most_made = 0;
+    rlimit limit = {};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return;
+    const std::lock_guard lock(mutex);
+    if (n <= most_made)
+        return;
+    if (!can_make_threads(n))
         throw ComputationError("there is no memory for " + std::to_string(n) +
                                " more threads: use fewer (--threads), or raise the limit of this program (ulimit -v)");
+    most_made = n;
 }
 
 }  // namespace

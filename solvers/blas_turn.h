@@ -1,19 +1,21 @@
 #pragma once
 
-#include "partition/library_lock.h"
-
 namespace seamflow {
 
 /// To be held while a library calls BLAS. OpenBLAS needs a work area (128 MiB) for each call at a time, and where the
-/// address space is limited (ulimit -v) and full it asks for one again and again, for ever. So there one caller at a
-/// time may go on, and the first one only if there is room. Without a limit nobody waits.
+/// address space is limited (ulimit -v) and full it asks for one again and again, for ever. So where there is a limit,
+/// callers wait until there is plenty of room for one more, or none is left; the first one goes on only if its area
+/// fits. Without a limit nobody waits.
 class BlasTurn {
   public:
-    /// @throws std::bad_alloc if there is no room.
+    /// @throws ComputationError if there is no room.
     BlasTurn();
+    ~BlasTurn();
+    BlasTurn(const BlasTurn&) = delete;
+    BlasTurn& operator=(const BlasTurn&) = delete;
 
   private:
-    LibraryLock turn_;
+    bool is_counted_ = false;
 };
 
 }  // namespace seamflow

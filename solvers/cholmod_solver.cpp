@@ -55,6 +55,8 @@ namespace {
 /// CHOLMOD with 32-bit integers: faster, for systems whose factors have less than 2³¹ entries.
 struct IntInterface {
     using Integer = int;
+    static constexpr auto start = cholmod_start;
+    static constexpr auto finish = cholmod_finish;
     static constexpr auto analyze = cholmod_analyze;
     static constexpr auto factorize = cholmod_factorize;
     static constexpr auto solve = cholmod_solve2;
@@ -66,6 +68,8 @@ struct IntInterface {
 /// CHOLMOD with 64-bit integers, for whole meshes.
 struct LongInterface {
     using Integer = SuiteSparse_long;
+    static constexpr auto start = cholmod_l_start;
+    static constexpr auto finish = cholmod_l_finish;
     static constexpr auto analyze = cholmod_l_analyze;
     static constexpr auto factorize = cholmod_l_factorize;
     static constexpr auto solve = cholmod_l_solve2;
@@ -168,6 +172,17 @@ void solve_by(cholmod_factor* factor, cholmod_dense& right_hand_side, CholmodWor
     require_ok(common, "solution");
 }
 
+/// What CHOLMOD wants where it only frees: that takes no memory, so that it cannot fail.
+template <class Interface>
+struct Settings {
+    cholmod_common common;
+
+    Settings() { Interface::start(&common); }
+    ~Settings() { Interface::finish(&common); }
+    Settings(const Settings&) = delete;
+    Settings& operator=(const Settings&) = delete;
+};
+
 /// LLᵀ by dense blocks, in CHOLMOD's own memory.
 template <class Interface>
 class BlockFactor final : public CholmodSolver::Factor {
@@ -180,8 +195,8 @@ class BlockFactor final : public CholmodSolver::Factor {
     }
     ~BlockFactor() override
     {
-        CholmodWorkspace workspace;
-        Interface::free_factor(&factor_, &Interface::common(workspace));
+        Settings<Interface> settings;
+        Interface::free_factor(&factor_, &settings.common);
     }
 
     [[nodiscard]] std::size_t bytes() const override { return factor_->xsize * sizeof(double); }
@@ -206,8 +221,8 @@ class BlockFactor final : public CholmodSolver::Factor {
 
     void free() override
     {
-        CholmodWorkspace workspace;
-        Interface::change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor_, &Interface::common(workspace));
+        Settings<Interface> settings;
+        Interface::change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, factor_, &settings.common);
     }
 
   private:

@@ -108,11 +108,10 @@ class UmfpackSolver::BackendFor final : public Backend {
         if (pivots_do(values))
             return;
         way_ = &careful_;
-        if (careful_.symbolic == nullptr) {
+        // Iterative refinement needs more room.
+        work_.resize(5 * integer_work_.size());
+        if (careful_.symbolic == nullptr)
             analyse(careful_);
-            // Iterative refinement needs more room.
-            work_.resize(5 * integer_work_.size());
-        }
         is_nearly_singular_ = !pivots_do(values);
         require_ok(status_, "factorisation");
     }

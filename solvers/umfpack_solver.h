@@ -21,7 +21,8 @@ class UmfpackSolver {
     UmfpackSolver(UmfpackSolver&&) noexcept;
     UmfpackSolver& operator=(UmfpackSolver&&) noexcept;
 
-    /// UMFPACK's estimate of what a factor takes, in bytes; an upper bound for most matrices.
+    /// UMFPACK's estimate of what a factor takes, in bytes; an upper bound for most matrices, as long as pivots from
+    /// the diagonal do (see factorise).
     [[nodiscard]] std::size_t factor_bytes() const;
 
     /// Pivots are taken from the diagonal; where those would lose nearly all digits, the largest of each column are,

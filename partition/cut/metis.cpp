@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 #include <numeric>
 #include <string>
@@ -12,7 +13,6 @@
 
 #include "partition/errors.h"
 #include "partition/index.h"
-#include "partition/library_lock.h"
 
 namespace seamflow {
 
@@ -26,9 +26,9 @@ constexpr Index min_nodes_per_part_k_way = 50;
 constexpr Index min_nodes_per_refined_part_k_way = 120;
 
 /// METIS draws from the C library's random numbers and installs signal handlers: one caller at a time.
-LibraryMutex& metis_mutex()
+std::mutex& metis_mutex()
 {
-    static LibraryMutex mutex;
+    static std::mutex mutex;
     return mutex;
 }
 
@@ -104,7 +104,7 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
     std::vector<idx_t> labels(at(graph.n_nodes()), 0);
     auto n_parts = static_cast<idx_t>(std::min(shares.size(), labels.size()));
     if (n_parts > 1) {
-        const LibraryLock lock(metis_mutex());
+        const std::lock_guard lock(metis_mutex());
         const OwnRandomNumbers own;
         const bool k_way =
             graph.n_nodes() / n_parts >=

@@ -32,7 +32,8 @@ void plan_sub_mesh(const Decomposition& decomposition, Index s, SweepPlan& plan)
     plan.traces[at(s)] = transfers_to(s, rows);
 }
 
-/// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ.
+/// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ, of which
+/// one has all faces of both.
 TransferRow sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s, Index halo_vertex)
 {
     const Index vertex = decomposition.sub_meshes[at(s)].local_to_global[at(halo_vertex)];
@@ -40,7 +41,8 @@ TransferRow sender_of(const Decomposition& decomposition, std::span<const Index>
         if (t != s)
             if (const Index local = local_index(decomposition.sub_meshes[at(t)], vertex); local >= 0)
                 return {t, local, halo_vertex};
-    return {-1, -1, halo_vertex};
+    assert(false && "a face beyond Γ belongs to a sub-mesh with all its vertices");
+    return {-1, -1, -1};
 }
 
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
@@ -58,7 +60,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                 // The lowest of all, whichever vertex of Γ comes first: numbers of vertices decide nothing.
                 TransferRow& sender = senders[at(v - sub_mesh.n_vertices)];
                 if (const TransferRow found = sender_of(decomposition, interface.sharing[i], s, v);
-                    sender.from < 0 || found.from < sender.from)
+                    sender.from < 0 || (found.from >= 0 && found.from < sender.from))
                     sender = found;
             }
     }

@@ -31,8 +31,8 @@ ExitStatus guarded(const char* program, const std::function<ExitStatus()>& body)
     } catch (const std::bad_alloc&) {
         return tell(program,
                     "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or "
-                    "give it less to do "
-                    "at once (more --subdomains, fewer --threads, fewer vertices)",
+                    "give it less to do at once (fewer vertices; where these options are, more --subdomains or fewer "
+                    "--threads)",
                     ExitStatus::ComputationFailed);
     } catch (const std::exception& error) {
         return tell(program, error.what(), ExitStatus::ComputationFailed);

@@ -58,10 +58,13 @@ StepObserver LongRun::observing(StepObserver inner)
 {
     return [this, inner = std::move(inner)](const StepState& state) {
         bar_.erase();
-        inner(state);
+        // Before what may fail: the mesh has moved already.
+        if (state.pieces != nullptr) {
+            PolygonMesh pieces = *state.pieces;
+            pieces_ = std::move(pieces);
+        }
         step_ = state.step;
-        if (state.pieces != nullptr)
-            pieces_ = *state.pieces;
+        inner(state);
         if (checkpoints_)
             checkpoints_->keep(state, state.step == command_->options.steps);
     };

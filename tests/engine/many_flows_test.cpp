@@ -10,19 +10,15 @@
 
 #include "tests/support/outcome.h"
 #include "tests/support/random_flows.h"
+#include "tests/support/sanitizers.h"
 
 using namespace seamflow;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// Sanitizers look for leaks themselves, and have an allocator of their own.
-constexpr bool counts_memory = false;
-constexpr int n_rounds = 2;
-#else
-constexpr bool counts_memory = true;
-constexpr int n_rounds = 21;
-#endif
+/// Sanitizers look for leaks themselves, and have an allocator of their own.
+constexpr bool counts_memory = !test::under_sanitizers;
+constexpr int n_rounds = test::under_sanitizers ? 2 : 21;
 constexpr int flows_per_round = 500;
 constexpr int rounds_to_warm_up = 1;
 

@@ -32,12 +32,12 @@ struct Work {
 enum class Ending { Success, OutOfMemory, Other };
 
 /// How a run with a failing allocation has ended. Without taking memory.
-struct Outcome {
+struct FailedRun {
     Ending ending = Ending::Success;
     char message[300] = {};
     bool has_failed = false;
 
-    Outcome(const std::function<void()>& run, long n, Failing failing)
+    FailedRun(const std::function<void()>& run, long n, Failing failing)
     {
         const FailingAllocation allocation(n, failing);
         try {
@@ -69,10 +69,11 @@ inline void fail_every_allocation(const Work& work)
         for (long n = 1;; ++n) {
             CAPTURE(n);
             const long before = live_blocks();
-            const Outcome outcome(work.run, n, failing);
+            const FailedRun outcome(work.run, n, failing);
             const long lost = live_blocks() - before;
             if (!outcome.has_failed) {
                 CHECK(n > 1);
+                CHECK(outcome.ending == Ending::Success);
                 CHECK(work.result() == expected);
                 break;
             }

@@ -11,8 +11,9 @@
 #include "tests/faults/failing_malloc.h"
 
 #include "tests/support/allocations.h"
+#include "tests/support/sanitizers.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if SEAMFLOW_UNDER_SANITIZERS
 
 bool seamflow::test::has_failing_malloc()
 {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tests/samples/workshop.h"
+#include "tests/support/sanitizers.h"
 
 using namespace seamflow;
 using test::Workshop;
@@ -29,12 +30,9 @@ long least_for(const Workshop& w, long failing, const std::string& command)
 
 }  // namespace
 
-TEST_CASE("with whatever memory, smooth succeeds, or says with status 4 that it does not suffice")
+TEST_CASE("with whatever memory, smooth succeeds, or says with status 4 that it does not suffice" *
+          doctest::skip(test::under_sanitizers))
 {
-#ifdef HAS_SANITIZER
-    MESSAGE("skipped: the sanitizer is in the way");
-    return;
-#endif
     const Workshop w;
     REQUIRE(w.run(GENERATE " triangles large.ply --vertices 10000") == 0);
     const long start = least_for(w, 1000, SMOOTH " --version");

@@ -98,8 +98,21 @@ TEST_CASE("what standard output could not take ends with 5; every program knows 
 TEST_CASE("a degenerate mesh flows but for its degenerate vertices, or is refused where that is asked for")
 {
     const Workshop w;
-    (void)w.directory.with("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 .3\nv .5 .5 .3\n"
-                                       "f 1 2 5\nf 2 3 5\nf 3 6 5\nf 3 4 6\nf 4 1 6\nf 1 5 6\n");
+    // Four squares in a row, between two others: of the three inner vertices the first two are in one place.
+    (void)w.directory.with(
+        "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 0 1 0\nv 1 1 .3\nv 1 1 .3\nv 3 1 .3\nv 4 1 0\n"
+                    "v 0 2 0\nv 1 2 0\nv 2 2 0\nv 3 2 0\nv 4 2 0\n"
+                    "f 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 6 7 12 11\nf 7 8 13 12\nf 8 9 14 13\n"
+                    "f 9 10 15 14\n");
+    REQUIRE(w.smooth("flat.obj flowed.obj --time-step 0.01") == 0);
+    CHECK(w.said().find("2 vertices are held fixed") != std::string::npos);
+    const Points before = read_mesh(w.directory / "flat.obj").mesh.vertices;
+    const Points after = read_mesh(w.directory / "flowed.obj").mesh.vertices;
+    REQUIRE(after.rows() == before.rows());
+    CHECK(after.row(8) != before.row(8));
+    CHECK(after.topRows(8) == before.topRows(8));
+    CHECK(after.bottomRows(6) == before.bottomRows(6));
+
     CHECK(w.smooth("flat.obj out.obj --time-step 0.01 --strict") == 3);
     CHECK_FALSE(w.has("out.obj"));
     CHECK(w.smooth("mesh.obj out.obj --time-step 0.01 --strict") == 0);

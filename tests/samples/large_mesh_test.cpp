@@ -1,17 +1,13 @@
 #include "tests/samples/workshop.h"
+#include "tests/support/sanitizers.h"
 
 using namespace seamflow::test;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// What sanitizers keep about memory would not fit, and they are slow.
-constexpr const char* vertices = "20000";
-constexpr const char* address_space = "unlimited";
-#else
-constexpr const char* vertices = "1000000";
-constexpr const char* address_space = "1100000";
-#endif
+/// What sanitizers keep about memory would not fit, and they are slow.
+constexpr const char* vertices = under_sanitizers ? "20000" : "1000000";
+constexpr const char* address_space = under_sanitizers ? "unlimited" : "1100000";
 
 }  // namespace
 

@@ -48,20 +48,20 @@ valgrind_flow() {
 }
 
 (($# > 0)) || set -- asan tsan valgrind
+for part in "$@"; do
+    if [[ "$part" != @(asan|tsan|valgrind) ]]; then
+        echo "there is no part $part: asan, tsan, valgrind" >&2
+        exit 2
+    fi
+done
 mapfile -t more < <(page_packages)
 install_packages doxygen "${sanitizer_packages[@]}" "${more[@]}"
 
 summary=()
 status=0
 for part in "$@"; do
-    case "$part" in
-    asan | tsan) run="$part" ;;
-    valgrind) run=valgrind_flow ;;
-    *)
-        echo "there is no part $part: asan, tsan, valgrind" >&2
-        exit 2
-        ;;
-    esac
+    run="$part"
+    [[ "$part" != valgrind ]] || run=valgrind_flow
     SECONDS=0
     # In a shell of its own, which ends at the first command that fails; `if` and `||` would switch that off.
     set +e

@@ -120,16 +120,8 @@ TEST_CASE("large systems, solved with long integers, agree with small ones")
 
 TEST_CASE("where pivots on the diagonal would lose all digits, larger ones are found")
 {
-    // Pivots of 0.002 below entries of 1 are what the first way accepts, and lets entries grow 500-fold for each.
     const Index n = 14;
-    std::vector<MatrixEntry> entries;
-    for (Index i = 0; i < n; ++i)
-        for (Index j = 0; j < n; ++j)
-            entries.push_back({i, j});
-    const SparsePattern pattern = make_pattern(n, entries);
-    std::vector<double> values(entries.size());
-    for (const auto& [i, j] : entries)
-        values[at(pattern.slot({i, j}))] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
+    const auto [pattern, values] = growing_matrix(n);
     RandomNumbers random(5);
     const Columns right_hand_side = random_columns(n, random);
     Columns solution(n, 3);

@@ -91,14 +91,7 @@ TEST_CASE("matrices that are nearly singular are found out, and those whose pivo
     CHECK_FALSE(solver.is_nearly_singular());
 
     const Index n = 14;
-    std::vector<MatrixEntry> entries;
-    for (Index i = 0; i < n; ++i)
-        for (Index j = 0; j < n; ++j)
-            entries.push_back({i, j});
-    const SparsePattern full = make_pattern(n, entries);
-    std::vector<double> growing(entries.size());
-    for (const auto& [i, j] : entries)
-        growing[at(full.slot({i, j}))] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
+    const auto [full, growing] = growing_matrix(n);
     UnsymmetricSolver careful(full);
     RandomNumbers random(6);
     const Columns of_full = random_columns(n, random);

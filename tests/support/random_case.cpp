@@ -92,6 +92,7 @@ void compare_with_undecomposed(Case& c, const Outcome& outcome, double tolerance
         const double moved = largest_difference(exact->positions, from);
         const double most = exact->rounding + 10.0 * tolerance * exact->condition * moved;
         const double distance = largest_difference(exact->positions, outcome.states[step]);
+        ++c.n_compared[what];
         c.expect(distance <= most, what + " step " + std::to_string(step) + " is " + text_of(distance / moved) +
                                        " of its length off, may be " + text_of(most / moved));
     }
@@ -168,6 +169,7 @@ void check_memory_limit(Case& c)
         check_same(c, refused, "a memory limit of 1");
         return;
     }
+    ++c.n_compared["memory limit"];
     c.expect(same_bits(refused.end, c.mesh().vertices), "a refusal has moved the mesh");
     options.memory_limit = std::stoul(match[1]) + (c.random.unit() < 0.5 ? 0 : 1 + at(c.random.below(100'000)));
     const Outcome limited = outcome_of(c.mesh(), options);
@@ -191,6 +193,7 @@ void check_resume(Case& c)
     const auto done = static_cast<std::size_t>(state.n_steps());
     const Outcome resumed =
         outcome_of(c.mesh(), options, {.resume = std::make_shared<const FlowState>(std::move(state))});
+    ++c.n_compared["resumed"];
     c.expect(resumed.refusal == c.expected.refusal, "resumed: " + resumed.refusal + " " + resumed.message);
     c.expect(same_bits(resumed.end, c.expected.end), "resumed after step " + std::to_string(done) + ": other bits");
     for (std::size_t i = 1; i < resumed.states.size(); ++i)
@@ -210,6 +213,7 @@ void check_cancelled(Case& c)
         check_same(c, outcome, "hardly stopped");
         return;
     }
+    ++c.n_compared["stopped"];
     c.expect(outcome.states.size() <= c.expected.states.size(), "stopped after its end");
     c.expect(same_bits(outcome.end, outcome.states.back()) &&
                  same_bits(outcome.end, c.expected.states.at(outcome.states.size() - 1)),
@@ -255,6 +259,7 @@ void check_rescaled(Case& c)
     const double full = std::pow(std::max(before.area, after.area), 1.5);
     const double part = kind == Rescale::Area ? 1.0 : std::min(1.0, std::abs(before.volume) / full);
     const double ratio = kind == Rescale::Area ? after.area / before.area : after.volume / before.volume;
+    ++c.n_compared["rescaled"];
     c.expect(std::abs(ratio - 1.0) < most / part, "rescaled to another size, times " + text_of(ratio));
     c.expect((after.centroid - before.centroid).norm() < most * size,
              "rescaled to another place, " + text_of((after.centroid - before.centroid).norm() / c.extent()) +

@@ -2,19 +2,15 @@
 
 #include <array>
 #include <charconv>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "engine/flow_remarks.h"
 #include "tests/support/outcome.h"
 #include "tests/support/random_flows.h"
 
 namespace seamflow::test {
-
-/// The diagonal of the bounding box.
-inline double extent_of(const Points& positions)
-{
-    return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
-}
 
 /// A few digits of a number of any size.
 inline std::string text_of(double value)
@@ -30,6 +26,8 @@ struct Case {
     RandomNumbers random;
     Outcome expected = {};
     std::vector<std::string> complaints = {};
+    /// How often something was compared indeed: where a check has nothing to say of a flow, it leaves that out.
+    std::map<std::string, int> n_compared = {};
 
     void expect(bool holds, const std::string& what)
     {

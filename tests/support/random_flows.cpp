@@ -14,11 +14,6 @@ namespace seamflow::test {
 
 namespace {
 
-double power_of_ten(double low, double high, RandomNumbers& random)
-{
-    return std::pow(10.0, low + (high - low) * random.unit());
-}
-
 template <class Value>
 Value one_of(std::initializer_list<Value> values, RandomNumbers& random)
 {
@@ -41,16 +36,15 @@ void choose_cut(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& opt
     options.coloring = one_of({Coloring::Greedy, Coloring::Greedy, Coloring::Label}, random);
 }
 
-void choose_robin(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& options)
+void choose_robin(RandomNumbers& random, FlowOptions& options)
 {
     if (random.unit() < 0.5)
         options.p = power_of_ten(-1.0, 1.0, random) / std::sqrt(options.time_step);
     options.p_rule = one_of({PRule::Paper, PRule::InverseStep}, random);
     options.p_edge = one_of({PEdge::Automatic, PEdge::Minimum, PEdge::Mean}, random);
-    static_cast<void>(mesh);
 }
 
-void choose_sweeps(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& options)
+void choose_sweeps(RandomNumbers& random, FlowOptions& options)
 {
     options.approach = Approach::Sweep;
     options.sweep = one_of({Sweep::Automatic, Sweep::Fixed, Sweep::Alternating}, random);
@@ -64,15 +58,15 @@ void choose_sweeps(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& 
     case 1:
         options.conditions = one_of({Conditions::Robin, Conditions::Ventcell}, random);
         options.keep_gaps = random.unit() < 0.3;
-        choose_robin(mesh, random, options);
+        choose_robin(random, options);
         break;
     case 2:
         options.conditions = Conditions::AdaptedVentcell;
-        choose_robin(mesh, random, options);
+        choose_robin(random, options);
         break;
     case 3:
         options.transmission = Transmission::Derivative;
-        choose_robin(mesh, random, options);
+        choose_robin(random, options);
         break;
     default:
         break;
@@ -85,7 +79,7 @@ void choose_approach(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions
 {
     const double kind = random.unit();
     if (kind < 0.45)
-        choose_sweeps(mesh, random, options);
+        choose_sweeps(random, options);
     else if (kind < 0.75) {
         options.coloring = Coloring::Greedy;
         options.tolerance = power_of_ten(-11.0, -1.0, random);

@@ -31,6 +31,25 @@ inline std::vector<double> random_values(const SparsePattern& pattern, RandomNum
     return values;
 }
 
+/// A dense matrix whose pivots on the diagonal, 0.002 below entries of 1, let entries grow 500-fold for each: large
+/// enough to be taken where a thousandth of the largest will do, and to lose all digits.
+struct GrowingMatrix {
+    SparsePattern pattern;
+    std::vector<double> values;
+};
+
+inline GrowingMatrix growing_matrix(Index n)
+{
+    std::vector<MatrixEntry> entries;
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < n; ++j)
+            entries.push_back({i, j});
+    GrowingMatrix matrix{.pattern = make_pattern(n, entries), .values = std::vector<double>(entries.size())};
+    for (const auto& [i, j] : entries)
+        matrix.values[at(matrix.pattern.slot({i, j}))] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
+    return matrix;
+}
+
 inline Columns random_columns(Index n, RandomNumbers& random)
 {
     Columns columns(n, 3);

@@ -146,12 +146,6 @@ void bend_and_shake(LooseMesh& mesh, RandomNumbers& random, Log& log)
     log.add("noise ", noise / edge);
 }
 
-/// 10 to a random power.
-double power_of_ten(double low, double high, RandomNumbers& random)
-{
-    return std::pow(10.0, low + (high - low) * random.unit());
-}
-
 void transform(LooseMesh& mesh, RandomNumbers& random, Log& log)
 {
     if (random.unit() < 0.2) {

@@ -1,11 +1,18 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "samples/common/meshes/random_numbers.h"
 #include "tests/support/loose_mesh.h"
 
 namespace seamflow::test {
+
+/// 10 to a random power.
+inline double power_of_ten(double low, double high, RandomNumbers& random)
+{
+    return std::pow(10.0, low + (high - low) * random.unit());
+}
 
 /// How nice a random mesh is.
 enum class Soundness {

@@ -74,6 +74,7 @@ void check_mirrored_and_scaled(Case& c)
     if (options.p)
         options.p = *options.p / scale;
     const Outcome outcome = outcome_of(mesh, options);
+    ++c.n_compared["mirrored and scaled"];
     c.expect(outcome.refusal == c.expected.refusal, "mirrored and scaled: " + outcome.refusal + outcome.message);
     c.expect(outcome.end == Points(c.expected.end.array().rowwise() * factors.array()),
              "times " + text_of(factors.x()) + " " + text_of(factors.y()) + " " + text_of(factors.z()) +
@@ -98,6 +99,7 @@ void check_turned_and_renumbered(Case& c)
     PolygonMesh mesh = renumbered(c.mesh(), new_vertex, old_face);
     mesh.vertices = motion.applied(mesh.vertices);
     const Outcome outcome = outcome_of(mesh, renumbered(options, new_vertex, old_face));
+    ++c.n_compared["turned and renumbered"];
     c.expect(outcome.refusal.empty(), "turned and renumbered: " + outcome.message);
     const Points expected = motion.applied(c.expected.end);
     double distance = 0.0;

@@ -4,8 +4,11 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <span>
 
 #include <unistd.h>
+
+#include "tests/support/sanitizers.h"
 
 namespace seamflow::test {
 
@@ -14,16 +17,16 @@ class SeedAnnouncer {
   public:
     SeedAnnouncer()
     {
-        for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGALRM, SIGTERM})
-            std::signal(signal, announce);
+        for (std::size_t i = 0; i < signals.size(); ++i)
+            before_[i] = std::signal(signals[i], announce);
     }
     SeedAnnouncer(const SeedAnnouncer&) = delete;
     SeedAnnouncer& operator=(const SeedAnnouncer&) = delete;
     ~SeedAnnouncer()
     {
         alarm(0);
-        for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGALRM, SIGTERM})
-            std::signal(signal, SIG_DFL);
+        for (std::size_t i = 0; i < signals.size(); ++i)
+            std::signal(signals[i], before_[i]);
     }
 
     /// Begins a case, which should be over within the time.
@@ -35,6 +38,9 @@ class SeedAnnouncer {
     }
 
   private:
+    // Sanitizers take crashes themselves, and say more of them.
+    static constexpr std::array crashes_and_ends{SIGALRM, SIGTERM, SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
+    static constexpr auto signals = std::span(crashes_and_ends).first(under_sanitizers ? 2 : crashes_and_ends.size());
     // A signal handler sees nothing but what is static.
     static std::array<char, 64>& text()
     {
@@ -53,6 +59,8 @@ class SeedAnnouncer {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
+
+    std::array<void (*)(int), crashes_and_ends.size()> before_{};
 };
 
 }  // namespace seamflow::test

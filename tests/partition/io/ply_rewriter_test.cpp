@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include <doctest/doctest.h>
 
@@ -102,6 +103,24 @@ TEST_CASE("PLY in its own form: whole numbers become doubles where the result ha
     CHECK(after.remarks.size() == 1);
     CHECK(read_text("a.ply", after.content).mesh.vertices.row(1) == Point(2, 0.1, 0));
     CHECK(after.content.size() == before.size() + 1 + 3 * 6);
+}
+
+TEST_CASE_TEMPLATE("binary PLY in its own form: a whole number stays one up to the last that its type has", Whole,
+                   std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t)
+{
+    const std::string type = (std::is_signed_v<Whole> ? "int" : "uint") + std::to_string(8 * sizeof(Whole));
+    constexpr Whole most = std::numeric_limits<Whole>::max();
+    constexpr Whole least = std::numeric_limits<Whole>::lowest();
+    for (const std::endian order : {std::endian::big, std::endian::little}) {
+        const std::string before = binary_file<Whole>(order, type, 1, 0);
+        const auto moved_to = [&](double x, double y) {
+            return rewritten("a.ply", before, [=](Points& points) { points.row(1) << x, y, 0; }).content;
+        };
+        CHECK((moved_to(most, least) == binary_file<Whole>(order, type, most, least)));
+        const std::string beyond = moved_to(double{most} + 1.0, double{least} - 1.0);
+        CHECK(contains(beyond, "property double x\r\nproperty double y\r\n"));
+        CHECK(read_text("a.ply", beyond).mesh.vertices.row(1) == Point(double{most} + 1.0, double{least} - 1.0, 0));
+    }
 }
 
 TEST_CASE("binary PLY in its own form: floats become doubles where the result is beyond them")

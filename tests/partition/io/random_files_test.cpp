@@ -22,9 +22,9 @@ struct Form {
 };
 constexpr std::array forms{Form{"mesh.obj", {FileFormat::Obj, Encoding::Ascii}},
                            Form{"mesh.off", {FileFormat::Off, Encoding::Ascii}},
-                           Form{"mesh.ply", {FileFormat::Ply, Encoding::Ascii}},
-                           Form{"mesh.ply", {FileFormat::Ply, Encoding::BinaryLittleEndian}},
-                           Form{"mesh.ply", {FileFormat::Ply, Encoding::BinaryBigEndian}}};
+                           Form{"text.ply", {FileFormat::Ply, Encoding::Ascii}},
+                           Form{"little.ply", {FileFormat::Ply, Encoding::BinaryLittleEndian}},
+                           Form{"big.ply", {FileFormat::Ply, Encoding::BinaryBigEndian}}};
 
 test::RandomMesh mesh_of(std::uint32_t seed)
 {
@@ -69,46 +69,45 @@ bool same_corners(const PolygonMesh& a, const PolygonMesh& b)
     return true;
 }
 
-}  // namespace
-
-TEST_CASE("random meshes come back from every kind of file, to the bit")
+/// Calls `check` with every random mesh and every form that holds it.
+template <class Check>
+void for_random_files(std::uint32_t n_meshes, const Check& check)
 {
-    for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    for (std::uint32_t seed = 1; seed <= n_meshes; ++seed) {
         const test::RandomMesh random = mesh_of(seed);
         CAPTURE(seed);
         CAPTURE(random.description);
-        for (const auto& form : forms) {
-            const auto& name = form.name;
-            const auto& kind = form.kind;
-            CAPTURE(name);
-            const MeshFile read = test::round_trip(random.mesh, name, kind);
-            CHECK(read.kind == kind);
-            CHECK(identical(read.mesh, random.mesh));
+        for (const Form& form : forms) {
+            CAPTURE(form.name);
+            check(random.mesh, form);
         }
     }
 }
 
+}  // namespace
+
+TEST_CASE("random meshes come back from every kind of file, to the bit")
+{
+    for_random_files(200, [](const PolygonMesh& mesh, const Form& form) {
+        const MeshFile read = test::round_trip(mesh, form.name, form.kind);
+        CHECK(read.kind == form.kind);
+        CHECK(identical(read.mesh, mesh));
+    });
+}
+
 TEST_CASE("random meshes that are moved come back from files in the form of those they were read from")
 {
-    for (std::uint32_t seed = 1; seed <= 100; ++seed) {
-        test::RandomMesh random = mesh_of(seed);
-        CAPTURE(seed);
-        CAPTURE(random.description);
-        for (const auto& form : forms) {
-            const auto& name = form.name;
-            const auto& kind = form.kind;
-            CAPTURE(name);
-            const test::TemporaryDirectory folder;
-            write_mesh(folder / name, random.mesh, kind);
-            const MeshFile read = read_mesh(folder / name);
-            PolygonMesh moved = read.mesh;
-            moved.vertices = 0.75 * moved.vertices.rowwise().reverse();
-            CHECK(write_mesh_like(*read.source, folder / name, moved).empty());
-            const MeshFile again = read_mesh(folder / name);
-            CHECK(again.kind == kind);
-            CHECK(identical(again.mesh, moved));
-        }
-    }
+    for_random_files(100, [](const PolygonMesh& mesh, const Form& form) {
+        const test::TemporaryDirectory folder;
+        write_mesh(folder / form.name, mesh, form.kind);
+        const MeshFile read = read_mesh(folder / form.name);
+        PolygonMesh moved = read.mesh;
+        moved.vertices = 0.75 * moved.vertices.rowwise().reverse();
+        CHECK(write_mesh_like(*read.source, folder / form.name, moved).empty());
+        const MeshFile again = read_mesh(folder / form.name);
+        CHECK(again.kind == form.kind);
+        CHECK(identical(again.mesh, moved));
+    });
 }
 
 TEST_CASE("random triangles come back from STL files with the same corners, or are refused for a reason")
