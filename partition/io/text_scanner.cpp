@@ -74,11 +74,17 @@ void TextScanner::load_line()
         static_cast<const char*>(std::memchr(next_, line_break_, static_cast<std::size_t>(end_ - next_)));
     line_end_ = line_break != nullptr ? line_break : end_;
     next_ = line_break != nullptr ? line_break + 1 : end_;
+    const void* comment = nullptr;
+    if (syntax_.comment != '\0')
+        comment = std::memchr(cursor_, syntax_.comment, static_cast<std::size_t>(line_end_ - cursor_));
+    if (comment != nullptr)
+        line_end_ = static_cast<const char*>(comment);
     while (cursor_ < line_end_ && is_blank(*cursor_))
         ++cursor_;
     while (cursor_ < line_end_ && is_blank(line_end_[-1]))
         --line_end_;
-    continued_ = syntax_.continuation && cursor_ < line_end_ && line_end_[-1] == '\\' && *cursor_ != syntax_.comment;
+    // The backslash at the end of a comment belongs to the comment.
+    continued_ = syntax_.continuation && comment == nullptr && cursor_ < line_end_ && line_end_[-1] == '\\';
     if (continued_)
         --line_end_;
 }
@@ -91,10 +97,6 @@ void TextScanner::skip_blanks()
         if (cursor_ < line_end_ || !continued_ || next_ == end_)
             break;
         load_line();
-    }
-    if (cursor_ < line_end_ && *cursor_ == syntax_.comment && syntax_.comment != '\0') {
-        cursor_ = line_end_;
-        continued_ = false;
     }
 }
 
@@ -115,7 +117,7 @@ bool TextScanner::next_line()
 
 bool TextScanner::ends_token(const char* c) const
 {
-    return c == line_end_ || is_blank(*c) || (*c == syntax_.comment && syntax_.comment != '\0');
+    return c == line_end_ || is_blank(*c);
 }
 
 bool TextScanner::has_token()

@@ -82,7 +82,7 @@ class TextScanner final : public InputPosition {
     std::string path_;
     TextSyntax syntax_;
     char line_break_ = '\n';
-    /// The line without its end; from cursor_ on it is still to be read.
+    /// The line without its end and comment; from cursor_ on it is still to be read.
     const char* cursor_;
     const char* line_end_;
     /// The next line, and the end of the text.

@@ -87,6 +87,21 @@ TEST_CASE("OBJ in its own form: a normal that is no number is made new, one that
     CHECK(contains(after, "vn 0 -0.8944272 0.4472136\nvn 0\nvn\nf"));
 }
 
+TEST_CASE(
+    "OBJ in its own form: a backslash at the end of a comment joins no lines, nor one behind a joined line's comment")
+{
+    for (const std::string first : {"v 0 0 0 # one \\\n", "v 0 0 0 1 \\\n# one \\\n", "v 0 0 0 \\\n @#2\\\r\n"}) {
+        CAPTURE(first);
+        const auto shift = [](Points& points) { points.col(2).setConstant(3.0); };
+        const std::string after = rewritten("a.obj", first + "v 1 0 0\nv 0 1 0\nf 1 2 3\n", shift).content;
+        const PolygonMesh mesh = read_text("a.obj", after).mesh;
+        REQUIRE(mesh.n_vertices() == 3);
+        CHECK((mesh.vertices.col(2).array() == 3.0).all());
+        CHECK(contains(after, "\nv 1 0 3\nv 0 1 3\nf 1 2 3\n"));
+        CHECK(after.starts_with("v 0 0 3"));
+    }
+}
+
 TEST_CASE("OBJ in its own form: a face without area has no normal, and the old one stays")
 {
     const std::string before = tent + "vn 0 -0.7 0.7\nf 1//1 2//1 6//1\n";
