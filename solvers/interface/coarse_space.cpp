@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "solvers/elimination_order.h"
-#include "solvers/factor_memory.h"
 #include "solvers/wide.h"
 
 namespace seamflow {
@@ -68,11 +67,6 @@ CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
     analyse();
     shares_.resize(static_cast<Eigen::Index>(functions_at_.values.size()), 3);
     coefficients_.resize(size(), 3);
-}
-
-CoarseSpace::~CoarseSpace()
-{
-    free_factor();
 }
 
 void CoarseSpace::find_functions()
@@ -169,13 +163,13 @@ void CoarseSpace::analyse()
 void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::span<const double> weights,
                           const Loop& loop)
 {
-    free_factor();
+    is_factorised_ = false;
     if (size() == 0)
         return;
     set_functions(weights, loop);
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, systems[at(s)]->schur()); });
     assemble();
-    is_factorised_ = solver_->factorise(values_, heap_memory(), workspace_);
+    is_factorised_ = solver_->factorise(values_, memory_, workspace_);
 }
 
 /// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
@@ -254,13 +248,6 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
         shares_.row(place) =
             scales_[at(s)] *
             multiply_column(products_[at(s)].data() + at(place - functions_at_.offsets[at(s)]) * at(n), local);
-}
-
-void CoarseSpace::free_factor()
-{
-    if (is_factorised_)
-        solver_->free_factor(heap_memory());
-    is_factorised_ = false;
 }
 
 }  // namespace seamflow

@@ -7,6 +7,7 @@
 #include "partition/index_lists.h"
 #include "partition/loop.h"
 #include "solvers/columns.h"
+#include "solvers/factor_memory.h"
 #include "solvers/interface/interface_copies.h"
 #include "solvers/ldl_solver.h"
 #include "solvers/systems/neumann_system.h"
@@ -25,7 +26,6 @@ class CoarseSpace {
     /// @param copies must outlive the space.
     /// @throws ComputationError if the analysis fails.
     explicit CoarseSpace(const InterfaceCopies& copies);
-    ~CoarseSpace();
     CoarseSpace(const CoarseSpace&) = delete;
     CoarseSpace& operator=(const CoarseSpace&) = delete;
 
@@ -50,7 +50,6 @@ class CoarseSpace {
     void multiply_functions(Index s, const DenseFactor& schur);
     void multiply_transposed(Index s, const Points& y);
     void assemble();
-    void free_factor();
 
     const InterfaceCopies& copies_;
     /// Per copy: the function that it belongs to, and what it adds to that at its vertex.
@@ -66,6 +65,7 @@ class CoarseSpace {
     std::vector<Index> unknown_of_;
     std::optional<LdlSolver> solver_;
     LdlWorkspace workspace_;
+    KeptMemory memory_;
     /// The entries of E, on and above the diagonal; where each of `entries` stands among them, and the diagonal.
     std::vector<double> values_;
     std::vector<Index> slots_;
