@@ -112,6 +112,18 @@ async function seenWith(opened, old, wanted) {
     }
 }
 
+/** What is seen of a page once that no longer changes, to compare with later: what came too early never comes again. */
+async function seenAtRest(opened) {
+    await drawn(opened);
+    for (let old = await seen(opened), patience = Date.now() + 30000; ; ) {
+        await drawn(opened);
+        const now = await seen(opened);
+        if ((await difference(old, now)) === 0 || Date.now() > patience)
+            return now;
+        old = now;
+    }
+}
+
 /** Does something to a page and requires that the surface looks different afterwards. */
 async function changes(opened, what, act, least = 0.01) {
     const old = await seen(opened);
@@ -176,7 +188,7 @@ test("every switch changes what is seen", async () => {
 test("the slider goes through the steps, and what is drawn comes again", async () => {
     const opened = await open(page("sphere"));
     await bare(opened);
-    const last = await seen(opened);
+    const last = await seenAtRest(opened);
     assert.equal(await opened.locator("#step-name").textContent(), "Step 4 of 4");
     for (const step of [3, 2, 1, 0])
         await changes(opened, `step ${step}`, () => setStep(opened, step), 0.005);
@@ -192,7 +204,7 @@ test("the slider goes through the steps, and what is drawn comes again", async (
 test("the surface is turned, brought nearer, moved, and put back", async () => {
     const opened = await open(page("mixed"));
     await bare(opened);
-    const first = await seen(opened);
+    const first = await seenAtRest(opened);
     const drag = async (button) => {
         await opened.mouse.move(400, 400);
         await opened.mouse.down({ button });
