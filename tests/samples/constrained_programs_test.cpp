@@ -98,7 +98,7 @@ TEST_CASE("what standard output could not take ends with 5; every program knows 
 TEST_CASE("a degenerate mesh flows but for its degenerate vertices, or is refused where that is asked for")
 {
     const Workshop w;
-    // Four squares in a row, between two others: of the three inner vertices the first two are in one place.
+    // Two rows of four squares: of the three inner vertices the first two are in one place.
     (void)w.directory.with(
         "flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 0 1 0\nv 1 1 .3\nv 1 1 .3\nv 3 1 .3\nv 4 1 0\n"
                     "v 0 2 0\nv 1 2 0\nv 2 2 0\nv 3 2 0\nv 4 2 0\n"
