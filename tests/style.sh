@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks the layout of all sources (.clang-format) and the names in them (.clang-tidy). Installs the two tools if they
-# are missing.
+# Checks the layout of all sources (.clang-format) and the names in them (.clang-tidy). Installs what is missing of
+# the two tools and of what they read: benchmark's sources include OpenMP's header, and the compiler's own is not clang's.
 #
 #     tests/style.sh
 
@@ -8,7 +8,7 @@ set -euo pipefail
 # shellcheck source=samples/common/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../samples/common/setup.sh"
 
-install_packages clang-format clang-tidy
+install_packages clang-format clang-tidy libomp-dev
 readonly folders=(partition solvers engine samples tests)
 find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
 configure release
