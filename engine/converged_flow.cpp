@@ -57,15 +57,22 @@ void ConvergedFlow::make_systems(const FlowOptions& options)
                      [&] { systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian); });
         progress_->count();
     });
-    for (const auto& system : systems_) {
+    for (const auto& system : systems_)
         system_views_.push_back(system.get());
-        factor_bytes_ += system->factor_bytes();
-    }
-    if (options.memory_limit && *options.memory_limit < factor_bytes_)
-        throw OptionError("memory_limit is " + std::to_string(*options.memory_limit) +
-                          " bytes, but a converged step keeps all factorisations at once, which take " +
-                          std::to_string(factor_bytes_) +
-                          ": raise it, or take sweeps (Approach::Sweep, --converge never)");
+    limit_factors(options);
+}
+
+void ConvergedFlow::limit_factors(const FlowOptions& options)
+{
+    std::vector<FactorBytes> bytes;
+    for (const auto& system : systems_)
+        bytes.push_back({system->factor_bytes(), system->bytes_on_interface()});
+    kept_ = choose_kept_factors(bytes, options.memory_limit, workspaces_.size());
+    for (std::size_t s = 0; s < systems_.size(); ++s)
+        if (kept_.whole[s] == 0)
+            systems_[s]->borrow_memory();
+    passing_factors_.use_blocks_of(kept_.bytes_per_place);
+    workspaces_.use(passing_factors_);
 }
 
 template <class Body>
@@ -82,6 +89,8 @@ void ConvergedFlow::make_graph()
     root_ = graph_.add_root();
     const auto solved = add_task(Phase::SolveInterface, -1, [this] { solve_interface(); });
     graph_.add_dependency(root_, solved);
+    std::vector<TaskGraph::Node> passing_eliminated;
+    std::vector<TaskGraph::Node> passing_filled;
     for (Index s = 0; s < static_cast<Index>(systems_.size()); ++s) {
         const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
         const auto eliminated =
@@ -91,7 +100,20 @@ void ConvergedFlow::make_graph()
         graph_.add_dependency(root_, eliminated);
         graph_.add_dependency(eliminated, solved);
         graph_.add_dependency(solved, filled);
+        if (kept_.whole[at(s)] == 0) {
+            passing_eliminated.push_back(eliminated);
+            passing_filled.push_back(filled);
+        }
     }
+    take_turns(passing_eliminated);
+    take_turns(passing_filled);
+}
+
+/// Each waits until one before it has given back the place of its factor.
+void ConvergedFlow::take_turns(const std::vector<TaskGraph::Node>& tasks)
+{
+    for (std::size_t i = at(kept_.n_places); i < tasks.size(); ++i)
+        graph_.add_dependency(tasks[i - at(kept_.n_places)], tasks[i]);
 }
 
 void ConvergedFlow::step()
@@ -104,10 +126,10 @@ void ConvergedFlow::step()
         recorder_->end_step();
 }
 
-void ConvergedFlow::eliminate(Index s)
+/// And condenses: both ways between Γ and the interior are open then.
+void ConvergedFlow::factorise(Index s, SolverWorkspace& workspace)
 {
     Stopwatch watch;
-    SolverWorkspace& workspace = workspaces_.local();
     NeumannSystem& system = *systems_[at(s)];
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
     set_rows(workspace.positions, sub_mesh.n_vertices);
@@ -121,6 +143,16 @@ void ConvergedFlow::eliminate(Index s)
     system.condense(workspace.positions, eliminated_[at(s)], condensed_.middleRows(first, system.n_interface()),
                     workspace);
     seconds_[at(s)].solve += watch.lap();
+}
+
+void ConvergedFlow::eliminate(Index s)
+{
+    SolverWorkspace& workspace = workspaces_.local();
+    factorise(s, workspace);
+    if (kept_.whole[at(s)] == 0) {
+        systems_[at(s)]->free_factor(workspace);
+        eliminated_[at(s)].resize(0, 3);
+    }
 }
 
 void ConvergedFlow::solve_interface()
@@ -139,6 +171,10 @@ void ConvergedFlow::solve_interface()
 
 void ConvergedFlow::fill_in(Index s)
 {
+    SolverWorkspace& workspace = workspaces_.local();
+    const bool is_kept = kept_.whole[at(s)] != 0;
+    if (!is_kept)
+        factorise(s, workspace);
     Stopwatch watch;
     NeumannSystem& system = *systems_[at(s)];
     Points& solution = eliminated_[at(s)];
@@ -153,6 +189,10 @@ void ConvergedFlow::fill_in(Index s)
         if (sub_mesh.owned[at(vertices[u])] != 0)
             next_.row(sub_mesh.local_to_global[at(vertices[u])]) =
                 positions_.row(sub_mesh.local_to_global[at(vertices[u])]) + solution.row(static_cast<Eigen::Index>(u));
+    if (!is_kept) {
+        system.free_factor(workspace);
+        eliminated_[at(s)].resize(0, 3);
+    }
     seconds_[at(s)].solve += watch.lap();
 }
 
@@ -198,8 +238,8 @@ void ConvergedFlow::describe(FlowReport& report) const
     report.interface_vertices = decomposition_.n_interface_vertices;
     report.subdomain_colors.assign(systems_.size(), 0);
     report.p.assign(systems_.size(), 0.0);
-    report.live_factors = report.subdomains;
-    report.factor_memory_bytes = factor_bytes_;
+    report.live_factors = kept_.n_live();
+    report.factor_memory_bytes = kept_.bytes + passing_factors_.bytes();
     for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
         report.subdomain_faces.push_back(static_cast<Index>(sub_mesh.faces.size()));
         report.subdomain_vertices.push_back(sub_mesh.n_vertices);

@@ -3,9 +3,11 @@
 #include <memory>
 #include <vector>
 
+#include "engine/factor_pool.h"
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
 #include "engine/flow_state.h"
+#include "engine/kept_factors.h"
 #include "engine/progress.h"
 #include "engine/schedule_recorder.h"
 #include "engine/task_graph.h"
@@ -21,6 +23,10 @@ namespace seamflow {
 /// once per step:
 ///
 ///     eliminate (each sub-mesh) ──► solve on Γ (see InterfaceEquation) ──► fill in (each sub-mesh)
+///
+/// Where the memory limit does not let a sub-mesh's factor live from its elimination until it is filled in, it is made
+/// again, by the same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time as there are
+/// places.
 ///
 /// Belongs to the arena in which it is constructed.
 class ConvergedFlow {
@@ -57,9 +63,12 @@ class ConvergedFlow {
 
   private:
     void make_systems(const FlowOptions& options);
+    void limit_factors(const FlowOptions& options);
     void make_graph();
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body);
+    void take_turns(const std::vector<TaskGraph::Node>& tasks);
+    void factorise(Index s, SolverWorkspace& workspace);
     void eliminate(Index s);
     void solve_interface();
     void fill_in(Index s);
@@ -69,7 +78,9 @@ class ConvergedFlow {
     Workspaces workspaces_;
     std::vector<std::unique_ptr<NeumannSystem>> systems_;
     std::vector<const NeumannSystem*> system_views_;
-    std::size_t factor_bytes_ = 0;
+    KeptFactors kept_;
+    /// Of the factors that are made twice.
+    FactorPool passing_factors_;
     InterfaceEquation equation_;
     /// Of the equation on Γ.
     LoopCount loops_;
@@ -87,7 +98,7 @@ class ConvergedFlow {
     Points guess_;
     /// What each sub-mesh has of the right-hand side on Γ.
     Points condensed_;
-    /// Per sub-mesh, what its elimination leaves of the interior.
+    /// Per sub-mesh, what its elimination leaves of the interior; with its factor, that goes where it is not kept.
     std::vector<Points> eliminated_;
     /// Per sub-mesh.
     std::vector<PhaseSeconds> seconds_;

@@ -182,8 +182,10 @@ struct FlowOptions {
     /// Most iterations of a step for that.
     int converge_iterations = 1000;
     /// Most bytes that the factorisations of sub-meshes may take at once, at least 1, and what one step needs: with
-    /// less the flow throws OptionError that tells how much that is. Empty: as few as keep all threads busy. What
-    /// UMFPACK makes counts by its own estimate. Does not change the result, nor limit what `reference` takes.
+    /// less the flow throws OptionError that tells how much that is. Empty: of sweeps as few as keep all threads busy,
+    /// of converged steps all. Those of Δ_F and Δ_A make what a limit does not let them keep twice in each step; Δ_P
+    /// needs all. What UMFPACK makes counts by its own estimate. Does not change the result, nor limit what `reference`
+    /// takes.
     std::optional<std::size_t> memory_limit;
     /// How far a step may move a vertex at most, in diagonals of the bounding box of the mesh before the first step;
     /// positive. A step that goes beyond, as Δ_P and Δ_A on polygons can where their equations are indefinite, ends the

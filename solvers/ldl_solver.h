@@ -39,6 +39,8 @@ class LdlSolver {
     /// @returns whether the matrix is positive definite. If not, there is no factor.
     [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, LdlWorkspace& workspace);
 
+    [[nodiscard]] bool has_factor() const { return !memory_.empty(); }
+
     /// Solves for three right-hand sides.
     /// @pre there is a factor.
     /// @param solution n by 3; may be the right-hand side.

@@ -117,7 +117,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_bytes(
         app, "--memory-limit", options.memory_limit,
         "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
-        "changes nothing else [as little as keeps all threads busy]");
+        "does not change the result; converged steps make twice what they cannot keep [sweeps: as little as keeps all "
+        "threads busy; converged steps: no limit]");
     app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
 }
 

@@ -122,9 +122,25 @@ void NeumannSystem::factorise(SolverWorkspace& workspace)
     const auto values = std::span<const double>(workspace.values).first(at(upper_.n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
-    if (!solver_->factorise(values, memory_, workspace.ldl))
+    FactorMemory& memory = borrows_memory_ ? *workspace.factors : memory_;
+    if (!solver_->factorise(values, memory, workspace.ldl))
         throw ComputationError(system_singular);
     schur_.take(solver_->last());
+}
+
+void NeumannSystem::free_factor(SolverWorkspace& workspace)
+{
+    const DenseLdl factor = solver_->last();
+    last_.resize(row_of_last(n_interface()));
+    for (Index i = 0; i < n_interface(); ++i)
+        std::copy_n(factor.row(i).data(), i + 1, last_.begin() + static_cast<std::ptrdiff_t>(row_of_last(i)));
+    solver_->free_factor(*workspace.factors);
+}
+
+/// A row of L on Γ, and then D.
+const double* NeumannSystem::last_row(Index i) const
+{
+    return solver_->has_factor() ? solver_->last().row(i).data() : last_.data() + row_of_last(i);
 }
 
 /// The rows of K add up to zero: K V is made of differences, and has no rounding error of the size of V.
@@ -153,13 +169,13 @@ void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen:
 
 void NeumannSystem::subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const
 {
-    const DenseLdl factor = solver_->last();
     Columns scaled = x;
     for (Index i = 0; i < n_interface(); ++i)
-        add_row(factor.row(i).data(), i, x.row(i), scaled);
-    scaled.array().colwise() *= factor.diagonal().array();
+        add_row(last_row(i), i, x.row(i), scaled);
     for (Index i = 0; i < n_interface(); ++i)
-        result.row(i) -= scaled.row(i) + multiply_row(factor.row(i).data(), i, scaled);
+        scaled.row(i) *= last_row(i)[i];
+    for (Index i = 0; i < n_interface(); ++i)
+        result.row(i) -= scaled.row(i) + multiply_row(last_row(i), i, scaled);
 }
 
 void NeumannSystem::fill_in(Points& solution) const

@@ -32,9 +32,16 @@ class NeumannSystem {
     /// @param time_step dt, in length².
     void assemble(const Points& positions, double time_step, SolverWorkspace& workspace);
 
-    /// To be called after `assemble`, with the same workspace.
+    /// To be called after `assemble`, with the same workspace. The factor's memory is the workspace's if it may go
+    /// before the end of the step, else that of this system, which keeps it from step to step.
     /// @throws ComputationError if the equations are singular or not finite.
     void factorise(SolverWorkspace& workspace);
+
+    /// From now on the factor is in the workspace's memory: to be freed after each `condense` and `fill_in`.
+    void borrow_memory() { borrows_memory_ = true; }
+
+    /// Gives borrowed memory back. What the equation on Γ needs of the factor stays.
+    void free_factor(SolverWorkspace& workspace);
 
     /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after `factorise`, with the same workspace.
     /// @param positions those of `assemble`.
@@ -46,7 +53,7 @@ class NeumannSystem {
     /// The Schur complement on Γ.
     [[nodiscard]] const DenseFactor& schur() const { return schur_; }
 
-    /// result -= S x in double precision, straight from the factor.
+    /// result -= S x in double precision, straight from the factor, or from what of it stays.
     /// @param x, result n_interface() by 3.
     void subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const;
 
@@ -59,10 +66,14 @@ class NeumannSystem {
     /// The own vertices that may move, in the order of the solution's rows.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return vertex_of_; }
 
-    /// What the factor takes, in bytes, its copy on Γ aside. It is kept from step to step.
+    /// What the factor takes, in bytes, its copy in single precision on Γ aside, and what stays of it when it is freed.
     [[nodiscard]] std::size_t factor_bytes() const { return solver_->factor_bytes(); }
+    [[nodiscard]] std::size_t bytes_on_interface() const { return row_of_last(n_interface()) * sizeof(double); }
 
   private:
+    /// Where a row of the packed lower triangle `last_` begins.
+    static std::size_t row_of_last(Index i) { return at(i) * (at(i) + 1) / 2; }
+    [[nodiscard]] const double* last_row(Index i) const;
     void number_unknowns(const std::vector<VertexPair>& pairs);
     void list_couplings(const std::vector<VertexPair>& pairs);
 
@@ -77,6 +88,9 @@ class NeumannSystem {
     std::vector<Index> slots_;
     std::vector<Coupling> fixed_;
     KeptMemory memory_;
+    bool borrows_memory_ = false;
+    /// Of a factor that has been freed, the block on Γ: L below the diagonal and D on it, row by row.
+    std::vector<double> last_;
     DenseFactor schur_;
 };
 

@@ -1,7 +1,6 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <regex>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -10,6 +9,7 @@
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/memory_limits.h"
 
 using namespace seamflow;
 
@@ -47,13 +47,11 @@ std::string complaint_about(PolygonMesh mesh, FlowOptions options, std::size_t m
     }
 }
 
-/// The least limit that a flow takes, by what it says about a lower one.
 std::size_t least_limit(const PolygonMesh& mesh, const FlowOptions& options)
 {
-    const std::string complaint = complaint_about(mesh, options, 1);
-    std::smatch match;
-    REQUIRE(std::regex_search(complaint, match, std::regex("memory_limit is 1 bytes.* take ([0-9]+)")));
-    return std::stoul(match[1]);
+    const auto least = test::least_memory_limit(mesh, options);
+    REQUIRE(least);
+    return *least;
 }
 
 }  // namespace
@@ -127,4 +125,54 @@ TEST_CASE("the limit is for the sub-meshes, not for the undecomposed flow that t
     options.memory_limit = least_limit(mesh, options);
     options.reference = true;
     CHECK(mean_curvature_flow(mesh, options).steps.back().distance->mean > 0.0);
+}
+
+namespace {
+
+FlowOptions converged(Laplacian laplacian, int threads = 1)
+{
+    FlowOptions options = options_for(Conditions::AdaptedRobin, threads);
+    options.approach = Approach::Automatic;
+    options.laplacian = laplacian;
+    options.tolerance = 1e-8;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("converged steps keep to the limit, and what they make twice changes no bit of the result")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky}) {
+        CAPTURE(name_of(laplacian));
+        PolygonMesh boundless = mesh;
+        const FlowReport expected = mean_curvature_flow(boundless, converged(laplacian));
+        const std::size_t all = expected.factor_memory_bytes;
+        const std::size_t least = least_limit(mesh, converged(laplacian));
+        CHECK(expected.live_factors == expected.subdomains);
+        CHECK(2 * least < all);
+        for (const int threads : {1, 4})
+            for (const std::size_t limit : {least, 2 * least, (least + all) / 2, all - 1, all}) {
+                CAPTURE(limit);
+                FlowOptions options = converged(laplacian, threads);
+                options.memory_limit = limit;
+                PolygonMesh limited = mesh;
+                const FlowReport report = mean_curvature_flow(limited, options);
+                CHECK(same_bits(limited.vertices, boundless.vertices));
+                CHECK(report.factor_memory_bytes <= limit);
+                CHECK((report.live_factors < report.subdomains) == (limit < all));
+                CHECK(report.steps.back().residual == expected.steps.back().residual);
+            }
+    }
+}
+
+TEST_CASE("the least limit of converged steps is that of one factorisation and of all that stays of the others")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    const FlowOptions options = converged(Laplacian::Fujiwara);
+    const std::size_t least = least_limit(mesh, options);
+    CHECK(complaint_about(mesh, options, least).empty());
+    const std::string complaint = complaint_about(mesh, options, least - 1);
+    CHECK(complaint.find("memory_limit is " + std::to_string(least - 1) + " bytes") != std::string::npos);
+    CHECK(complaint.find("take " + std::to_string(least)) != std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include "solvers/mean_curvature.h"
 #include "tests/faults/failing_work.h"
 #include "tests/faults/small_runs.h"
+#include "tests/support/memory_limits.h"
 
 using namespace seamflow;
 
@@ -142,6 +143,14 @@ TEST_CASE("a graph one of whose tasks has thrown runs again, and gives the same 
     SUBCASE("converged")
     {
         parts.options.tolerance = 1e-3;
+        every_graph_runs_again<ConvergedFlow>([&](Progress& progress) {
+            return ConvergedFlow(parts.mesh, parts.topology, parts.cut, parts.options, progress);
+        });
+    }
+    SUBCASE("converged in little memory")
+    {
+        parts.options.tolerance = 1e-3;
+        parts.options.memory_limit = test::least_memory_limit(parts.mesh, parts.options).value();
         every_graph_runs_again<ConvergedFlow>([&](Progress& progress) {
             return ConvergedFlow(parts.mesh, parts.topology, parts.cut, parts.options, progress);
         });

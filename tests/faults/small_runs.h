@@ -6,6 +6,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flow_kinds.h"
+#include "tests/support/memory_limits.h"
 
 namespace seamflow::test {
 
@@ -26,6 +27,10 @@ inline std::vector<FlowKind> small_flows(int steps, int threads)
         if (!kind.options.fixed_vertices.empty())
             kind.options.fixed_vertices = {3, 50, 51, 60};
     }
+    FlowKind little_memory{"converged in little memory", kinds.front().options};
+    little_memory.options.tolerance = 1e-3;
+    little_memory.options.memory_limit = least_memory_limit(small_mesh(), little_memory.options).value();
+    kinds.push_back(little_memory);
     return kinds;
 }
 

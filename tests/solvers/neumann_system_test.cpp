@@ -5,7 +5,7 @@
 
 #include "solvers/systems/neumann_system.h"
 #include "tests/support/cut_meshes.h"
-#include "tests/support/flows.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/matrices.h"
 
 using namespace seamflow;
@@ -71,5 +71,51 @@ TEST_CASE("the update by the whole step satisfies the sum of the sub-meshes' equ
             for (const auto& [v, residual] : residuals)
                 CHECK(residual.norm() < 1e-9 * largest);
         }
+    }
+}
+
+TEST_CASE("what stays of a factor in borrowed memory gives the same products on Γ, and made again it fills in the same")
+{
+    SolverWorkspace kept_workspace;
+    SolverWorkspace workspace;
+    KeptMemory borrowed;
+    workspace.factors = &borrowed;
+    for (const CutMesh& cut : cut_meshes()) {
+        CAPTURE(cut.name);
+        const Decomposition decomposition = test::decompose(cut);
+        for (const Laplacian laplacian : symmetric)
+            for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+                NeumannSystem kept(sub_mesh, laplacian);
+                NeumannSystem passing(sub_mesh, laplacian);
+                passing.borrow_memory();
+                const Index n = kept.n_interface();
+                CHECK(passing.bytes_on_interface() == sizeof(double) * at(n * (n + 1) / 2));
+                const Points positions = localised(sub_mesh, cut.mesh.vertices);
+                const auto eliminate = [&](NeumannSystem& system, SolverWorkspace& of_system) {
+                    system.assemble(positions, time_step, of_system);
+                    system.factorise(of_system);
+                    Points eliminated;
+                    Points share(n, 3);
+                    system.condense(positions, eliminated, share, of_system);
+                    return eliminated;
+                };
+                Points expected = eliminate(kept, kept_workspace);
+                eliminate(passing, workspace);
+                passing.free_factor(workspace);
+                const std::span<std::byte> memory = borrowed.take(passing.factor_bytes());
+                std::fill(memory.begin(), memory.end(), std::byte{0xFF});
+                const Points on_interface = expected.bottomRows(n);
+                Points of_kept = Points::Zero(n, 3);
+                Points of_passing = Points::Zero(n, 3);
+                kept.subtract_schur(on_interface, of_kept);
+                passing.subtract_schur(on_interface, of_passing);
+                CHECK(same_bits(of_kept, of_passing));
+                Points again = eliminate(passing, workspace);
+                CHECK(same_bits(again, expected));
+                kept.fill_in(expected);
+                passing.fill_in(again);
+                passing.free_factor(workspace);
+                CHECK(same_bits(again, expected));
+            }
     }
 }
