@@ -68,19 +68,24 @@ void take_area()
         throw ComputationError("there is no memory for the work area of BLAS, " + std::to_string(area_bytes >> 20) +
                                " MiB: raise the limit of this program (ulimit -v)");
     }
+    take_blas_work_areas();
+}
+
+}  // namespace
+
+void take_blas_work_areas()
+{
     using Gemm = void(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
                       const int*, const double*, const int*, const double*, double*, const int*);
     auto* const gemm = reinterpret_cast<Gemm*>(dlsym(RTLD_DEFAULT, "dgemm_"));
     if (gemm == nullptr)
         return;
-    constexpr int n = 96;  // small products do without
+    constexpr int n = 256;
     constexpr double one = 1.0;
     const std::vector<double> a(std::size_t{n} * n, 1.0);
     std::vector<double> product = a;
     gemm("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
 }
-
-}  // namespace
 
 BlasTurn::BlasTurn()
 {

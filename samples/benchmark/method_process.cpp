@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <dlfcn.h>
 #include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -20,6 +19,7 @@
 #include "partition/errors.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
+#include "solvers/blas_turn.h"
 
 namespace seamflow {
 
@@ -85,31 +85,22 @@ std::int64_t high_water_mark()
 }
 
 /// OpenBLAS asks for ever for the work area of its first call (128 MiB a thread) where the address space is limited and
-/// full. Here there is still room, or it is known that there is none; areas are used again.
+/// full. Here there is still room, or it is known that there is none.
 /// @throws std::bad_alloc if there is no room.
-void take_blas_work_areas(int threads)
+void take_blas_work_areas_within_limit(int threads)
 {
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return;
     constexpr std::size_t one_area = std::size_t{129} << 20;
     ::operator delete(::operator new(one_area* static_cast<std::size_t>(threads)));
-    using Gemm = void(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-                      const int*, const double*, const int*, const double*, double*, const int*);
-    auto* const gemm = reinterpret_cast<Gemm*>(dlsym(RTLD_DEFAULT, "dgemm_"));
-    if (gemm == nullptr)
-        return;
-    constexpr int n = 96;  // large enough to be shared among the threads
-    constexpr double one = 1.0;
-    const std::vector<double> a(std::size_t{n} * n, 1.0);
-    std::vector<double> product = a;
-    gemm("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
+    take_blas_work_areas();
 }
 
 MethodResult result_or_error(const fs::path& folder)
 {
     try {
-        take_blas_work_areas(read_task(folder).options.threads);
+        take_blas_work_areas_within_limit(read_task(folder).options.threads);
         return run_method(read_mesh_for_methods(folder), read_task(folder));
     } catch (const std::bad_alloc&) {
         return failed("out of memory");

@@ -131,10 +131,15 @@ TEST_CASE("benchmark that is stopped leaves nothing behind")
 TEST_CASE("benchmark with little memory to address says which peers do without, and ends" *
           doctest::skip(test::under_sanitizers))
 {
-    const Workshop w;
-    REQUIRE(w.run("ulimit -v 760000; timeout 60 " BENCHMARK " --vertices 400000 --steps 1 --threads 1 --reference none "
-                  "--peers umfpack --json case.json") == 0);
-    CHECK(w.json("case.json")["peers"]["umfpack"].contains("error"));
+    // OpenBLAS takes its memory otherwise for some processors than for others.
+    for (const std::string processor : {"", "env -u OPENBLAS_CORETYPE "}) {
+        CAPTURE(processor);
+        const Workshop w;
+        REQUIRE(w.run("ulimit -v 760000; timeout 60 " + processor +
+                      BENCHMARK " --vertices 400000 --steps 1 --threads 1 --reference none --peers umfpack --json "
+                                "case.json") == 0);
+        CHECK(w.json("case.json")["peers"]["umfpack"].contains("error"));
+    }
 }
 
 TEST_CASE("benchmark refuses wrong usage and unusable files")
