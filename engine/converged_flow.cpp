@@ -100,7 +100,7 @@ void ConvergedFlow::make_graph()
         graph_.add_dependency(root_, eliminated);
         graph_.add_dependency(eliminated, solved);
         graph_.add_dependency(solved, filled);
-        if (kept_.whole[at(s)] == 0) {
+        if (!is_kept(s)) {
             passing_eliminated.push_back(eliminated);
             passing_filled.push_back(filled);
         }
@@ -126,33 +126,37 @@ void ConvergedFlow::step()
         recorder_->end_step();
 }
 
-/// And condenses: both ways between Γ and the interior are open then.
-void ConvergedFlow::factorise(Index s, SolverWorkspace& workspace)
+void ConvergedFlow::assemble(Index s, SolverWorkspace& workspace)
 {
-    Stopwatch watch;
-    NeumannSystem& system = *systems_[at(s)];
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
     set_rows(workspace.positions, sub_mesh.n_vertices);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
         workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
-    system.assemble(workspace.positions, time_step_, workspace);
-    seconds_[at(s)].assemble += watch.lap();
-    system.factorise(workspace);
-    seconds_[at(s)].factorise += watch.lap();
-    const Index first = equation_.copies().first[at(s)];
-    system.condense(workspace.positions, eliminated_[at(s)], condensed_.middleRows(first, system.n_interface()),
-                    workspace);
-    seconds_[at(s)].solve += watch.lap();
+    systems_[at(s)]->assemble(workspace.positions, time_step_, workspace);
+}
+
+void ConvergedFlow::condense(Index s, const SolverWorkspace& workspace)
+{
+    const NeumannSystem& system = *systems_[at(s)];
+    system.condense(workspace.positions, eliminated_[at(s)],
+                    condensed_.middleRows(equation_.copies().first[at(s)], system.n_interface()), workspace);
 }
 
 void ConvergedFlow::eliminate(Index s)
 {
+    Stopwatch watch;
     SolverWorkspace& workspace = workspaces_.local();
-    factorise(s, workspace);
-    if (kept_.whole[at(s)] == 0) {
-        systems_[at(s)]->free_factor(workspace);
+    NeumannSystem& system = *systems_[at(s)];
+    assemble(s, workspace);
+    seconds_[at(s)].assemble += watch.lap();
+    system.factorise(workspace);
+    seconds_[at(s)].factorise += watch.lap();
+    condense(s, workspace);
+    if (!is_kept(s)) {
+        system.give_back_interior(workspace);
         eliminated_[at(s)].resize(0, 3);
     }
+    seconds_[at(s)].solve += watch.lap();
 }
 
 void ConvergedFlow::solve_interface()
@@ -171,12 +175,16 @@ void ConvergedFlow::solve_interface()
 
 void ConvergedFlow::fill_in(Index s)
 {
-    SolverWorkspace& workspace = workspaces_.local();
-    const bool is_kept = kept_.whole[at(s)] != 0;
-    if (!is_kept)
-        factorise(s, workspace);
     Stopwatch watch;
+    SolverWorkspace& workspace = workspaces_.local();
     NeumannSystem& system = *systems_[at(s)];
+    if (!is_kept(s)) {
+        assemble(s, workspace);
+        seconds_[at(s)].assemble += watch.lap();
+        system.factorise_again(workspace);
+        seconds_[at(s)].factorise += watch.lap();
+        condense(s, workspace);
+    }
     Points& solution = eliminated_[at(s)];
     const Index first = equation_.copies().first[at(s)];
     for (Index i = 0; i < system.n_interface(); ++i)
@@ -189,8 +197,8 @@ void ConvergedFlow::fill_in(Index s)
         if (sub_mesh.owned[at(vertices[u])] != 0)
             next_.row(sub_mesh.local_to_global[at(vertices[u])]) =
                 positions_.row(sub_mesh.local_to_global[at(vertices[u])]) + solution.row(static_cast<Eigen::Index>(u));
-    if (!is_kept) {
-        system.free_factor(workspace);
+    if (!is_kept(s)) {
+        system.give_back(workspace);
         eliminated_[at(s)].resize(0, 3);
     }
     seconds_[at(s)].solve += watch.lap();

@@ -67,8 +67,10 @@ class ConvergedFlow {
     void make_graph();
     template <class Body>
     TaskGraph::Node add_task(Phase phase, Index s, Body body);
+    [[nodiscard]] bool is_kept(Index s) const { return kept_.whole[at(s)] != 0; }
     void take_turns(const std::vector<TaskGraph::Node>& tasks);
-    void factorise(Index s, SolverWorkspace& workspace);
+    void assemble(Index s, SolverWorkspace& workspace);
+    void condense(Index s, const SolverWorkspace& workspace);
     void eliminate(Index s);
     void solve_interface();
     void fill_in(Index s);

@@ -29,17 +29,20 @@ struct KeptFactors {
     /// What the former take, and what stays of the others on Γ.
     std::size_t bytes = 0;
 
-    /// What all that takes at once at most.
-    [[nodiscard]] std::size_t most_bytes() const { return bytes + at(n_places) * bytes_per_place; }
+    [[nodiscard]] Index n_twice() const { return static_cast<Index>(whole.size()) - n_whole; }
 
     /// How many factors are there at once at most.
     [[nodiscard]] Index n_live() const { return n_whole + n_places; }
+
+    /// What all that takes at once at most.
+    [[nodiscard]] std::size_t most_bytes() const { return bytes + at(n_places) * bytes_per_place; }
 };
 
-/// As many as the limit lets be, but a place for each thread first.
+/// Keeps the largest, as many as the limit lets be, beside so many places for the others that these are made in the
+/// fewest rounds.
 /// @param factors of all sub-meshes.
 /// @param limit in bytes. Empty: all are kept.
-/// @param n_threads at least 1.
+/// @param n_threads at least 1: there are no more places than that.
 /// @throws OptionError if there is no room for one factor beside all blocks on Γ; it tells how much that takes.
 KeptFactors choose_kept_factors(std::span<const FactorBytes> factors, std::optional<std::size_t> limit,
                                 Index n_threads);

@@ -2,9 +2,9 @@
 
 namespace seamflow {
 
-/// Makes OpenBLAS take the work areas that it keeps and uses again: by a product so large that its threads share it, and
-/// that no processor's kernels for small matrices do without an area (those for AVX-512 take up to 100³). Where another
-/// BLAS is used, or none, it does nothing that matters. There must be room.
+/// Makes OpenBLAS take the work areas that it keeps and uses again: by a product so large that its threads share it,
+/// and that no processor's kernels for small matrices do without an area (those for AVX-512 take up to 100³). Where
+/// another BLAS is used, or none, it does nothing that matters. There must be room.
 void take_blas_work_areas();
 
 /// To be held while a library calls BLAS. OpenBLAS needs a work area (128 MiB) for each call at a time, and where the

@@ -59,8 +59,9 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
     add_real(app, "--q", flow.q, {0.0, std::numeric_limits<double>::max()},
              "Ventcell parameter of ours, for adapted-ventcell and ventcell");
     add_bytes(app, "--memory-limit", flow.memory_limit,
-              "most that the factorisations of ours may take at once, in bytes or with K, M, G, KiB, MiB, GiB [as "
-              "little as keeps all threads busy; with --simulate-threads without limit]");
+              "most that the factorisations of ours may take at once, in bytes or with K, M, G, KiB, MiB, GiB; "
+              "converged steps make twice what they cannot keep [sweeps: as little as keeps all threads busy, with "
+              "--simulate-threads no limit; converged steps: no limit]");
     add_converge(app, flow,
                  "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
                  "[auto]");

@@ -92,7 +92,7 @@ void take_blas_work_areas_within_limit(int threads)
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return;
-    constexpr std::size_t one_area = std::size_t{129} << 20;
+    constexpr std::size_t one_area = std::size_t{130} << 20;
     ::operator delete(::operator new(one_area* static_cast<std::size_t>(threads)));
     take_blas_work_areas();
 }

@@ -1,6 +1,7 @@
 #include "solvers/systems/neumann_system.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "partition/errors.h"
@@ -117,6 +118,13 @@ void NeumannSystem::assemble(const Points& positions, double time_step, SolverWo
 
 void NeumannSystem::factorise(SolverWorkspace& workspace)
 {
+    factorise_again(workspace);
+    if (!vertex_of_.empty())
+        schur_.take(solver_->last());
+}
+
+void NeumannSystem::factorise_again(SolverWorkspace& workspace)
+{
     if (vertex_of_.empty())
         return;
     const auto values = std::span<const double>(workspace.values).first(at(upper_.n_entries()));
@@ -125,15 +133,20 @@ void NeumannSystem::factorise(SolverWorkspace& workspace)
     FactorMemory& memory = borrows_memory_ ? *workspace.factors : memory_;
     if (!solver_->factorise(values, memory, workspace.ldl))
         throw ComputationError(system_singular);
-    schur_.take(solver_->last());
 }
 
-void NeumannSystem::free_factor(SolverWorkspace& workspace)
+void NeumannSystem::give_back_interior(SolverWorkspace& workspace)
 {
     const DenseLdl factor = solver_->last();
     last_.resize(row_of_last(n_interface()));
     for (Index i = 0; i < n_interface(); ++i)
         std::copy_n(factor.row(i).data(), i + 1, last_.begin() + static_cast<std::ptrdiff_t>(row_of_last(i)));
+    give_back(workspace);
+}
+
+void NeumannSystem::give_back(SolverWorkspace& workspace)
+{
+    assert(borrows_memory_ && "its own memory is nobody else's");
     solver_->free_factor(*workspace.factors);
 }
 

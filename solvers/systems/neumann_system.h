@@ -32,18 +32,26 @@ class NeumannSystem {
     /// @param time_step dt, in length².
     void assemble(const Points& positions, double time_step, SolverWorkspace& workspace);
 
-    /// To be called after `assemble`, with the same workspace. The factor's memory is the workspace's if it may go
-    /// before the end of the step, else that of this system, which keeps it from step to step.
+    /// To be called after `assemble`, with the same workspace. The factor's memory is the system's own, kept from step
+    /// to step, unless it is borrowed.
     /// @throws ComputationError if the equations are singular or not finite.
     void factorise(SolverWorkspace& workspace);
 
-    /// From now on the factor is in the workspace's memory: to be freed after each `condense` and `fill_in`.
+    /// From now on the factor is in memory of the workspace's, and lives twice in each step: from `factorise` until it
+    /// is given back after `condense`, and from `factorise_again` until it is given back after `fill_in`.
     void borrow_memory() { borrows_memory_ = true; }
 
-    /// Gives borrowed memory back. What the equation on Γ needs of the factor stays.
-    void free_factor(SolverWorkspace& workspace);
+    /// Gives borrowed memory back. What the equation on Γ needs of the factor stays until the next `factorise`.
+    void give_back_interior(SolverWorkspace& workspace);
 
-    /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after `factorise`, with the same workspace.
+    /// For `fill_in`, after `assemble` with the same positions; to be followed by `condense` as before.
+    void factorise_again(SolverWorkspace& workspace);
+
+    /// Gives borrowed memory back.
+    void give_back(SolverWorkspace& workspace);
+
+    /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after a factorisation, with the same
+    /// workspace.
     /// @param positions those of `assemble`.
     /// @param eliminated #unknowns by 3: receives what fill_in needs of it.
     /// @param condensed n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
@@ -66,8 +74,10 @@ class NeumannSystem {
     /// The own vertices that may move, in the order of the solution's rows.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return vertex_of_; }
 
-    /// What the factor takes, in bytes, its copy in single precision on Γ aside, and what stays of it when it is freed.
+    /// What the factor takes, in bytes, its copy in single precision on Γ aside.
     [[nodiscard]] std::size_t factor_bytes() const { return solver_->factor_bytes(); }
+
+    /// What stays when its memory is given back, in bytes, that copy aside.
     [[nodiscard]] std::size_t bytes_on_interface() const { return row_of_last(n_interface()) * sizeof(double); }
 
   private:
@@ -89,7 +99,7 @@ class NeumannSystem {
     std::vector<Coupling> fixed_;
     KeptMemory memory_;
     bool borrows_memory_ = false;
-    /// Of a factor that has been freed, the block on Γ: L below the diagonal and D on it, row by row.
+    /// Of a factor that has been given back, the block on Γ: L below the diagonal and D on it, row by row.
     std::vector<double> last_;
     DenseFactor schur_;
 };

@@ -68,6 +68,7 @@ TEST_CASE("sweeps, with one allocation failing, on two threads, and with all fro
 TEST_CASE("converged steps, on two threads")
 {
     fail_every_allocation_of(options_of("fujiwara converged", 2), {test::Failing::Once});
+    fail_every_allocation_of(options_of("converged in little memory", 2), {test::Failing::Once});
 }
 
 TEST_CASE("overlapping sub-meshes")
