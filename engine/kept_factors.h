@@ -29,8 +29,6 @@ struct KeptFactors {
     /// What the former take, and what stays of the others on Γ.
     std::size_t bytes = 0;
 
-    [[nodiscard]] Index n_twice() const { return static_cast<Index>(whole.size()) - n_whole; }
-
     /// How many factors are there at once at most.
     [[nodiscard]] Index n_live() const { return n_whole + n_places; }
 
