@@ -1,4 +1,3 @@
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -8,18 +7,13 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
-#include "tests/support/flows.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/memory_limits.h"
 
 using namespace seamflow;
+using test::same_bits;
 
 namespace {
-
-bool same_bits(const Points& a, const Points& b)
-{
-    return a.rows() == b.rows() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
 
 FlowOptions options_for(Conditions conditions, int threads = 1)
 {

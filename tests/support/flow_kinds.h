@@ -58,7 +58,7 @@ inline std::vector<FlowKind> flow_kinds(double edge)
 inline bool same_bits(const Points& a, const Points& b)
 {
     return a.rows() == b.rows() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+           (a.size() == 0 || std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
 }
 
 }  // namespace seamflow::test
