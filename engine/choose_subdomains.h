@@ -16,7 +16,7 @@ struct SubdomainNeeds {
 };
 
 inline constexpr SubdomainNeeds needs_of_sweeps{2'000, 10.0};
-inline constexpr SubdomainNeeds needs_of_converged_steps{1'000, 2.0};
+inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
 /// Converged steps of Laplacians without symmetry, whose sub-meshes overlap.
 inline constexpr SubdomainNeeds needs_of_krylov_steps{1'000, 2.0};
 
