@@ -41,7 +41,8 @@ struct KeptFactors {
 /// @param factors of all sub-meshes.
 /// @param limit in bytes. Empty: all are kept.
 /// @param n_threads at least 1: there are no more places than that.
-/// @throws OptionError if there is no room for one factor beside all blocks on Γ; it tells how much that takes.
+/// @throws OptionError if there is no room for what a step has to keep and one more factor; it tells how much that
+/// takes.
 KeptFactors choose_kept_factors(std::span<const FactorBytes> factors, std::optional<std::size_t> limit,
                                 Index n_threads);
 
