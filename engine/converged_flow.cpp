@@ -7,6 +7,7 @@
 #include "engine/choose_subdomains.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
+#include "engine/release_faces.h"
 #include "engine/stopwatch.h"
 #include "partition/errors.h"
 #include "solvers/set_rows.h"
@@ -38,7 +39,6 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , positions_(mesh.vertices)
     , next_(mesh.vertices)
     , condensed_(equation_.copies().n_copies(), 3)
-    , eliminated_(decomposition_.sub_meshes.size())
     , seconds_(decomposition_.sub_meshes.size())
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get(), &progress)
@@ -52,9 +52,11 @@ void ConvergedFlow::make_systems(const FlowOptions& options)
     progress_->expect(static_cast<double>(systems_.size()));
     for_each(run_in_parallel, static_cast<Index>(systems_.size()), [&](Index s) {
         progress_->require_going_on();
-        const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
-        on_behalf_of(sub_mesh, s,
-                     [&] { systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian); });
+        SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+        on_behalf_of(sub_mesh, s, [&] {
+            systems_[at(s)] = std::make_unique<NeumannSystem>(sub_mesh, options.laplacian);
+            release_faces(systems_[at(s)]->faces_in_use(), sub_mesh);
+        });
         progress_->count();
     });
     for (const auto& system : systems_)
@@ -135,13 +137,6 @@ void ConvergedFlow::assemble(Index s, SolverWorkspace& workspace)
     systems_[at(s)]->assemble(workspace.positions, time_step_, workspace);
 }
 
-void ConvergedFlow::condense(Index s, const SolverWorkspace& workspace)
-{
-    const NeumannSystem& system = *systems_[at(s)];
-    system.condense(workspace.positions, eliminated_[at(s)],
-                    condensed_.middleRows(equation_.copies().first[at(s)], system.n_interface()), workspace);
-}
-
 void ConvergedFlow::eliminate(Index s)
 {
     Stopwatch watch;
@@ -151,11 +146,15 @@ void ConvergedFlow::eliminate(Index s)
     seconds_[at(s)].assemble += watch.lap();
     system.factorise(workspace);
     seconds_[at(s)].factorise += watch.lap();
-    condense(s, workspace);
-    if (!is_kept(s)) {
+    Points& eliminated = workspace.increment;
+    system.condense(workspace.positions, eliminated,
+                    condensed_.middleRows(equation_.copies().first[at(s)], system.n_interface()), workspace);
+    if (!is_kept(s))
         system.give_back_interior(workspace);
-        eliminated_[at(s)].resize(0, 3);
-    }
+    const std::vector<Index>& global = decomposition_.sub_meshes[at(s)].local_to_global;
+    const std::vector<Index>& vertices = system.unknowns();
+    for (Index u = 0; u < system.n_interior(); ++u)
+        next_.row(global[at(vertices[at(u)])]) = eliminated.row(u);
     seconds_[at(s)].solve += watch.lap();
 }
 
@@ -183,24 +182,23 @@ void ConvergedFlow::fill_in(Index s)
         seconds_[at(s)].assemble += watch.lap();
         system.factorise_again(workspace);
         seconds_[at(s)].factorise += watch.lap();
-        condense(s, workspace);
     }
-    Points& solution = eliminated_[at(s)];
-    const Index first = equation_.copies().first[at(s)];
-    for (Index i = 0; i < system.n_interface(); ++i)
-        solution.row(solution.rows() - system.n_interface() + i) =
-            interface_.row(equation_.copies().vertex[at(first + i)]);
-    system.fill_in(solution);
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
     const std::vector<Index>& vertices = system.unknowns();
+    Points& solution = workspace.increment;
+    set_rows(solution, static_cast<Eigen::Index>(vertices.size()));
+    for (Index u = 0; u < system.n_interior(); ++u)
+        solution.row(u) = next_.row(sub_mesh.local_to_global[at(vertices[at(u)])]);
+    const Index first = equation_.copies().first[at(s)];
+    for (Index i = 0; i < system.n_interface(); ++i)
+        solution.row(system.n_interior() + i) = interface_.row(equation_.copies().vertex[at(first + i)]);
+    system.fill_in(solution);
     for (std::size_t u = 0; u < vertices.size(); ++u)
         if (sub_mesh.owned[at(vertices[u])] != 0)
             next_.row(sub_mesh.local_to_global[at(vertices[u])]) =
                 positions_.row(sub_mesh.local_to_global[at(vertices[u])]) + solution.row(static_cast<Eigen::Index>(u));
-    if (!is_kept(s)) {
+    if (!is_kept(s))
         system.give_back(workspace);
-        eliminated_[at(s)].resize(0, 3);
-    }
     seconds_[at(s)].solve += watch.lap();
 }
 

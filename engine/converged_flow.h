@@ -70,7 +70,6 @@ class ConvergedFlow {
     [[nodiscard]] bool is_kept(Index s) const { return kept_.whole[at(s)] != 0; }
     void take_turns(const std::vector<TaskGraph::Node>& tasks);
     void assemble(Index s, SolverWorkspace& workspace);
-    void condense(Index s, const SolverWorkspace& workspace);
     void eliminate(Index s);
     void solve_interface();
     void fill_in(Index s);
@@ -93,15 +92,13 @@ class ConvergedFlow {
     double distance_ = 0.0;
     double time_step_;
     Points positions_;
-    /// Vᵏ⁺¹, #V by 3: complete at the end of a step.
+    /// #V by 3. Vᵏ⁺¹, complete at the end of a step; until it is filled in, what the elimination leaves of the interior.
     Points next_;
     /// On Γ: Vᵏ⁺¹ - Vᵏ, and that of the step before, which has no rows in the first step.
     Points interface_;
     Points guess_;
     /// What each sub-mesh has of the right-hand side on Γ.
     Points condensed_;
-    /// Per sub-mesh, what its elimination leaves of the interior; with its factor, that goes where it is not kept.
-    std::vector<Points> eliminated_;
     /// Per sub-mesh.
     std::vector<PhaseSeconds> seconds_;
     double interface_seconds_ = 0.0;

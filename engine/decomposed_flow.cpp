@@ -8,6 +8,7 @@
 #include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
+#include "engine/release_faces.h"
 #include "engine/sub_mesh_options.h"
 #include "engine/sweep_order.h"
 #include "partition/decomposition/narrow_order.h"
@@ -46,9 +47,9 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     if (options.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.overlap);
     progress.require_going_on();
-    make_states(mesh, options, progress);
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
+    make_states(mesh, options, progress);
     if (options.conditions != Conditions::Schwarz && has_indicator_row(options.laplacian))
         drift_.emplace(decomposition_, mesh, topology, options);
     plans_.push_back(make_plan(decomposition_, options, rank));
@@ -91,11 +92,14 @@ void DecomposedFlow::make_states(const PolygonMesh& mesh, const FlowOptions& opt
     progress.expect(static_cast<double>(made.size()));
     for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
         progress.require_going_on();
-        const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+        SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
         on_behalf_of(sub_mesh, s, [&] {
-            made[at(s)].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
+            SubMeshState& state =
+                made[at(s)].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
+            state.p = robin_parameter(sub_mesh, state.position, options);
+            // The estimate looks at the corners of the faces at Γ.
+            release_faces(std::max(state.system->faces_in_use(), FacesInUse::Corners), sub_mesh);
         });
-        made[at(s)]->p = robin_parameter(sub_mesh, made[at(s)]->position, options);
         progress.count();
     });
     states_.reserve(made.size());
@@ -129,9 +133,9 @@ TaskGraph::Node DecomposedFlow::add_sweep(const SweepPlan& plan, const FlowOptio
         mutual ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan, workspace)
                : solve(states_, s, plan.traces[at(s)], workspace);
     };
-    const auto accept_one = [this, corrected](Index s, SolverWorkspace&) {
+    const auto accept_one = [this, corrected](Index s, SolverWorkspace& workspace) {
         if (drift_)
-            drift_->measure(states_, s);
+            drift_->measure(states_, s, workspace);
         corrected ? accept_corrected(states_, s, decomposition_.halo[at(s)]) : accept(states_, s);
         if (drift_)
             drift_->note_correction(states_, s);
@@ -186,8 +190,8 @@ void DecomposedFlow::add_predictions(const SweepPlan& plan, const std::vector<Ta
     const auto n = static_cast<Index>(states_.size());
     std::vector<TaskGraph::Node> predicted(at(n), -1);
     const auto predict_one = [this](Index s, SolverWorkspace& workspace) { predict(states_, s, workspace); };
-    const auto use_one = [this, &plan](Index s, SolverWorkspace&) {
-        use_predictions(states_, s, plan.predictions[at(s)]);
+    const auto use_one = [this, &plan](Index s, SolverWorkspace& workspace) {
+        use_predictions(states_, s, plan.predictions[at(s)], workspace);
     };
     for (Index s = 0; s < n; ++s) {
         if (plan.traces[at(s)].empty())

@@ -30,7 +30,6 @@ DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& to
     : normals_(mesh, topology)
     , normal_(mesh.n_vertices(), 3)
     , drift_(Points::Zero(mesh.n_vertices(), 3))
-    , latest_(undefined_field(mesh.n_vertices()))
     , path_(undefined_field(mesh.n_vertices()))
 {
     measure_normals(mesh.vertices);
@@ -59,28 +58,43 @@ void DisplacementMeter::restore(const DisplacementSums& sums, const Points& now)
 
 DisplacementStatistics DisplacementMeter::add_step(const Points& before, const Points& after)
 {
-    for_each(run_in_parallel, static_cast<Index>(after.rows()), [&](Index v) {
-        const Point normal_after = normals_(v, after);
-        const Displacement d = split_displacement(after.row(v) - before.row(v), normal_.row(v), normal_after);
-        normal_.row(v) = normal_after;
-        drift_.row(v) += d.tangential;
-        latest_.tangential[at(v)] = d.defined ? d.tangential.norm() : undefined;
-        latest_.normal[at(v)] = d.defined ? d.normal : undefined;
-        if (!d.defined)
-            return;
-        add(path_.tangential[at(v)], latest_.tangential[at(v)]);
-        add(path_.normal[at(v)], std::abs(d.normal));
+    struct Sums {
+        LengthSums tangential;
+        LengthSums normal;
+    };
+    const auto n = static_cast<Index>(after.rows());
+    std::vector<Sums> of_block(at(n / block_size) + 1);
+    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
+        Sums& sums = of_block[at(block)];
+        for (Index v = begin; v < end; ++v) {
+            const Point normal_after = normals_(v, after);
+            const Displacement d = split_displacement(after.row(v) - before.row(v), normal_.row(v), normal_after);
+            normal_.row(v) = normal_after;
+            drift_.row(v) += d.tangential;
+            if (!d.defined)
+                continue;
+            const double tangential = d.tangential.norm();
+            add(path_.tangential[at(v)], tangential);
+            add(path_.normal[at(v)], std::abs(d.normal));
+            sums.tangential.add(tangential);
+            sums.normal.add(d.normal);
+        }
     });
-    return displacement_statistics(latest_);
+    Sums all;
+    for (const Sums& sums : of_block) {
+        all.tangential.add(sums.tangential);
+        all.normal.add(sums.normal);
+    }
+    return {.tangential = all.tangential.statistics(), .normal = all.normal.statistics()};
 }
 
 TotalDisplacement DisplacementMeter::total() const
 {
-    std::vector<double> drift = path_.tangential;
-    for (std::size_t v = 0; v < drift.size(); ++v)
-        if (!std::isnan(drift[v]))
-            drift[v] = drift_.row(static_cast<Eigen::Index>(v)).norm();
-    return {.path = displacement_statistics(path_), .drift = length_statistics(drift)};
+    LengthSums drift;
+    for (std::size_t v = 0; v < path_.tangential.size(); ++v)
+        if (!std::isnan(path_.tangential[v]))
+            drift.add(drift_.row(static_cast<Eigen::Index>(v)).norm());
+    return {.path = displacement_statistics(path_), .drift = drift.statistics()};
 }
 
 }  // namespace seamflow

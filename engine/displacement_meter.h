@@ -35,8 +35,7 @@ class DisplacementMeter {
     /// #V by 3: unit normals of the latest state, and the sums of the tangential parts.
     Points normal_;
     Points drift_;
-    /// Parts of the latest step, and the sums of their lengths over those steps where they are defined.
-    DisplacementField latest_;
+    /// The sums of the lengths of both parts over those steps where they are defined.
     DisplacementField path_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "engine/parallel_loop.h"
 #include "engine/stopwatch.h"
+#include "solvers/set_rows.h"
 
 namespace seamflow {
 
@@ -51,28 +52,29 @@ DriftEstimate::DriftEstimate(const Decomposition& decomposition, const PolygonMe
 }
 
 /// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
-const Points& DriftEstimate::joined(std::vector<SubMeshState>& states, Index s) const
+const Points& DriftEstimate::joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const
 {
-    SubMeshState& state = states[at(s)];
+    const SubMeshState& state = states[at(s)];
     if (!has_copies_)
         return state.solved;
-    state.other_side = state.solved;
+    set_rows(mean, state.solved.rows());
+    mean = state.solved;
     const auto& interface = state.sub_mesh->interface;
     for (Index i = 0; i < interface.size(); ++i) {
         Point sum = Point::Zero();
         for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
             sum += states[at(interface.sharing[i][k])].solved.row(interface.index_in_sharing[i][k]);
-        state.other_side.row(interface.vertices[at(i)]) = sum / static_cast<double>(interface.sharing[i].size());
+        mean.row(interface.vertices[at(i)]) = sum / static_cast<double>(interface.sharing[i].size());
     }
-    return state.other_side;
+    return mean;
 }
 
-void DriftEstimate::measure(std::vector<SubMeshState>& states, Index s)
+void DriftEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     receive_solution(states, s, decomposition_->halo[at(s)]);
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
-    const Points& after = joined(states, s);
+    const Points& after = joined(states, s, workspace.other_side);
     equation_.assemble(s, state.position, after, time_step_);
     if (solved_.rows() > 0)
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)

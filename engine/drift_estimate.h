@@ -29,7 +29,8 @@ class DriftEstimate {
     /// Takes over the rows of a sub-mesh's own part of Γ, before it accepts Vᵏ⁺¹. Different sub-meshes may do so at the
     /// same time.
     /// @param states that of s has Vᵏ as its position; all around have solved.
-    void measure(std::vector<SubMeshState>& states, Index s);
+    /// @param workspace its `other_side` is overwritten.
+    void measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
     /// Notes how far the sub-mesh's own part of Γ was moved when it accepted Vᵏ⁺¹.
     void note_correction(const std::vector<SubMeshState>& states, Index s);
@@ -48,7 +49,7 @@ class DriftEstimate {
     void restore(StepMemoryReader& memory);
 
   private:
-    [[nodiscard]] const Points& joined(std::vector<SubMeshState>& states, Index s) const;
+    [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
     void carry_over();
 
     const Decomposition* decomposition_;

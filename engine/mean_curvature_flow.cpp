@@ -193,7 +193,7 @@ void compare_with(DecomposedFlow& reference, const Run& run, int step, const Ste
 
 /// One step after the other. The mesh moves when a step is complete, with that of the undecomposed flow.
 template <class Flow>
-void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, DecomposedFlow* reference, double begin)
+void run_steps(const Run& run, double curvature_before, Flow& flow, DecomposedFlow* reference, double begin)
 {
     const auto& [mesh, topology, options, on_step, resume, identity, progress, report] = run;
     DisplacementMeter meter(mesh, topology);
@@ -203,8 +203,8 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
     if (resume != nullptr)
         restore(run, flow, reference, rescaling, meter);
     const auto first = static_cast<int>(report.steps.size()) + 1;
-    double curvature_before =
-        report.steps.empty() ? largest_curvature(curvature) : report.steps.back().max_mean_curvature_after;
+    if (!report.steps.empty())
+        curvature_before = report.steps.back().max_mean_curvature_after;
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
     const bool is_rescaled = options.rescale != Rescale::None;
     Points before = is_rescaled ? flow.positions() : Points();
@@ -218,18 +218,19 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         of_step.seconds = watch.lap();
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
-        rescaled = flow.positions();
         // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named("step " + std::to_string(step), [&] {
-            limit.require(is_rescaled ? before : run.mesh.vertices, rescaled, run.report.labels);
-            if (is_rescaled)
-                before = rescaled;
-            rescaling.apply(rescaled);
+            limit.require(is_rescaled ? before : run.mesh.vertices, flow.positions(), run.report.labels);
+            if (is_rescaled) {
+                before = rescaled = flow.positions();
+                rescaling.apply(rescaled);
+            }
         });
-        of_step.displacement = meter.add_step(mesh.vertices, rescaled);
-        curvature = measure_curvature(mesh, topology, rescaled, options.laplacian);
+        const Points& after = is_rescaled ? rescaled : flow.positions();
+        of_step.displacement = meter.add_step(mesh.vertices, after);
         of_step.max_mean_curvature_before = curvature_before;
-        of_step.max_mean_curvature_after = curvature_before = largest_curvature(curvature);
+        of_step.max_mean_curvature_after = curvature_before =
+            measure_largest_curvature(mesh, topology, after, options.laplacian);
         const double measuring = watch.lap();
         if (reference != nullptr) {
             compare_with(*reference, run, step, shares, flow.positions(), of_step);
@@ -246,7 +247,7 @@ void run_steps(const Run& run, std::vector<double> curvature, Flow& flow, Decomp
         report.steps.push_back(of_step);
         report.seconds.step += of_step.seconds;
         report.seconds.total += of_step.seconds + measuring;
-        mesh.vertices.swap(rescaled);
+        mesh.vertices = after;
         if (on_step)
             on_step(state);
     }
@@ -349,7 +350,9 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
             progress.enter(FlowPhase::Analyse, 0, 0.8 * setup, setup);
             reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), curvature, progress);
         }
-        run_steps(run, std::move(curvature), flow, reference ? &*reference : nullptr, setup);
+        const double curvature_before = largest_curvature(curvature);
+        std::vector<double>().swap(curvature);
+        run_steps(run, curvature_before, flow, reference ? &*reference : nullptr, setup);
         left_out.complete(report);
         progress.finish();
     };

@@ -1,10 +1,17 @@
 #include "engine/sub_mesh_state.h"
 
 #include "engine/stopwatch.h"
+#include "solvers/set_rows.h"
 
 namespace seamflow {
 
 namespace {
+
+void copy(const Points& source, Points& target)
+{
+    set_rows(target, source.rows());
+    target = source;
+}
 
 /// Carries rows of one array of the senders into the receiver's.
 void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> transfers, Points SubMeshState::*array,
@@ -20,21 +27,22 @@ void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> 
 /// What a sub-mesh of a mutual sweep can know of the other side, with `array_of` the latest array of each sender.
 template <class ArrayOf>
 void receive_other_side(const std::vector<SubMeshState>& states, const std::vector<Transfer>& halo,
-                        const std::vector<Transfer>& copies, ArrayOf array_of, SubMeshState& state)
+                        const std::vector<Transfer>& copies, ArrayOf array_of, const SubMeshState& state,
+                        Points& other_side)
 {
-    state.other_side = state.position;
+    copy(state.position, other_side);
     for (const Transfer& transfer : halo)
-        receive(states, std::span(&transfer, 1), array_of(transfer.from), state.other_side);
+        receive(states, std::span(&transfer, 1), array_of(transfer.from), other_side);
     const auto& interface = state.sub_mesh->interface;
     for (const Index v : interface.vertices)
-        state.other_side.row(v).setZero();
+        other_side.row(v).setZero();
     for (const Transfer& transfer : copies) {
         const Points& source = states[at(transfer.from)].*array_of(transfer.from);
         for (std::size_t i = 0; i < transfer.source.size(); ++i)
-            state.other_side.row(transfer.target[i]) += source.row(transfer.source[i]);
+            other_side.row(transfer.target[i]) += source.row(transfer.source[i]);
     }
     for (Index i = 0; i < interface.size(); ++i)
-        state.other_side.row(interface.vertices[at(i)]) /= static_cast<double>(interface.sharing[i].size() - 1);
+        other_side.row(interface.vertices[at(i)]) /= static_cast<double>(interface.sharing[i].size() - 1);
 }
 
 void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span<const InterfaceRole> roles,
@@ -75,26 +83,26 @@ void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, c
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
     receive_other_side(
-        states, halo, plan.copies[at(s)], [](Index) { return &SubMeshState::position; }, state);
-    fill_and_factorise(state, state.other_side, plan.roles[at(s)], time_step, workspace, watch);
+        states, halo, plan.copies[at(s)], [](Index) { return &SubMeshState::position; }, state, workspace.other_side);
+    fill_and_factorise(state, workspace.other_side, plan.roles[at(s)], time_step, workspace, watch);
 }
 
 void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
-    state.predicted.resize(state.position.rows(), 3);
-    state.system->predict(state.position, state.predicted, workspace);
+    state.system->predict(state.position, state.solved, workspace);
     state.seconds.solve += watch.lap();
 }
 
-void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions)
+void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
+                     SolverWorkspace& workspace)
 {
     SubMeshState& state = states[at(s)];
     Stopwatch watch;
-    state.other_side = state.position;
-    receive(states, predictions, &SubMeshState::predicted, state.other_side);
-    state.system->use_other_side(state.position, state.other_side);
+    copy(state.position, workspace.other_side);
+    receive(states, predictions, &SubMeshState::solved, workspace.other_side);
+    state.system->use_other_side(state.position, workspace.other_side);
     state.seconds.solve += watch.lap();
 }
 
@@ -117,8 +125,8 @@ void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<
     const auto latest = [&](Index t) {
         return plan.rank[at(t)] < plan.rank[at(s)] ? &SubMeshState::solved : &SubMeshState::position;
     };
-    receive_other_side(states, halo, plan.copies[at(s)], latest, state);
-    state.system->use_other_side(state.position, state.other_side);
+    receive_other_side(states, halo, plan.copies[at(s)], latest, state, workspace.other_side);
+    state.system->use_other_side(state.position, workspace.other_side);
     state.system->solve(state.position, state.solved, workspace);
     state.seconds.solve += watch.lap();
 }

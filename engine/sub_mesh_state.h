@@ -29,13 +29,10 @@ struct SubMeshState {
     double p = 0.0;
     /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
     Points position;
-    /// #local by 3: Vᵏ⁺¹ as solved, before the correction.
+    /// #local by 3: Vᵏ⁺¹ as solved, before the correction. Until then, at own vertices, the prediction: what the
+    /// sub-mesh would do with Γ held at Vᵏ. Those who take it up lead somewhere on this sub-mesh's Γ, so that it waits
+    /// for them before it solves.
     Points solved;
-    /// #local by 3: what the sub-mesh itself would do with Γ held at Vᵏ (own vertices alone).
-    Points predicted;
-    /// #local by 3: what is known of the other side, on Γ and in the halo: predictions, or the other sub-meshes'
-    /// copies.
-    Points other_side;
     SubMeshSeconds seconds;
 };
 
@@ -51,7 +48,8 @@ void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, c
 void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
 /// Fetches what the sub-meshes beyond Γ predict, where this one leads.
-void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions);
+void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
+                     SolverWorkspace& workspace);
 
 /// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);

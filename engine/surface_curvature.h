@@ -16,4 +16,8 @@ std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& t
 /// The largest finite one of them.
 double largest_curvature(const std::vector<double>& curvature);
 
+/// The same without a list of them.
+double measure_largest_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                 Laplacian laplacian);
+
 }  // namespace seamflow

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 #include <utility>
 
@@ -125,17 +126,41 @@ VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
     return is_one_fan(mesh, topology, v) ? VertexKind::Interior : VertexKind::NonManifold;
 }
 
+/// The number of corners of all faces; 0 where they differ, or where there are none.
+Index common_degree(const PolygonMesh& mesh)
+{
+    if (mesh.n_faces() == 0)
+        return 0;
+    const Index degree = mesh.face_offsets[1];
+    for (Index f = 1; f < mesh.n_faces(); ++f)
+        if (mesh.face_offsets[at(f) + 1] - mesh.face_offsets[at(f)] != degree)
+            return 0;
+    return degree;
+}
+
 }  // namespace
+
+FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop)
+    : degree_(common_degree(mesh))
+{
+    if (degree_ > 0) {
+        // The multiplier exceeds 2^shift / degree by 1 at most: of half-edges, which are less than 2^31, that adds less
+        // than 1 / degree to the quotient. The product stays below 2^64.
+        shift_ = 31 + static_cast<int>(std::bit_width(static_cast<std::uint32_t>(degree_ - 1)));
+        multiplier_ = (std::uint64_t{1} << shift_) / static_cast<std::uint64_t>(degree_) + 1;
+        return;
+    }
+    faces_.resize(mesh.face_vertices.size());
+    for_each(loop, mesh.n_faces(), [&](Index f) {
+        std::fill(faces_.begin() + mesh.face_offsets[at(f)], faces_.begin() + mesh.face_offsets[at(f) + 1], f);
+    });
+}
 
 Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
 {
     Topology topology;
     topology.twin.assign(mesh.face_vertices.size(), -1);
-    topology.face_of.resize(mesh.face_vertices.size());
-    for_each(loop, mesh.n_faces(), [&](Index f) {
-        std::fill(topology.face_of.begin() + mesh.face_offsets[at(f)],
-                  topology.face_of.begin() + mesh.face_offsets[at(f) + 1], f);
-    });
+    topology.face_of = FaceOfHalfedge(mesh, loop);
     list_corners(mesh, topology);
     loop(mesh.n_vertices(), [&](Index begin, Index end) {
         std::vector<Spoke> spokes;

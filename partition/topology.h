@@ -22,6 +22,45 @@ enum class VertexKind : std::uint8_t {
     Isolated,
 };
 
+/// The face of every half-edge. Where all faces have the same number of corners, none of them is stored.
+class FaceOfHalfedge {
+  public:
+    FaceOfHalfedge() = default;
+    FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop);
+
+    Index operator[](std::size_t h) const
+    {
+        return degree_ > 0 ? static_cast<Index>(h * multiplier_ >> shift_) : faces_[h];
+    }
+
+    /// The half-edge after h in its face.
+    [[nodiscard]] Index next(const PolygonMesh& mesh, Index h) const
+    {
+        const Index f = (*this)[at(h)];
+        if (degree_ > 0)
+            return h + 1 == (f + 1) * degree_ ? h + 1 - degree_ : h + 1;
+        return h + 1 == mesh.face_offsets[at(f) + 1] ? mesh.face_offsets[at(f)] : h + 1;
+    }
+
+    /// The half-edge before h in its face.
+    [[nodiscard]] Index previous(const PolygonMesh& mesh, Index h) const
+    {
+        const Index f = (*this)[at(h)];
+        if (degree_ > 0)
+            return h == f * degree_ ? h + degree_ - 1 : h - 1;
+        return h == mesh.face_offsets[at(f)] ? mesh.face_offsets[at(f) + 1] - 1 : h - 1;
+    }
+
+  private:
+    /// The number of corners of all faces; 0 where they differ.
+    Index degree_ = 0;
+    /// The quotient of a half-edge and the degree is that of its product with the one and a power of two.
+    std::uint64_t multiplier_ = 0;
+    int shift_ = 0;
+    /// One entry per half-edge where the numbers of corners differ.
+    std::vector<Index> faces_;
+};
+
 /// How the faces of a mesh hang together. Half-edge h runs from corner h to the next corner of the same face, so that
 /// half-edges are numbered like `face_vertices`. Orientation plays no part: an edge pairs its two half-edges whether
 /// they run in opposite directions or in the same one, and a Möbius band is as good a mesh as any.
@@ -29,8 +68,7 @@ struct Topology {
     /// One entry per half-edge: the half-edge of the other face at the same edge, or -1 on an edge of one face, or of
     /// three or more.
     std::vector<Index> twin;
-    /// One entry per half-edge: its face.
-    std::vector<Index> face_of;
+    FaceOfHalfedge face_of;
     /// #V + 1; the corners at vertex v are vertex_corners[vertex_offsets[v]] and so on, in ascending order.
     std::vector<Index> vertex_offsets;
     std::vector<Index> vertex_corners;
@@ -51,18 +89,10 @@ struct Topology {
     }
 
     /// The half-edge after h in its face.
-    [[nodiscard]] Index next(const PolygonMesh& mesh, Index h) const
-    {
-        const auto f = at(face_of[at(h)]);
-        return h + 1 == mesh.face_offsets[f + 1] ? mesh.face_offsets[f] : h + 1;
-    }
+    [[nodiscard]] Index next(const PolygonMesh& mesh, Index h) const { return face_of.next(mesh, h); }
 
     /// The half-edge before h in its face.
-    [[nodiscard]] Index previous(const PolygonMesh& mesh, Index h) const
-    {
-        const auto f = at(face_of[at(h)]);
-        return h == mesh.face_offsets[f] ? mesh.face_offsets[f + 1] - 1 : h - 1;
-    }
+    [[nodiscard]] Index previous(const PolygonMesh& mesh, Index h) const { return face_of.previous(mesh, h); }
 };
 
 /// Pairs the half-edges of a valid mesh (see require_valid) and classifies its vertices. Linear in the size of the

@@ -163,8 +163,6 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern)
 FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, std::vector<Index>& places)
 {
     FactorPattern factor;
-    factor.position.resize(at(upper.n()));
-    std::iota(factor.position.begin(), factor.position.end(), 0);
     places.resize(upper.rows.size());
     list_blocks(
         upper, Zeros::Few, n_last, factor, [](Index, Index, Index) {},

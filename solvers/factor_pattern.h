@@ -19,7 +19,7 @@ struct FactorPattern {
         Index place;
     };
 
-    /// Per unknown of the matrix, its number in the order of elimination.
+    /// Per unknown of the matrix, its number in the order of elimination; empty where they are the same.
     std::vector<Index> position;
     /// Number of blocks + 1: the first unknown of each.
     std::vector<Index> first{0};
@@ -29,7 +29,7 @@ struct FactorPattern {
     std::vector<Index> update_offsets;
     std::vector<Update> updates;
 
-    [[nodiscard]] Index n() const { return static_cast<Index>(position.size()); }
+    [[nodiscard]] Index n() const { return first.back(); }
     [[nodiscard]] Index n_blocks() const { return static_cast<Index>(first.size()) - 1; }
     [[nodiscard]] Index width(Index block) const { return first[at(block) + 1] - first[at(block)]; }
 };
@@ -38,7 +38,7 @@ struct FactorPattern {
 /// @throws ComputationError if there is too little memory.
 FactorPattern make_factor_pattern(const SparsePattern& pattern);
 
-/// For a symmetric matrix whose unknowns are in the order of elimination, without `updates`. A few entries that stay
+/// For a symmetric matrix whose unknowns are in the order of elimination, without `position` and `updates`. A few entries that stay
 /// zero are taken in for wider blocks.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @param n_last the last unknowns, which are made one block in any case.

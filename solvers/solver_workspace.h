@@ -27,6 +27,10 @@ struct SolverWorkspace {
     Columns solution;
     /// #own by 3.
     Points positions;
+    /// #unknowns by 3: Vᵏ⁺¹ - Vᵏ, in the making.
+    Points increment;
+    /// #local by 3: what is known of the other side, on Γ and in the halo.
+    Points other_side;
 };
 
 }  // namespace seamflow

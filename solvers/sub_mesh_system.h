@@ -12,6 +12,15 @@
 
 namespace seamflow {
 
+/// What a system looks at of its sub-mesh's own faces when it has been constructed. The rest may go.
+enum class FacesInUse {
+    None,
+    /// SubMesh::face_vertices.
+    Corners,
+    /// SubMesh::twin as well.
+    All,
+};
+
 /// The equations of one backward Euler step on one sub-mesh, one per own vertex:
 ///   fixed vertices       V^{k+1} = V^k
 ///   Γ, following         V^{k+1} = what the leading sub-mesh found
@@ -34,6 +43,8 @@ class SubMeshSystem {
     /// @param roles one per vertex of Γ.
     virtual void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                           std::span<const InterfaceRole> roles, SolverWorkspace& workspace) = 0;
+
+    [[nodiscard]] virtual FacesInUse faces_in_use() const { return FacesInUse::All; }
 
     /// What a factor takes, in bytes; where that is not known beforehand, an estimate.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;

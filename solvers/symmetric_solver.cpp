@@ -1,5 +1,7 @@
 #include "solvers/symmetric_solver.h"
 
+#include <utility>
+
 #include "solvers/set_rows.h"
 
 namespace seamflow {
@@ -11,12 +13,14 @@ constexpr Index most_unknowns_for_ldl = 500'000;
 
 }  // namespace
 
-SymmetricSolver::SymmetricSolver(const SparsePattern& upper, SolverWorkspace& workspace)
+SymmetricSolver::SymmetricSolver(SparsePattern upper, SolverWorkspace& workspace)
 {
-    if (upper.n() <= most_unknowns_for_ldl)
+    if (upper.n() <= most_unknowns_for_ldl) {
         ldl_ = std::make_unique<LdlSolver>(upper);
-    else
-        cholmod_ = std::make_unique<CholmodSolver>(upper, workspace.cholmod);
+        return;
+    }
+    upper_ = std::move(upper);
+    cholmod_ = std::make_unique<CholmodSolver>(upper_, workspace.cholmod);
 }
 
 std::size_t SymmetricSolver::factor_bytes() const

@@ -15,9 +15,9 @@ namespace seamflow {
 /// faster there.
 class SymmetricSolver {
   public:
-    /// @param upper the entries on and above the diagonal, the whole diagonal among them; must outlive the solver.
+    /// @param upper the entries on and above the diagonal, the whole diagonal among them.
     /// @throws ComputationError if the analysis fails (memory).
-    SymmetricSolver(const SparsePattern& upper, SolverWorkspace& workspace);
+    SymmetricSolver(SparsePattern upper, SolverWorkspace& workspace);
 
     /// What a factor takes, in bytes. CHOLMOD's are in its own memory, of which this is most.
     [[nodiscard]] std::size_t factor_bytes() const;
@@ -37,6 +37,8 @@ class SymmetricSolver {
     void free_factor(FactorMemory& memory);
 
   private:
+    /// CHOLMOD's: the other one has what it needs of it.
+    SparsePattern upper_;
     /// One of the two.
     std::unique_ptr<LdlSolver> ldl_;
     std::unique_ptr<CholmodSolver> cholmod_;

@@ -41,7 +41,8 @@ struct SubMeshSeam {
 };
 
 /// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
-/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ.
+/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ. Who needs the
+/// corners of the faces and their half-edges no more may empty `face_vertices` and `twin`.
 struct SubMesh {
     /// The faces, as indices into the whole mesh, in ascending order.
     std::vector<Index> faces;

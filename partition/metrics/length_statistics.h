@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 namespace seamflow {
@@ -9,6 +10,23 @@ struct LengthStatistics {
     double mean = 0.0;
     double rms = 0.0;
     double max = 0.0;
+};
+
+/// Adds up what the statistics of some lengths are made of.
+class LengthSums {
+  public:
+    /// Takes in the absolute value of a length; what is not a number is left out.
+    void add(double length);
+    /// Takes in those of others.
+    void add(const LengthSums& others);
+    /// All 0 if there was none.
+    [[nodiscard]] LengthStatistics statistics() const;
+
+  private:
+    std::size_t count_ = 0;
+    double sum_ = 0.0;
+    double sum_of_squares_ = 0.0;
+    double largest_ = 0.0;
 };
 
 /// Of the absolute values of `lengths`, those that are not a number left out; all 0 if none is left. Summed in order,

@@ -18,6 +18,8 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
             lists_.push_back(&faces.beyond);
     }
 
+    [[nodiscard]] bool uses_faces() const override { return true; }
+
     [[nodiscard]] std::vector<VertexPair> pairs() const override
     {
         std::vector<VertexPair> pairs;

@@ -88,6 +88,8 @@ class SymmetricFujiwara final : public SymmetricLaplacian {
         edges_.shrink_to_fit();
     }
 
+    [[nodiscard]] bool uses_faces() const override { return false; }
+
     [[nodiscard]] std::vector<VertexPair> pairs() const override { return edges_; }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,

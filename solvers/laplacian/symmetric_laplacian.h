@@ -24,6 +24,9 @@ class SymmetricLaplacian {
   public:
     virtual ~SymmetricLaplacian() = default;
 
+    /// Whether `assemble` looks at the faces.
+    [[nodiscard]] virtual bool uses_faces() const = 0;
+
     /// The entries of K off the diagonal in the order in which `assemble` meets them, each standing for two;
     /// repetitions are welcome.
     [[nodiscard]] virtual std::vector<VertexPair> pairs() const = 0;
@@ -59,7 +62,7 @@ struct FacesOnBothSides {
 bool is_symmetric(Laplacian laplacian);
 
 /// @param laplacian one that is symmetric.
-/// @param faces their lists must outlive the result.
+/// @param faces their lists must outlive the result if it uses them, the twins need not.
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces);
 
 /// See make_symmetric_laplacian.

@@ -6,6 +6,7 @@
 
 #include "partition/errors.h"
 #include "solvers/elimination_order.h"
+#include "solvers/set_rows.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
 #include "solvers/wide.h"
@@ -52,50 +53,52 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
                                                sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces}))
 {
     const std::vector<VertexPair> pairs = laplacian_->pairs();
-    number_unknowns(pairs);
-    list_couplings(pairs);
+    std::vector<Index> unknown_of;
+    number_unknowns(pairs, unknown_of);
+    list_couplings(pairs, unknown_of);
     solver_ = std::make_unique<LdlSolver>(upper_, n_interface());
 }
 
 /// The interior in the order of elimination, then Γ.
-void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs)
+/// @param unknown_of receives one entry per own vertex, -1 where it is none.
+void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of)
 {
     std::vector<bool> on_interface(at(sub_mesh_->n_vertices), false);
     for (const Index v : sub_mesh_->interface.vertices)
         on_interface[at(v)] = true;
-    unknown_of_.assign(at(sub_mesh_->n_vertices), -1);
+    unknown_of.assign(at(sub_mesh_->n_vertices), -1);
     std::vector<Index> vertices;
     std::vector<bool> is_last;
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
         if (sub_mesh_->fixed[at(v)] == 0) {
-            unknown_of_[at(v)] = static_cast<Index>(vertices.size());
+            unknown_of[at(v)] = static_cast<Index>(vertices.size());
             vertices.push_back(v);
             is_last.push_back(on_interface[at(v)]);
         }
     const auto n = static_cast<Index>(vertices.size());
-    const auto order = elimination_order(upper_pattern(pairs, unknown_of_, n).pattern, is_last);
+    const auto order = elimination_order(upper_pattern(pairs, unknown_of, n).pattern, is_last);
     for (const Index u : order)
         if (!is_last[at(u)])
             vertex_of_.push_back(vertices[at(u)]);
     vertex_of_.insert(vertex_of_.end(), sub_mesh_->interface.vertices.begin(), sub_mesh_->interface.vertices.end());
     for (Index u = 0; u < n; ++u)
-        unknown_of_[at(vertex_of_[at(u)])] = u;
-    auto [pattern, slots] = upper_pattern(pairs, unknown_of_, n);
+        unknown_of[at(vertex_of_[at(u)])] = u;
+    auto [pattern, slots] = upper_pattern(pairs, unknown_of, n);
     upper_ = std::move(pattern);
     slots_ = std::move(slots);
 }
 
 /// What is no entry of the matrix: at fixed vertices.
-void NeumannSystem::list_couplings(const std::vector<VertexPair>& pairs)
+void NeumannSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         auto [a, b] = pairs[i];
-        if (unknown_of_[at(a)] < 0)
+        if (unknown_of[at(a)] < 0)
             std::swap(a, b);
-        if (slots_[i] >= 0 || unknown_of_[at(a)] < 0)
+        if (slots_[i] >= 0 || unknown_of[at(a)] < 0)
             continue;
         slots_[i] = upper_.n_entries() + static_cast<Index>(fixed_.size());
-        fixed_.push_back({unknown_of_[at(a)], b, 0.0});
+        fixed_.push_back({unknown_of[at(a)], b, 0.0});
     }
     std::replace(slots_.begin(), slots_.end(), Index{-1}, upper_.n_entries() + static_cast<Index>(fixed_.size()));
 }
@@ -109,7 +112,7 @@ void NeumannSystem::assemble(const Points& positions, double time_step, SolverWo
     laplacian_->assemble(positions, time_step, slots_, workspace.values, workspace.diagonal, workspace.mass);
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
         const Index v = vertex_of_[u];
-        workspace.values[at(diagonal_slot(upper_, static_cast<Index>(u)))] =
+        workspace.values[at(diagonal_slot(upper_.column_offsets, static_cast<Index>(u)))] =
             workspace.mass[at(v)] + workspace.diagonal[at(v)];
     }
     for (std::size_t c = 0; c < fixed_.size(); ++c)
@@ -160,11 +163,13 @@ const double* NeumannSystem::last_row(Index i) const
 void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed,
                              const SolverWorkspace& workspace) const
 {
-    eliminated.setZero(static_cast<Eigen::Index>(vertex_of_.size()), 3);
+    set_rows(eliminated, static_cast<Eigen::Index>(vertex_of_.size()));
+    eliminated.setZero();
     for (Index column = 0; column < upper_.n(); ++column) {
         const Point here = positions.row(vertex_of_[at(column)]);
         Point sum = Point::Zero();
-        for (Index slot = upper_.column_offsets[at(column)]; slot < diagonal_slot(upper_, column); ++slot) {
+        for (Index slot = upper_.column_offsets[at(column)]; slot < diagonal_slot(upper_.column_offsets, column);
+             ++slot) {
             const Index row = upper_.rows[at(slot)];
             const Point flux = workspace.values[at(slot)] * (positions.row(vertex_of_[at(row)]) - here);
             eliminated.row(row) += flux;

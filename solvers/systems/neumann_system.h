@@ -10,6 +10,7 @@
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/ldl_solver.h"
 #include "solvers/solver_workspace.h"
+#include "solvers/sub_mesh_system.h"
 #include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
@@ -24,8 +25,16 @@ class NeumannSystem {
     /// @throws ComputationError if the analysis fails.
     NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian);
 
+    [[nodiscard]] FacesInUse faces_in_use() const
+    {
+        return laplacian_->uses_faces() ? FacesInUse::Corners : FacesInUse::None;
+    }
+
     /// Number of vertices on Γ.
     [[nodiscard]] Index n_interface() const { return sub_mesh_->interface.size(); }
+
+    /// Number of the other unknowns.
+    [[nodiscard]] Index n_interior() const { return static_cast<Index>(vertex_of_.size()) - n_interface(); }
 
     /// Fills in A.
     /// @param positions at least #own by 3: Vᵏ.
@@ -44,7 +53,7 @@ class NeumannSystem {
     /// Gives borrowed memory back. What the equation on Γ needs of the factor stays until the next `factorise`.
     void give_back_interior(SolverWorkspace& workspace);
 
-    /// For `fill_in`, after `assemble` with the same positions; to be followed by `condense` as before.
+    /// For `fill_in`, after `assemble` with the same positions.
     void factorise_again(SolverWorkspace& workspace);
 
     /// Gives borrowed memory back.
@@ -84,14 +93,13 @@ class NeumannSystem {
     /// Where a row of the packed lower triangle `last_` begins.
     static std::size_t row_of_last(Index i) { return at(i) * (at(i) + 1) / 2; }
     [[nodiscard]] const double* last_row(Index i) const;
-    void number_unknowns(const std::vector<VertexPair>& pairs);
-    void list_couplings(const std::vector<VertexPair>& pairs);
+    void number_unknowns(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of);
+    void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);
 
     const SubMesh* sub_mesh_;
     std::unique_ptr<SymmetricLaplacian> laplacian_;
-    /// In the order of elimination, Γ last and in its own order; and per own vertex, or -1.
+    /// In the order of elimination, Γ last and in its own order.
     std::vector<Index> vertex_of_;
-    std::vector<Index> unknown_of_;
     SparsePattern upper_;
     std::unique_ptr<LdlSolver> solver_;
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then one that nobody reads.

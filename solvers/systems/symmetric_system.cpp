@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "partition/errors.h"
 #include "solvers/conditions/remainder.h"
@@ -18,51 +19,58 @@ SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, S
     , laplacian_(make_symmetric_laplacian(laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces,
                                                       sub_mesh.twin, sub_mesh.n_vertices + sub_mesh.n_halo}))
 {
-    number_unknowns(rows);
+    std::vector<Index> unknown_of;
+    number_unknowns(rows, unknown_of);
     const std::vector<VertexPair> pairs = laplacian_->pairs();
-    list_entries(pairs);
-    list_couplings(pairs);
+    SparsePattern upper = list_entries(pairs, unknown_of);
+    column_offsets_ = upper.column_offsets;
+    list_couplings(pairs, unknown_of);
     if (rows == SymmetricRows::Yielding)
-        list_interface();
+        list_interface(upper, unknown_of);
     mass_.resize(vertex_of_.size());
-    solver_ = std::make_unique<SymmetricSolver>(upper_, workspace);
+    solver_ = std::make_unique<SymmetricSolver>(std::move(upper), workspace);
 }
 
 /// In the order of the vertices.
-void SymmetricSystem::number_unknowns(SymmetricRows rows)
+/// @param unknown_of receives one entry per own vertex, -1 where it is none.
+void SymmetricSystem::number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of)
 {
-    unknown_of_.assign(at(sub_mesh_->n_vertices), 0);
+    unknown_of.assign(at(sub_mesh_->n_vertices), 0);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
         if (sub_mesh_->fixed[at(v)] != 0)
-            unknown_of_[at(v)] = -1;
+            unknown_of[at(v)] = -1;
     if (rows == SymmetricRows::None)
         for (const Index v : sub_mesh_->interface.vertices)
-            unknown_of_[at(v)] = -1;
+            unknown_of[at(v)] = -1;
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (unknown_of_[at(v)] == 0) {
-            unknown_of_[at(v)] = static_cast<Index>(vertex_of_.size());
+        if (unknown_of[at(v)] == 0) {
+            unknown_of[at(v)] = static_cast<Index>(vertex_of_.size());
             vertex_of_.push_back(v);
         }
 }
 
 /// Renumbers the unknowns in the order of elimination.
-void SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs)
+SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of)
 {
     const auto n = static_cast<Index>(vertex_of_.size());
-    const std::vector<Index> order = elimination_order(upper_pattern(pairs, unknown_of_, n).pattern);
+    const std::vector<Index> order = elimination_order(upper_pattern(pairs, unknown_of, n).pattern);
     std::vector<Index> vertex_of(at(n));
     std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return vertex_of_[at(u)]; });
     vertex_of_ = std::move(vertex_of);
     for (Index u = 0; u < n; ++u)
-        unknown_of_[at(vertex_of_[at(u)])] = u;
-    auto [pattern, slots] = upper_pattern(pairs, unknown_of_, n);
-    upper_ = std::move(pattern);
+        unknown_of[at(vertex_of_[at(u)])] = u;
+    auto [pattern, slots] = upper_pattern(pairs, unknown_of, n);
     slots_ = std::move(slots);
+    return std::move(pattern);
 }
 
 /// What is no entry of the matrix; what is beyond Γ by the vertices of Γ.
-void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs)
+void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
+    const auto is_unknown = [&](Index v) { return v < sub_mesh_->n_vertices && unknown_of[at(v)] >= 0; };
+    const auto unknown_first = [&](VertexPair pair) {
+        return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
+    };
     std::vector<std::size_t> at_fixed;
     std::vector<std::pair<Index, std::size_t>> at_beyond;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -76,37 +84,34 @@ void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs)
         else
             at_beyond.emplace_back(a, i);
     }
-    Index slot = upper_.n_entries();
+    Index slot = n_entries();
     for (const std::size_t i : at_fixed) {
         const auto [a, b] = unknown_first(pairs[i]);
         slots_[i] = slot++;
-        fixed_.push_back({unknown_of_[at(a)], b, 0.0});
+        fixed_.push_back({unknown_of[at(a)], b, 0.0});
     }
     std::sort(at_beyond.begin(), at_beyond.end());
     for (const auto& [a, i] : at_beyond) {
         slots_[i] = slot++;
-        beyond_.push_back({unknown_of_[at(a)], unknown_first(pairs[i]).second, 0.0});
+        beyond_.push_back({unknown_of[at(a)], unknown_first(pairs[i]).second, 0.0});
     }
     std::replace(slots_.begin(), slots_.end(), Index{-1}, slot);
 }
 
-VertexPair SymmetricSystem::unknown_first(VertexPair pair) const
-{
-    return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
-}
-
 /// What belongs to each vertex of Γ, whose roles change.
-void SymmetricSystem::list_interface()
+void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     interface_rows_.resize(vertices.size());
     std::vector<std::vector<InterfaceEntry>> entries(vertices.size());
     std::vector<Index> interface_index(vertex_of_.size(), -1);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        interface_index[at(unknown_of_[at(vertices[i])])] = static_cast<Index>(i);
-    for (Index column = 0; column < upper_.n(); ++column)
-        for (Index slot = upper_.column_offsets[at(column)]; slot < upper_.column_offsets[at(column) + 1]; ++slot) {
-            const Index row = upper_.rows[at(slot)];
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        interface_unknowns_.push_back(unknown_of[at(vertices[i])]);
+        interface_index[at(interface_unknowns_[i])] = static_cast<Index>(i);
+    }
+    for (Index column = 0; column < upper.n(); ++column)
+        for (Index slot = upper.column_offsets[at(column)]; slot < upper.column_offsets[at(column) + 1]; ++slot) {
+            const Index row = upper.rows[at(slot)];
             if (row == column)
                 continue;
             if (interface_index[at(row)] >= 0)
@@ -119,7 +124,7 @@ void SymmetricSystem::list_interface()
         interface_offsets_.push_back(static_cast<Index>(interface_entries_.size()));
         interface_entries_.insert(interface_entries_.end(), entries[i].begin(), entries[i].end());
         beyond_offsets_.push_back(static_cast<Index>(beyond));
-        while (beyond < beyond_.size() && beyond_[beyond].unknown == unknown_of_[at(vertices[i])])
+        while (beyond < beyond_.size() && beyond_[beyond].unknown == interface_unknowns_[i])
             ++beyond;
     }
     interface_offsets_.push_back(static_cast<Index>(interface_entries_.size()));
@@ -130,21 +135,22 @@ void SymmetricSystem::list_interface()
 void SymmetricSystem::assemble(const Points& positions, const Points& other_side, double time_step, double,
                                std::span<const InterfaceRole> roles, SolverWorkspace& workspace)
 {
-    const auto n_entries = at(upper_.n_entries());
+    const auto n_matrix = at(n_entries());
     auto& values = workspace.values;
-    values.assign(n_entries + fixed_.size() + beyond_.size() + 1, 0.0);
+    values.assign(n_matrix + fixed_.size() + beyond_.size() + 1, 0.0);
     workspace.diagonal.resize(at(sub_mesh_->n_vertices + sub_mesh_->n_halo));
     workspace.mass.resize(workspace.diagonal.size());
     laplacian_->assemble(positions, time_step, slots_, values, workspace.diagonal, workspace.mass);
 
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
         mass_[u] = workspace.mass[at(vertex_of_[u])];
-        values[at(diagonal_slot(upper_, static_cast<Index>(u)))] = mass_[u] + workspace.diagonal[at(vertex_of_[u])];
+        values[at(diagonal_slot(column_offsets_, static_cast<Index>(u)))] =
+            mass_[u] + workspace.diagonal[at(vertex_of_[u])];
     }
     for (std::size_t c = 0; c < fixed_.size(); ++c)
-        fixed_[c].value = values[n_entries + c];
+        fixed_[c].value = values[n_matrix + c];
     for (std::size_t c = 0; c < beyond_.size(); ++c)
-        beyond_[c].value = values[n_entries + fixed_.size() + c];
+        beyond_[c].value = values[n_matrix + fixed_.size() + c];
 
     held_.clear();
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
@@ -166,7 +172,7 @@ void SymmetricSystem::hold(std::size_t i, std::span<double> values)
         held_.push_back({entry.unknown, sub_mesh_->interface.vertices[i], values[at(entry.slot)]});
         values[at(entry.slot)] = 0.0;
     }
-    values[at(diagonal_slot(upper_, unknown_of_[at(sub_mesh_->interface.vertices[i])]))] = 1.0;
+    values[at(diagonal_slot(column_offsets_, interface_unknowns_[i]))] = 1.0;
 }
 
 /// Takes from the diagonal what the other side yields; nothing where too little would remain.
@@ -179,7 +185,7 @@ void SymmetricSystem::yield(std::size_t i, const Points& positions, double time_
     for (Index c = beyond_offsets_[i]; c < beyond_offsets_[i + 1]; ++c)
         yield += beyond_[at(c)].value * remainder_between(positions, v, beyond_[at(c)].vertex, time_step);
     interface_rows_[i].yield = diagonal + yield >= 0.0 ? yield : 0.0;
-    values[at(diagonal_slot(upper_, unknown_of_[at(v)]))] += interface_rows_[i].yield;
+    values[at(diagonal_slot(column_offsets_, interface_unknowns_[i]))] += interface_rows_[i].yield;
 }
 
 void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
@@ -196,7 +202,7 @@ void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
 
 void SymmetricSystem::factorise(SolverWorkspace& workspace)
 {
-    const auto values = std::span<double>(workspace.values).first(at(upper_.n_entries()));
+    const auto values = std::span<double>(workspace.values).first(at(n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
     if (vertex_of_.empty() || solver_->factorise(values, workspace))
@@ -212,8 +218,7 @@ void SymmetricSystem::stop_yielding(std::span<double> values)
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
         if (interface_rows_[i].role == InterfaceRole::Follows)
             continue;
-        values[at(diagonal_slot(upper_, unknown_of_[at(sub_mesh_->interface.vertices[i])]))] -=
-            interface_rows_[i].yield;
+        values[at(diagonal_slot(column_offsets_, interface_unknowns_[i]))] -= interface_rows_[i].yield;
         interface_rows_[i].yield = 0.0;
     }
 }
@@ -248,7 +253,7 @@ void SymmetricSystem::solve_with(const Points& positions, Points& solution, Solv
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
         const Index v = sub_mesh_->interface.vertices[i];
         if (interface_rows_[i].role == InterfaceRole::Follows)
-            solution.row(v) = workspace.right_hand_side.row(unknown_of_[at(v)]);
+            solution.row(v) = workspace.right_hand_side.row(interface_unknowns_[i]);
     }
 }
 
@@ -263,9 +268,10 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
         const Index v = sub_mesh_->interface.vertices[i];
         if (interface_rows_[i].role == InterfaceRole::Follows)
-            right.row(unknown_of_[at(v)]) = known.row(v);
+            right.row(interface_unknowns_[i]) = known.row(v);
         else
-            right.row(unknown_of_[at(v)]) += interface_rows_[i].beyond + interface_rows_[i].yield * positions.row(v);
+            right.row(interface_unknowns_[i]) +=
+                interface_rows_[i].beyond + interface_rows_[i].yield * positions.row(v);
     }
 }
 

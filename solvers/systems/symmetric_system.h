@@ -31,6 +31,10 @@ class SymmetricSystem final : public SubMeshSystem {
 
     void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
+    [[nodiscard]] FacesInUse faces_in_use() const override
+    {
+        return laplacian_->uses_faces() ? FacesInUse::Corners : FacesInUse::None;
+    }
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
     void factorise(SolverWorkspace& workspace) override;
     void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) override;
@@ -53,24 +57,23 @@ class SymmetricSystem final : public SubMeshSystem {
         Point beyond = Point::Zero();
     };
 
-    void number_unknowns(SymmetricRows rows);
-    void list_entries(const std::vector<VertexPair>& pairs);
-    void list_couplings(const std::vector<VertexPair>& pairs);
-    void list_interface();
+    void number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of);
+    SparsePattern list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of);
+    void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);
+    void list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of);
     void hold(std::size_t i, std::span<double> values);
     void yield(std::size_t i, const Points& positions, double time_step, double diagonal, std::span<double> values);
     void stop_yielding(std::span<double> values);
     void fill_right_hand_side(const Points& positions, const Points& known, Columns& right) const;
     void solve_with(const Points& positions, Points& solution, SolverWorkspace& workspace);
-    [[nodiscard]] VertexPair unknown_first(VertexPair pair) const;
-    [[nodiscard]] bool is_unknown(Index v) const { return v < sub_mesh_->n_vertices && unknown_of_[at(v)] >= 0; }
+    [[nodiscard]] Index n_entries() const { return column_offsets_.back(); }
 
     const SubMesh* sub_mesh_;
     std::unique_ptr<SymmetricLaplacian> laplacian_;
-    /// In the order of elimination; and per own vertex, or -1.
+    /// In the order of elimination.
     std::vector<Index> vertex_of_;
-    std::vector<Index> unknown_of_;
-    SparsePattern upper_;
+    /// Of the pattern of the upper triangle, whose rows the solver has.
+    std::vector<Index> column_offsets_;
     std::unique_ptr<SymmetricSolver> solver_;
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then of `beyond_`, then one that nobody
     /// reads.
@@ -78,7 +81,8 @@ class SymmetricSystem final : public SubMeshSystem {
     /// Coefficients at own vertices that are never unknown; and at vertices of the halo.
     std::vector<Coupling> fixed_;
     std::vector<Coupling> beyond_;
-    /// Per vertex of Γ: its entries of the matrix, and its part of `beyond_`, which has one more offset.
+    /// Per vertex of Γ: its unknown, its entries of the matrix, and its part of `beyond_`, which has one more offset.
+    std::vector<Index> interface_unknowns_;
     std::vector<InterfaceEntry> interface_entries_;
     std::vector<Index> interface_offsets_;
     std::vector<Index> beyond_offsets_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solvers/laplacian/symmetric_laplacian.h"
@@ -27,9 +28,10 @@ struct UpperPattern {
 UpperPattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n);
 
 /// The entry of an unknown on the diagonal, which is the last of its column.
-inline Index diagonal_slot(const SparsePattern& upper, Index unknown)
+/// @param column_offsets those of the upper triangle.
+inline Index diagonal_slot(std::span<const Index> column_offsets, Index unknown)
 {
-    return upper.column_offsets[at(unknown) + 1] - 1;
+    return column_offsets[at(unknown) + 1] - 1;
 }
 
 }  // namespace seamflow

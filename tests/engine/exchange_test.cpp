@@ -94,10 +94,10 @@ class Machines {
     {
         for (Index s = 0; s < n(); ++s) {
             predict(states_, s, workspace_);
-            states_[at(s)].predicted.bottomRows(decomposition_.sub_meshes[at(s)].n_halo).setConstant(unknown);
+            states_[at(s)].solved.bottomRows(decomposition_.sub_meshes[at(s)].n_halo).setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
-            use_predictions(states_, s, plan_.predictions[at(s)]);
+            use_predictions(states_, s, plan_.predictions[at(s)], workspace_);
     }
 
     [[nodiscard]] bool mutual() const { return is_classical(options_.conditions); }
