@@ -1,13 +1,14 @@
 #include "engine/converged_flow.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 
 #include "engine/choose_subdomains.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
-#include "engine/release_faces.h"
+#include "engine/release.h"
 #include "engine/stopwatch.h"
 #include "partition/errors.h"
 #include "solvers/set_rows.h"
@@ -37,7 +38,6 @@ ConvergedFlow::ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, 
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
-    , next_(mesh.vertices)
     , condensed_(equation_.copies().n_copies(), 3)
     , seconds_(decomposition_.sub_meshes.size())
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
@@ -59,6 +59,7 @@ void ConvergedFlow::make_systems(const FlowOptions& options)
         });
         progress_->count();
     });
+    release_surroundings(decomposition_);
     for (const auto& system : systems_)
         system_views_.push_back(system.get());
     limit_factors(options);
@@ -118,12 +119,13 @@ void ConvergedFlow::take_turns(const std::vector<TaskGraph::Node>& tasks)
         graph_.add_dependency(tasks[i - at(kept_.n_places)], tasks[i]);
 }
 
-void ConvergedFlow::step()
+void ConvergedFlow::step(const Points& before)
 {
+    assert(&before != &positions_);
+    before_ = &before;
     if (recorder_)
         recorder_->begin_step();
     graph_.run(root_, loops_.parts());
-    positions_.swap(next_);
     if (recorder_)
         recorder_->end_step();
 }
@@ -133,7 +135,7 @@ void ConvergedFlow::assemble(Index s, SolverWorkspace& workspace)
     const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
     set_rows(workspace.positions, sub_mesh.n_vertices);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-        workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
+        workspace.positions.row(v) = before_->row(sub_mesh.local_to_global[at(v)]);
     systems_[at(s)]->assemble(workspace.positions, time_step_, workspace);
 }
 
@@ -154,7 +156,7 @@ void ConvergedFlow::eliminate(Index s)
     const std::vector<Index>& global = decomposition_.sub_meshes[at(s)].local_to_global;
     const std::vector<Index>& vertices = system.unknowns();
     for (Index u = 0; u < system.n_interior(); ++u)
-        next_.row(global[at(vertices[at(u)])]) = eliminated.row(u);
+        positions_.row(global[at(vertices[at(u)])]) = eliminated.row(u);
     seconds_[at(s)].solve += watch.lap();
 }
 
@@ -188,15 +190,15 @@ void ConvergedFlow::fill_in(Index s)
     Points& solution = workspace.increment;
     set_rows(solution, static_cast<Eigen::Index>(vertices.size()));
     for (Index u = 0; u < system.n_interior(); ++u)
-        solution.row(u) = next_.row(sub_mesh.local_to_global[at(vertices[at(u)])]);
+        solution.row(u) = positions_.row(sub_mesh.local_to_global[at(vertices[at(u)])]);
     const Index first = equation_.copies().first[at(s)];
     for (Index i = 0; i < system.n_interface(); ++i)
         solution.row(system.n_interior() + i) = interface_.row(equation_.copies().vertex[at(first + i)]);
     system.fill_in(solution);
     for (std::size_t u = 0; u < vertices.size(); ++u)
         if (sub_mesh.owned[at(vertices[u])] != 0)
-            next_.row(sub_mesh.local_to_global[at(vertices[u])]) =
-                positions_.row(sub_mesh.local_to_global[at(vertices[u])]) + solution.row(static_cast<Eigen::Index>(u));
+            positions_.row(sub_mesh.local_to_global[at(vertices[u])]) =
+                before_->row(sub_mesh.local_to_global[at(vertices[u])]) + solution.row(static_cast<Eigen::Index>(u));
     if (!is_kept(s))
         system.give_back(workspace);
     seconds_[at(s)].solve += watch.lap();
@@ -212,7 +214,7 @@ void ConvergedFlow::save(StepMemory& memory) const
 void ConvergedFlow::restore(const StepMemory& memory)
 {
     StepMemoryReader reader(memory);
-    positions_ = next_ = memory.positions;
+    positions_ = memory.positions;
     interface_ = reader.array_or_none(equation_.copies().n_vertices());
     distance_ = reader.number();
     steps_short_of_tolerance_ = reader.count();

@@ -37,11 +37,12 @@ class ConvergedFlow {
     ConvergedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                   Progress& progress);
 
-    /// One step. After an exception the positions are those before the step, and the flow is at its end.
+    /// One step. After an exception there are no positions, and the flow is at its end.
+    /// @param before #V by 3: Vᵏ, what positions() were, in memory of its own.
     /// @throws ComputationError naming the sub-mesh.
-    void step();
+    void step(const Points& before);
 
-    /// #V by 3, after the last complete step.
+    /// #V by 3, after the last step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
     /// There are no gaps to keep.
@@ -91,9 +92,11 @@ class ConvergedFlow {
     /// know nothing of each other.
     double distance_ = 0.0;
     double time_step_;
+    /// #V by 3: Vᵏ, during a step.
+    const Points* before_ = nullptr;
+    /// #V by 3: Vᵏ⁺¹, complete at the end of a step; until it is filled in, what the elimination leaves of the
+    /// interior.
     Points positions_;
-    /// #V by 3. Vᵏ⁺¹, complete at the end of a step; until it is filled in, what the elimination leaves of the interior.
-    Points next_;
     /// On Γ: Vᵏ⁺¹ - Vᵏ, and that of the step before, which has no rows in the first step.
     Points interface_;
     Points guess_;

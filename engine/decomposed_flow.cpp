@@ -8,7 +8,7 @@
 #include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
-#include "engine/release_faces.h"
+#include "engine/release.h"
 #include "engine/sub_mesh_options.h"
 #include "engine/sweep_order.h"
 #include "partition/decomposition/narrow_order.h"
@@ -213,14 +213,14 @@ void DecomposedFlow::add_predictions(const SweepPlan& plan, const std::vector<Ta
     }
 }
 
-void DecomposedFlow::step()
+void DecomposedFlow::step(const Points& before)
 {
     if (recorder_)
         recorder_->begin_step();
     graph_.run(roots_[static_cast<std::size_t>(steps_done_) % roots_.size()]);
     ++steps_done_;
     if (drift_)
-        drift_->add_step(positions_);
+        drift_->add_step(before);
     join();
     if (recorder_)
         recorder_->end_step();

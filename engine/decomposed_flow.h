@@ -46,11 +46,12 @@ class DecomposedFlow {
     DecomposedFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                    const std::vector<double>& curvature, Progress& progress);
 
-    /// One backward Euler step. After an exception the positions are those before the step, and the flow is at its end.
+    /// One backward Euler step. After an exception the flow is at its end.
+    /// @param before #V by 3: Vᵏ, which is positions(), or what they were, in memory of its own.
     /// @throws ComputationError naming the sub-mesh.
-    void step();
+    void step(const Points& before);
 
-    /// #V by 3, after the last complete step.
+    /// #V by 3, after the last step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
     /// The sub-meshes after the last complete step (see FlowReport::pieces); null without FlowOptions::keep_gaps.

@@ -1,6 +1,7 @@
 #include "engine/explicit_flow.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -63,15 +64,14 @@ ExplicitFlow::ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, co
     , laplacian_(options.laplacian)
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
-    , next_(mesh.vertices)
     , first_limit_(infinity)
     , smallest_limit_(infinity)
 {
 }
 
-void ExplicitFlow::require_stable()
+void ExplicitFlow::require_stable(const Points& positions)
 {
-    const double limit = largest_explicit_step(*mesh_, *topology_, positions_);
+    const double limit = largest_explicit_step(*mesh_, *topology_, positions);
     const bool first = smallest_limit_ == infinity;
     smallest_limit_ = std::min(smallest_limit_, limit);
     if (!first)
@@ -83,17 +83,17 @@ void ExplicitFlow::require_stable()
                           "smaller one, or backward Euler steps");
 }
 
-void ExplicitFlow::step()
+void ExplicitFlow::step(const Points& before)
 {
-    require_stable();
+    assert(&before != &positions_);
+    require_stable(before);
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
-            next_.row(v) =
-                positions_.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, positions_, laplacian_, v);
+            positions_.row(v) =
+                before.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, before, laplacian_, v);
     });
-    if (!next_.allFinite())
+    if (!positions_.allFinite())
         throw ComputationError("the result is not finite: use a smaller time step or backward Euler steps");
-    positions_.swap(next_);
 }
 
 void ExplicitFlow::save(StepMemory& memory) const
@@ -105,7 +105,7 @@ void ExplicitFlow::save(StepMemory& memory) const
 void ExplicitFlow::restore(const StepMemory& memory)
 {
     StepMemoryReader reader(memory);
-    positions_ = next_ = memory.positions;
+    positions_ = memory.positions;
     first_limit_ = reader.number();
     smallest_limit_ = reader.number();
     reader.require_end();

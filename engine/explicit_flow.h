@@ -22,13 +22,14 @@ class ExplicitFlow {
     /// @param mesh, topology, progress must outlive the flow.
     ExplicitFlow(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
 
-    /// One step. After an exception the positions are those before the step.
+    /// One step. After an exception there are no positions, and the flow is at its end.
+    /// @param before #V by 3: Vᵏ, what positions() were, in memory of its own.
     /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
     /// result
     ///         is not finite, or farther outside the box around the input than that box's diagonal.
-    void step();
+    void step(const Points& before);
 
-    /// #V by 3, after the last complete step.
+    /// #V by 3, after the last step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
     /// There are no pieces.
@@ -49,7 +50,7 @@ class ExplicitFlow {
     void describe(FlowReport& report) const;
 
   private:
-    void require_stable();
+    void require_stable(const Points& positions);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
@@ -57,7 +58,6 @@ class ExplicitFlow {
     Laplacian laplacian_;
     double time_step_;
     Points positions_;
-    Points next_;
     /// largest_explicit_step of the first step, and the smallest so far.
     double first_limit_;
     double smallest_limit_;

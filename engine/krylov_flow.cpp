@@ -1,6 +1,7 @@
 #include "engine/krylov_flow.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -30,7 +31,6 @@ KrylovFlow::KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const 
     , stop_{options.tolerance.value(), options.converge_iterations}
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
-    , next_(mesh.vertices)
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get(), &progress)
 {
@@ -100,12 +100,13 @@ void KrylovFlow::make_graph()
     }
 }
 
-void KrylovFlow::step()
+void KrylovFlow::step(const Points& before)
 {
+    assert(&before != &positions_);
+    before_ = &before;
     if (recorder_)
         recorder_->begin_step();
     graph_.run(root_, loops_.parts());
-    positions_.swap(next_);
     if (recorder_)
         recorder_->end_step();
 }
@@ -117,7 +118,7 @@ void KrylovFlow::assemble_and_factorise(Index s)
     const SubMesh& sub_mesh = parts_[at(s)].sub_mesh;
     set_rows(workspace.positions, sub_mesh.n_vertices);
     for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-        workspace.positions.row(v) = positions_.row(sub_mesh.local_to_global[at(v)]);
+        workspace.positions.row(v) = before_->row(sub_mesh.local_to_global[at(v)]);
     blocks_[at(s)]->assemble(workspace.positions, time_step_);
     seconds_[at(s)].assemble += watch.lap();
     blocks_[at(s)]->factorise(workspace);
@@ -127,9 +128,9 @@ void KrylovFlow::assemble_and_factorise(Index s)
 void KrylovFlow::solve_traces()
 {
     const Stopwatch watch;
-    next_ = positions_;
+    positions_ = *before_;
     result_ =
-        equation_->solve(block_views_, stop_, next_,
+        equation_->solve(block_views_, stop_, positions_,
                          {loops_.begin(*progress_), [this]() -> SolverWorkspace& { return workspaces_.local(); }});
     loops_.end(*progress_);
     if (!(result_.residual <= stop_.tolerance))
@@ -149,7 +150,7 @@ void KrylovFlow::save(StepMemory& memory) const
 void KrylovFlow::restore(const StepMemory& memory)
 {
     StepMemoryReader reader(memory);
-    positions_ = next_ = memory.positions;
+    positions_ = memory.positions;
     distance_ = reader.number();
     steps_short_of_tolerance_ = reader.count();
     steps_stagnated_ = reader.count();

@@ -32,11 +32,12 @@ class KrylovFlow {
     KrylovFlow(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                Progress& progress);
 
-    /// One step. After an exception the positions are those before the step, and the flow is at its end.
+    /// One step. After an exception there are no positions, and the flow is at its end.
+    /// @param before #V by 3: Vᵏ, what positions() were, in memory of its own.
     /// @throws ComputationError naming the sub-mesh.
-    void step();
+    void step(const Points& before);
 
-    /// #V by 3, after the last complete step.
+    /// #V by 3, after the last step.
     [[nodiscard]] const Points& positions() const { return positions_; }
 
     /// There are no gaps to keep.
@@ -79,9 +80,10 @@ class KrylovFlow {
     double distance_ = 0.0;
     double time_step_;
     Index n_interface_vertices_ = 0;
+    /// #V by 3: Vᵏ, during a step.
+    const Points* before_ = nullptr;
+    /// #V by 3: Vᵏ⁺¹, complete at the end of a step.
     Points positions_;
-    /// Vᵏ⁺¹, #V by 3: complete at the end of a step.
-    Points next_;
     /// Per sub-mesh.
     std::vector<PhaseSeconds> seconds_;
     double trace_seconds_ = 0.0;

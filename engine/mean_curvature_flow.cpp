@@ -111,7 +111,8 @@ void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, con
 /// What the parts of a flow have to do with.
 struct Run {
     PolygonMesh& mesh;
-    const Topology& topology;
+    /// Half-edges lose their twins when nobody asks for them any more.
+    Topology& topology;
     const FlowOptions& options;
     const StepObserver& on_step;
     const FlowState* resume;
@@ -186,7 +187,7 @@ void compare_with(DecomposedFlow& reference, const Run& run, int step, const Ste
 {
     run.progress.enter(FlowPhase::Reference, step, shares.begin_of_reference(), shares.end());
     Stopwatch watch;
-    named("step " + std::to_string(step) + " of the undecomposed flow", [&] { reference.step(); });
+    named("step " + std::to_string(step) + " of the undecomposed flow", [&] { reference.step(reference.positions()); });
     of_step.reference_seconds = watch.lap();
     of_step.distance = vertex_distance(run.mesh, reference.positions(), positions);
 }
@@ -200,6 +201,9 @@ void run_steps(const Run& run, double curvature_before, Flow& flow, DecomposedFl
     const double extent = extent_of(mesh.vertices);
     const UpdateLimit limit(mesh, options.largest_update);
     const Rescaling rescaling(mesh, topology, options.rescale);
+    // The others' mean curvature is measured across edges.
+    if (is_symmetric(options.laplacian))
+        topology.twin = std::vector<Index>();
     if (resume != nullptr)
         restore(run, flow, reference, rescaling, meter);
     const auto first = static_cast<int>(report.steps.size()) + 1;
@@ -207,22 +211,24 @@ void run_steps(const Run& run, double curvature_before, Flow& flow, DecomposedFl
         curvature_before = report.steps.back().max_mean_curvature_after;
     StepShares shares(begin, std::max(options.steps - first + 1, 1), reference != nullptr);
     const bool is_rescaled = options.rescale != Rescale::None;
-    Points before = is_rescaled ? flow.positions() : Points();
+    // Steps begin where the last one ended before it was rescaled.
+    Points unscaled = is_rescaled ? flow.positions() : Points();
+    const Points& before = is_rescaled ? unscaled : mesh.vertices;
     Points rescaled;
     Points undecomposed;
     for (int step = first; step <= options.steps; ++step) {
         progress.enter(FlowPhase::Step, step, shares.begin(), shares.end_of_tasks());
         Stopwatch watch;
-        named("step " + std::to_string(step), [&] { flow.step(); });
+        named("step " + std::to_string(step), [&] { flow.step(before); });
         StepReport of_step;
         of_step.seconds = watch.lap();
         flow.describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, flow.positions());
         // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named("step " + std::to_string(step), [&] {
-            limit.require(is_rescaled ? before : run.mesh.vertices, flow.positions(), run.report.labels);
+            limit.require(before, flow.positions(), run.report.labels);
             if (is_rescaled) {
-                before = rescaled = flow.positions();
+                unscaled = rescaled = flow.positions();
                 rescaling.apply(rescaled);
             }
         });

@@ -1,14 +1,20 @@
 #include "engine/workers.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <cstdlib>
 #include <latch>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 #include <pthread.h>
 #include <sys/resource.h>
@@ -23,14 +29,34 @@ namespace tbb = oneapi::tbb;
 
 namespace {
 
-/// Makes that many threads with stacks like oneTBB's, and ends them.
+/// What oneTBB's threads allocate before they look for work, in bytes, is less than this.
+constexpr std::size_t memory_of_new_thread = 128 * 1024;
+
+/// Makes that many threads with stacks like oneTBB's and memory for what those begin with, and ends them.
 /// @returns whether the system has let it.
 bool can_make_threads(int n)
 {
+    struct Trial {
+        std::latch all_made{1};
+        std::latch all_tried;
+        std::atomic<bool> has_failed = false;
+        explicit Trial(int threads)
+            : all_tried(threads)
+        {
+        }
+    };
     std::vector<pthread_t> threads(static_cast<std::size_t>(n));
-    std::latch all_made(1);
-    const auto wait = [](void* latch) -> void* {
-        static_cast<std::latch*>(latch)->wait();
+    Trial trial(n);
+    const auto try_memory = [](void* argument) -> void* {
+        auto& own_trial = *static_cast<Trial*>(argument);
+        own_trial.all_made.wait();
+        void* const memory = std::malloc(memory_of_new_thread);
+        if (memory != nullptr)
+            *static_cast<volatile char*>(memory) = 0;  // so that no compiler leaves it out
+        else
+            own_trial.has_failed = true;
+        own_trial.all_tried.arrive_and_wait();
+        std::free(memory);
         return nullptr;
     };
     pthread_attr_t attributes;
@@ -38,21 +64,37 @@ bool can_make_threads(int n)
     ::pthread_attr_setstacksize(&attributes, tbb::global_control::active_value(tbb::global_control::thread_stack_size));
     std::size_t n_made = 0;
     while (error == 0 && n_made < threads.size())
-        if (error = ::pthread_create(&threads[n_made], &attributes, wait, &all_made); error == 0)
+        if (error = ::pthread_create(&threads[n_made], &attributes, try_memory, &trial); error == 0)
             ++n_made;
-    all_made.count_down();
+    trial.all_tried.count_down(static_cast<std::ptrdiff_t>(threads.size() - n_made));
+    trial.all_made.count_down();
     for (std::size_t i = 0; i < n_made; ++i)
         ::pthread_join(threads[i], nullptr);
     ::pthread_attr_destroy(&attributes);
-    return error == 0;
+    return error == 0 && !trial.has_failed;
 }
 
-/// oneTBB ends the program where the system refuses it a thread, which is so where the address space is limited and
-/// full. So that it does not come to that, threads are made here first. The C library keeps the memory of their stacks
-/// for those that oneTBB makes, of the first nine or so (40 MiB); that of more could be taken in between.
-/// @throws ComputationError if there is no room for them.
-void require_room_for_threads(int n)
+/// Lets all threads of an arena come, if they do within a second.
+void bring_up_threads(tbb::task_arena& arena)
 {
+    const int n = arena.max_concurrency();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    std::atomic<int> n_here = 0;
+    const auto wait_for_all = [&](int) {
+        ++n_here;
+        while (n_here < n && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+    };
+    arena.execute([&] { tbb::parallel_for(0, n, wait_for_all, tbb::simple_partitioner()); });
+}
+
+/// oneTBB ends the program where the system refuses it a thread, or memory for what a thread begins with, which is so
+/// where the address space is limited and full. So that it does not come to that, threads are made here first, and then
+/// oneTBB's at once. The C library keeps the memory of the stacks for them, of the first nine or so (40 MiB).
+/// @throws ComputationError if there is no room for them.
+void require_room_for_threads(tbb::task_arena& arena)
+{
+    const int n = arena.max_concurrency() - 1;
     static std::mutex mutex;
     // oneTBB keeps its threads.
     static int most_made = 0;
@@ -65,6 +107,7 @@ void require_room_for_threads(int n)
     if (!can_make_threads(n))
         throw ComputationError("there is no memory for " + std::to_string(n) +
                                " more threads: use fewer (--threads), or raise the limit of this program (ulimit -v)");
+    bring_up_threads(arena);
     most_made = n;
 }
 
@@ -85,7 +128,7 @@ class Workers::Arena {
         } else {
             arena.initialize(tbb::task_arena::attach());
         }
-        require_room_for_threads(arena.max_concurrency() - 1);
+        require_room_for_threads(arena);
     }
 
     std::optional<tbb::global_control> limit;

@@ -59,7 +59,7 @@ bool runs_again(const std::function<Flow(Progress&)>& make, const Points& expect
         StepMemory memory;
         flow.save(memory);
         try {
-            flow.step();
+            flow.step(memory.positions);
             ++steps_done;
         } catch (const test::TaskFailure& failure) {
             CHECK(failure.task == task);
@@ -79,7 +79,7 @@ Points flowed_by(const std::function<Flow(Progress&)>& make)
     Progress progress(control);
     Flow flow = make(progress);
     for (int step = 1; step <= n_steps; ++step)
-        flow.step();
+        flow.step(Points(flow.positions()));
     return flow.positions();
 }
 
