@@ -149,8 +149,8 @@ void ConvergedFlow::eliminate(Index s)
     system.factorise(workspace);
     seconds_[at(s)].factorise += watch.lap();
     Points& eliminated = workspace.increment;
-    system.condense(workspace.positions, eliminated,
-                    condensed_.middleRows(equation_.copies().first[at(s)], system.n_interface()), workspace);
+    system.condense(eliminated, condensed_.middleRows(equation_.copies().first[at(s)], system.n_interface()),
+                    workspace);
     if (!is_kept(s))
         system.give_back_interior(workspace);
     const std::vector<Index>& global = decomposition_.sub_meshes[at(s)].local_to_global;

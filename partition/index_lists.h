@@ -23,6 +23,13 @@ struct IndexLists {
 
     /// Appends a list that has been pushed onto `values` entry by entry.
     void close() { offsets.push_back(static_cast<Index>(values.size())); }
+
+    /// Gives back the memory for lists that do not come.
+    void shrink_to_fit()
+    {
+        offsets.shrink_to_fit();
+        values.shrink_to_fit();
+    }
 };
 
 }  // namespace seamflow

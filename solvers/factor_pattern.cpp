@@ -116,6 +116,8 @@ void list_blocks(const SparsePattern& upper, Zeros zeros, Index n_last, FactorPa
         factor.rows.values.resize(factor.rows.values.size() + at(tree.count[at(last)]));
         factor.rows.close();
     }
+    factor.first.shrink_to_fit();
+    factor.rows.shrink_to_fit();
     std::vector<Index> next(at(factor.n_blocks()));
     for (Index b = 0; b < factor.n_blocks(); ++b)
         next[at(b)] = factor.rows.offsets[at(b)] + factor.width(b);

@@ -27,6 +27,7 @@ LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last)
     : n_last_(n_last)
     , pattern_(make_symmetric_factor_pattern(upper, n_last, places_))
 {
+    panels_.reserve(pattern_.first.size());
     for (Index b = 0; b < pattern_.n_blocks(); ++b) {
         const std::size_t end = at(panels_.back()) + at(pattern_.width(b)) * pattern_.rows[b].size();
         if (end > at(std::numeric_limits<Index>::max()))

@@ -23,6 +23,8 @@ struct SolverWorkspace {
     /// Per vertex.
     std::vector<double> diagonal;
     std::vector<double> mass;
+    /// #local by 3: dt K V.
+    Points product;
     Columns right_hand_side;
     Columns solution;
     /// #own by 3.

@@ -130,6 +130,7 @@ void append_halo(std::span<const Index> vertices, SubMeshDraft& draft)
     for (const Index v : vertices)
         if (draft.vertices.insert(v))
             local_to_global.push_back(v);
+    local_to_global.shrink_to_fit();
     const auto halo = std::span(local_to_global).subspan(at(draft.sub_mesh.n_vertices));
     std::sort(halo.begin(), halo.end());
     draft.vertices.set_positions(halo, draft.sub_mesh.n_vertices);

@@ -125,6 +125,12 @@ SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::sp
     std::vector<Index> neighbours;
     for (const Index i : sub_mesh.interface.vertices)
         describe_interface_vertex(whole, halo_positions, sub_mesh.local_to_global[at(i)], neighbours, draft);
+    auto& interface = sub_mesh.interface;
+    for (auto* list : {&interface.vertices, &interface.before, &interface.after, &sub_mesh.seam.vertices})
+        list->shrink_to_fit();
+    for (auto* lists :
+         {&interface.own_faces, &interface.complement_faces, &interface.halo_faces, &sub_mesh.seam.neighbours})
+        lists->shrink_to_fit();
     return std::move(draft.sub_mesh);
 }
 

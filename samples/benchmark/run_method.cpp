@@ -1,6 +1,7 @@
 #include "samples/benchmark/run_method.h"
 
 #include <memory>
+#include <utility>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/stopwatch.h"
@@ -66,10 +67,10 @@ MethodResult run_peer(const PolygonMesh& mesh, const MethodTask& task)
 
 }  // namespace
 
-MethodResult run_method(const PolygonMesh& mesh, const MethodTask& task)
+MethodResult run_method(PolygonMesh mesh, const MethodTask& task)
 {
     if (task.method == Method::Ours)
-        return run_ours(mesh, task);
+        return run_ours(std::move(mesh), task);
     if (task.method == Method::SmoothShape)
         return run_smooth_shape(mesh, task);
     return run_peer(mesh, task);

@@ -7,6 +7,6 @@ namespace seamflow {
 /// Takes the steps of a task in this process. The peak of the memory is left to the caller.
 /// @throws ComputationError, OptionError, InputError as the method itself; a message of a failure becomes
 ///         MethodResult::error where it is caught.
-MethodResult run_method(const PolygonMesh& mesh, const MethodTask& task);
+MethodResult run_method(PolygonMesh mesh, const MethodTask& task);
 
 }  // namespace seamflow

@@ -30,7 +30,24 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
     }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
-                  std::span<double> diagonal, std::span<double> mass) override
+                  std::span<double> diagonal, std::span<double> mass, Points* product) override
+    {
+        if (product != nullptr) {
+            product->setZero();
+            assemble_with(positions, factor, slots, values, diagonal, mass, [&](Index v, Index w, const Point& change) {
+                product->row(v) += change;
+                product->row(w) -= change;
+            });
+        } else {
+            assemble_with(positions, factor, slots, values, diagonal, mass, [](Index, Index, const Point&) {});
+        }
+    }
+
+  private:
+    /// Calls add_change(v, w, factor · K_vw times the difference of V_w and V_v).
+    template <class AddChange>
+    void assemble_with(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
+                       std::span<double> diagonal, std::span<double> mass, AddChange&& add_change)
     {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
@@ -38,12 +55,12 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
         for (const IndexLists* faces : lists_)
             for (Index f = 0; f < faces->size(); ++f) {
                 const auto corners = (*faces)[f];
-                slot = corners.size() == 3 ? add_triangle(corners, positions, factor, slot, values, diagonal, mass)
-                                           : add_polygon(corners, positions, factor, slot, values, diagonal, mass);
+                slot = corners.size() == 3
+                           ? add_triangle(corners, positions, factor, slot, values, diagonal, mass, add_change)
+                           : add_polygon(corners, positions, factor, slot, values, diagonal, mass, add_change);
             }
     }
 
-  private:
     static void append_pairs(std::span<const Index> corners, std::vector<VertexPair>& pairs)
     {
         for (std::size_t i = 0; i < corners.size(); ++i)
@@ -53,9 +70,10 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
 
     /// A triangle's bisectors are half the opposite edges, and each row of its matrix sums to zero.
     /// @returns where the slots of the next face begin.
+    template <class AddChange>
     static const Index* add_triangle(std::span<const Index> corners, const Points& positions, double factor,
                                      const Index* slot, std::span<double> values, std::span<double> diagonal,
-                                     std::span<double> mass)
+                                     std::span<double> mass, AddChange&& add_change)
     {
         const Point first = positions.row(corners[1]) - positions.row(corners[0]);
         const Point second = positions.row(corners[2]) - positions.row(corners[0]);
@@ -65,6 +83,9 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
         const double opposite_0 = weight * first.dot(second);
         const double opposite_1 = weight * first.dot(first - second);
         const double opposite_2 = weight * second.dot(second - first);
+        add_change(corners[0], corners[1], -opposite_2 * first);
+        add_change(corners[0], corners[2], -opposite_1 * second);
+        add_change(corners[1], corners[2], -opposite_0 * (second - first));
         values[at(slot[0])] -= opposite_2;
         values[at(slot[1])] -= opposite_1;
         values[at(slot[2])] -= opposite_0;
@@ -76,8 +97,10 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
         return slot + 3;
     }
 
+    template <class AddChange>
     const Index* add_polygon(std::span<const Index> corners, const Points& positions, double factor, const Index* slot,
-                             std::span<double> values, std::span<double> diagonal, std::span<double> mass)
+                             std::span<double> values, std::span<double> diagonal, std::span<double> mass,
+                             AddChange&& add_change)
     {
         const double face_area = area(corners, positions);
         const double share = face_area / static_cast<double>(corners.size());
@@ -88,8 +111,11 @@ class SymmetricAlexaWardetzky final : public SymmetricLaplacian {
             const Point scaled = factor / face_area * bisectors_[i];
             diagonal[at(corners[i])] += scaled.dot(bisectors_[i]);
             mass[at(corners[i])] += share;
-            for (std::size_t k = i + 1; k < corners.size(); ++k)
-                values[at(*slot++)] += scaled.dot(bisectors_[k]);
+            for (std::size_t k = i + 1; k < corners.size(); ++k) {
+                const double weight = scaled.dot(bisectors_[k]);
+                add_change(corners[i], corners[k], weight * (positions.row(corners[k]) - positions.row(corners[i])));
+                values[at(*slot++)] += weight;
+            }
         }
         return slot;
     }

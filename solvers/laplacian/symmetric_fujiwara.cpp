@@ -93,15 +93,35 @@ class SymmetricFujiwara final : public SymmetricLaplacian {
     [[nodiscard]] std::vector<VertexPair> pairs() const override { return edges_; }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
-                  std::span<double> diagonal, std::span<double> mass) override
+                  std::span<double> diagonal, std::span<double> mass, Points* product) override
+    {
+        if (product != nullptr) {
+            product->setZero();
+            assemble_with(positions, factor, slots, values, diagonal, mass,
+                          [&](const VertexPair& e, const Point& flux) {
+                              product->row(e.first) -= flux;
+                              product->row(e.second) += flux;
+                          });
+        } else {
+            assemble_with(positions, factor, slots, values, diagonal, mass, [](const VertexPair&, const Point&) {});
+        }
+    }
+
+  private:
+    /// Calls add_flux(edge, factor · (-K) times the difference of its ends).
+    template <class AddFlux>
+    void assemble_with(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
+                       std::span<double> diagonal, std::span<double> mass, AddFlux&& add_flux) const
     {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
         const auto add = [&](std::size_t begin, std::size_t end, double share) {
             for (std::size_t i = begin; i < end; ++i) {
                 const VertexPair& e = edges_[i];
-                const double length = (positions.row(e.second) - positions.row(e.first)).norm();
+                const Point difference = positions.row(e.second) - positions.row(e.first);
+                const double length = difference.norm();
                 const double weight = share * factor / length;
+                add_flux(e, weight * difference);
                 values[at(slots[i])] -= weight;
                 diagonal[at(e.first)] += weight;
                 diagonal[at(e.second)] += weight;
@@ -115,7 +135,6 @@ class SymmetricFujiwara final : public SymmetricLaplacian {
             mass[v] *= inverse_degree_[v];
     }
 
-  private:
     void count_edges(const std::vector<VertexPair>& edges, double share)
     {
         for (const VertexPair& e : edges) {

@@ -35,8 +35,11 @@ class SymmetricLaplacian {
     /// @param positions at least #V by 3.
     /// @param slots one place per pair. Pairs that are not wanted all point to one place that nobody reads.
     /// @param diagonal, mass #V.
+    /// @param product nullptr, or of #V rows: receives factor · K V of the positions V. The rows of K add up to zero:
+    ///        it is made of differences, and has no rounding error of the size of V.
     virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
-                          std::span<double> values, std::span<double> diagonal, std::span<double> mass) = 0;
+                          std::span<double> values, std::span<double> diagonal, std::span<double> mass,
+                          Points* product = nullptr) = 0;
 };
 
 /// Whose contributions a SymmetricLaplacian adds up.

@@ -52,21 +52,21 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
           make_symmetric_laplacian(laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces, sub_mesh.twin,
                                                sub_mesh.n_vertices + sub_mesh.n_halo, Contributions::OwnFaces}))
 {
-    const std::vector<VertexPair> pairs = laplacian_->pairs();
-    std::vector<Index> unknown_of;
-    number_unknowns(pairs, unknown_of);
-    list_couplings(pairs, unknown_of);
-    solver_ = std::make_unique<LdlSolver>(upper_, n_interface());
+    const SparsePattern upper = number_unknowns();
+    column_offsets_ = upper.column_offsets;
+    std::replace(slots_.begin(), slots_.end(), Index{-1}, n_entries());
+    solver_ = std::make_unique<LdlSolver>(upper, n_interface());
 }
 
 /// The interior in the order of elimination, then Γ.
-/// @param unknown_of receives one entry per own vertex, -1 where it is none.
-void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of)
+/// @returns the pattern of the upper triangle.
+SparsePattern NeumannSystem::number_unknowns()
 {
+    const std::vector<VertexPair> pairs = laplacian_->pairs();
     std::vector<bool> on_interface(at(sub_mesh_->n_vertices), false);
     for (const Index v : sub_mesh_->interface.vertices)
         on_interface[at(v)] = true;
-    unknown_of.assign(at(sub_mesh_->n_vertices), -1);
+    std::vector<Index> unknown_of(at(sub_mesh_->n_vertices), -1);
     std::vector<Index> vertices;
     std::vector<bool> is_last;
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
@@ -77,6 +77,7 @@ void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs, std::v
         }
     const auto n = static_cast<Index>(vertices.size());
     const auto order = elimination_order(upper_pattern(pairs, unknown_of, n).pattern, is_last);
+    vertex_of_.reserve(at(n));
     for (const Index u : order)
         if (!is_last[at(u)])
             vertex_of_.push_back(vertices[at(u)]);
@@ -84,39 +85,24 @@ void NeumannSystem::number_unknowns(const std::vector<VertexPair>& pairs, std::v
     for (Index u = 0; u < n; ++u)
         unknown_of[at(vertex_of_[at(u)])] = u;
     auto [pattern, slots] = upper_pattern(pairs, unknown_of, n);
-    upper_ = std::move(pattern);
     slots_ = std::move(slots);
-}
-
-/// What is no entry of the matrix: at fixed vertices.
-void NeumannSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
-{
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        auto [a, b] = pairs[i];
-        if (unknown_of[at(a)] < 0)
-            std::swap(a, b);
-        if (slots_[i] >= 0 || unknown_of[at(a)] < 0)
-            continue;
-        slots_[i] = upper_.n_entries() + static_cast<Index>(fixed_.size());
-        fixed_.push_back({unknown_of[at(a)], b, 0.0});
-    }
-    std::replace(slots_.begin(), slots_.end(), Index{-1}, upper_.n_entries() + static_cast<Index>(fixed_.size()));
+    return std::move(pattern);
 }
 
 void NeumannSystem::assemble(const Points& positions, double time_step, SolverWorkspace& workspace)
 {
-    const auto n_entries = at(upper_.n_entries());
-    workspace.values.assign(n_entries + fixed_.size() + 1, 0.0);
-    workspace.diagonal.resize(at(sub_mesh_->n_vertices + sub_mesh_->n_halo));
-    workspace.mass.resize(workspace.diagonal.size());
-    laplacian_->assemble(positions, time_step, slots_, workspace.values, workspace.diagonal, workspace.mass);
+    const Index n_vertices = sub_mesh_->n_vertices + sub_mesh_->n_halo;
+    workspace.values.assign(at(n_entries()) + 1, 0.0);
+    workspace.diagonal.resize(at(n_vertices));
+    workspace.mass.resize(at(n_vertices));
+    set_rows(workspace.product, n_vertices);
+    laplacian_->assemble(positions, time_step, slots_, workspace.values, workspace.diagonal, workspace.mass,
+                         &workspace.product);
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
         const Index v = vertex_of_[u];
-        workspace.values[at(diagonal_slot(upper_.column_offsets, static_cast<Index>(u)))] =
+        workspace.values[at(diagonal_slot(column_offsets_, static_cast<Index>(u)))] =
             workspace.mass[at(v)] + workspace.diagonal[at(v)];
     }
-    for (std::size_t c = 0; c < fixed_.size(); ++c)
-        fixed_[c].value = workspace.values[n_entries + c];
 }
 
 void NeumannSystem::factorise(SolverWorkspace& workspace)
@@ -130,7 +116,7 @@ void NeumannSystem::factorise_again(SolverWorkspace& workspace)
 {
     if (vertex_of_.empty())
         return;
-    const auto values = std::span<const double>(workspace.values).first(at(upper_.n_entries()));
+    const auto values = std::span<const double>(workspace.values).first(at(n_entries()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
     FactorMemory& memory = borrows_memory_ ? *workspace.factors : memory_;
@@ -159,27 +145,11 @@ const double* NeumannSystem::last_row(Index i) const
     return solver_->has_factor() ? solver_->last().row(i).data() : last_.data() + row_of_last(i);
 }
 
-/// The rows of K add up to zero: K V is made of differences, and has no rounding error of the size of V.
-void NeumannSystem::condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed,
-                             const SolverWorkspace& workspace) const
+void NeumannSystem::condense(Points& eliminated, Eigen::Ref<Points> condensed, const SolverWorkspace& workspace) const
 {
     set_rows(eliminated, static_cast<Eigen::Index>(vertex_of_.size()));
-    eliminated.setZero();
-    for (Index column = 0; column < upper_.n(); ++column) {
-        const Point here = positions.row(vertex_of_[at(column)]);
-        Point sum = Point::Zero();
-        for (Index slot = upper_.column_offsets[at(column)]; slot < diagonal_slot(upper_.column_offsets, column);
-             ++slot) {
-            const Index row = upper_.rows[at(slot)];
-            const Point flux = workspace.values[at(slot)] * (positions.row(vertex_of_[at(row)]) - here);
-            eliminated.row(row) += flux;
-            sum += flux;
-        }
-        eliminated.row(column) -= sum;
-    }
-    for (const Coupling& coupling : fixed_)
-        eliminated.row(coupling.unknown) -=
-            coupling.value * (positions.row(coupling.vertex) - positions.row(vertex_of_[at(coupling.unknown)]));
+    for (std::size_t u = 0; u < vertex_of_.size(); ++u)
+        eliminated.row(static_cast<Eigen::Index>(u)) = -workspace.product.row(vertex_of_[u]);
     if (!vertex_of_.empty())
         solver_->eliminate(eliminated);
     condensed = eliminated.bottomRows(n_interface());

@@ -36,7 +36,7 @@ class NeumannSystem {
     /// Number of the other unknowns.
     [[nodiscard]] Index n_interior() const { return static_cast<Index>(vertex_of_.size()) - n_interface(); }
 
-    /// Fills in A.
+    /// Fills in A, and dt K Vᵏ.
     /// @param positions at least #own by 3: Vᵏ.
     /// @param time_step dt, in length².
     void assemble(const Points& positions, double time_step, SolverWorkspace& workspace);
@@ -61,11 +61,9 @@ class NeumannSystem {
 
     /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after a factorisation, with the same
     /// workspace.
-    /// @param positions those of `assemble`.
     /// @param eliminated #unknowns by 3: receives what fill_in needs of it.
     /// @param condensed n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
-    void condense(const Points& positions, Points& eliminated, Eigen::Ref<Points> condensed,
-                  const SolverWorkspace& workspace) const;
+    void condense(Points& eliminated, Eigen::Ref<Points> condensed, const SolverWorkspace& workspace) const;
 
     /// The Schur complement on Γ.
     [[nodiscard]] const DenseFactor& schur() const { return schur_; }
@@ -93,18 +91,18 @@ class NeumannSystem {
     /// Where a row of the packed lower triangle `last_` begins.
     static std::size_t row_of_last(Index i) { return at(i) * (at(i) + 1) / 2; }
     [[nodiscard]] const double* last_row(Index i) const;
-    void number_unknowns(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of);
-    void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);
+    SparsePattern number_unknowns();
+    [[nodiscard]] Index n_entries() const { return column_offsets_.back(); }
 
     const SubMesh* sub_mesh_;
     std::unique_ptr<SymmetricLaplacian> laplacian_;
     /// In the order of elimination, Γ last and in its own order.
     std::vector<Index> vertex_of_;
-    SparsePattern upper_;
+    /// Of the pattern of the upper triangle, whose rows the solver has.
+    std::vector<Index> column_offsets_;
     std::unique_ptr<LdlSolver> solver_;
-    /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then one that nobody reads.
+    /// Per pair of the Laplacian: an entry of the pattern, or one behind them that nobody reads.
     std::vector<Index> slots_;
-    std::vector<Coupling> fixed_;
     KeptMemory memory_;
     bool borrows_memory_ = false;
     /// Of a factor that has been given back, the block on Γ: L below the diagonal and D on it, row by row.

@@ -73,7 +73,7 @@ TEST_CASE("the update by the whole step satisfies the sum of the sub-meshes' equ
                 system.factorise(workspace);
                 Points eliminated;
                 Points share(system.n_interface(), 3);
-                system.condense(positions, eliminated, share, workspace);
+                system.condense(eliminated, share, workspace);
                 Points on_interface(system.n_interface(), 3);
                 for (Index i = 0; i < system.n_interface(); ++i)
                     on_interface.row(i) = update.row(sub_mesh.interface.vertices[at(i)]);
@@ -117,7 +117,7 @@ TEST_CASE("what stays of a factor in borrowed memory gives the same products on 
                 const auto condensed = [&](const NeumannSystem& system, const SolverWorkspace& of_system) {
                     Points eliminated;
                     Points share(n, 3);
-                    system.condense(positions, eliminated, share, of_system);
+                    system.condense(eliminated, share, of_system);
                     return eliminated;
                 };
                 kept.assemble(positions, time_step, kept_workspace);

@@ -36,7 +36,7 @@ struct Equation {
             system.factorise(workspace);
             const Index first = equation.copies().first[views.size() - 1];
             Points eliminated;
-            system.condense(positions, eliminated, right_hand_sides.middleRows(first, system.n_interface()), workspace);
+            system.condense(eliminated, right_hand_sides.middleRows(first, system.n_interface()), workspace);
         }
     }
 
