@@ -23,7 +23,7 @@ Point fujiwara(const Surface& s, Index v)
         for (const Index end : {s.topology.next(s.mesh, corner), s.topology.previous(s.mesh, corner)}) {
             const Point difference = here - s.positions.row(s.mesh.face_vertices[at(end)]);
             const double norm = difference.norm();
-            sum += difference / norm;
+            sum += (1.0 / norm) * difference;
             length += norm;
             degree += 1.0;
         }
@@ -57,14 +57,47 @@ double vertex_area(const Surface& s, Index v)
     return sum;
 }
 
+/// What one corner adds to K V at its vertex, and to the vertex's area.
+struct CornerShare {
+    Point of_product;
+    double of_area;
+};
+
+/// The bisectors of a triangle are half the opposite edges, and each row of its matrix sums to zero.
+CornerShare share_in_triangle(const Surface& s, Index corner)
+{
+    const Point here = s.positions.row(s.mesh.face_vertices[at(corner)]);
+    const Point first = s.positions.row(s.mesh.face_vertices[at(s.topology.next(s.mesh, corner))]) - here;
+    const Point second = s.positions.row(s.mesh.face_vertices[at(s.topology.previous(s.mesh, corner))]) - here;
+    const double double_area = first.cross(second).norm();
+    const Point difference = first - second;
+    const Point weighted = second.dot(difference) * first - first.dot(difference) * second;
+    return {0.5 / double_area * weighted, double_area / 6.0};
+}
+
+CornerShare share_in_polygon(const Surface& s, Index corner, std::span<const Index> corners)
+{
+    const Point bisector = corner_bisector(corners, at(corner_in_face(s, corner)), s.positions);
+    const Point origin = s.positions.row(corners[0]);
+    Point sum = Point::Zero();
+    for (std::size_t k = 1; k < corners.size(); ++k)
+        sum += bisector.dot(corner_bisector(corners, k, s.positions)) * (s.positions.row(corners[k]) - origin);
+    const double face_area = area(corners, s.positions);
+    return {sum / face_area, face_area / static_cast<double>(corners.size())};
+}
+
 Point alexa_wardetzky(const Surface& s, Index v)
 {
     Point sum = Point::Zero();
+    double vertex_area = 0.0;
     for (const Index corner : s.topology.corners_at(v)) {
-        const Index f = s.topology.face_of[at(corner)];
-        sum += corner_bisector(s.mesh.face(f), at(corner_in_face(s, corner)), s.positions) * flux_map(s, f);
+        const auto corners = s.mesh.face(s.topology.face_of[at(corner)]);
+        const CornerShare share =
+            corners.size() == 3 ? share_in_triangle(s, corner) : share_in_polygon(s, corner, corners);
+        sum += share.of_product;
+        vertex_area += share.of_area;
     }
-    return sum / vertex_area(s, v);
+    return sum / vertex_area;
 }
 
 /// Flux of the positions across half-edge h, out of its face.

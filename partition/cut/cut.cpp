@@ -24,8 +24,14 @@ std::string counted(Index n, const std::string& thing)
 /// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
 /// seams; of others clusters are.
 constexpr double min_weight_for_clusters = 500'000;
+/// With parts as small as this, whose seams matter less to whoever has so many, clusters are grown in lighter meshes
+/// too.
+constexpr double small_part = 5'000;
+constexpr double min_weight_for_small_parts = 300'000;
 /// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
 constexpr double clusters_per_part = 80;
+/// And in all, which takes a twentieth of a second.
+constexpr double min_clusters = 20'000;
 /// Larger clusters save no time and leave longer seams.
 constexpr double max_cluster_weight = 64;
 /// Smaller clusters save little against single faces.
@@ -37,11 +43,12 @@ constexpr double min_clusters_per_part = 30;
 Index cluster_weight(const PolygonMesh& mesh, Index k)
 {
     const double total = static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces();
-    if (total < min_weight_for_clusters)
+    if (total < (total / k <= small_part ? min_weight_for_small_parts : min_weight_for_clusters))
         return 1;
     if (total / k < min_clusters_per_part * min_cluster_weight)
         return 1;
-    return static_cast<Index>(std::clamp(total / k / clusters_per_part, min_cluster_weight, max_cluster_weight));
+    return static_cast<Index>(
+        std::clamp(total / std::max(k * clusters_per_part, min_clusters), min_cluster_weight, max_cluster_weight));
 }
 
 /// The largest sensible number of parts of a mesh, k at most.
