@@ -113,6 +113,7 @@ struct Run {
     PolygonMesh& mesh;
     /// Half-edges lose their twins when nobody asks for them any more.
     Topology& topology;
+    DisplacementMeter& meter;
     const FlowOptions& options;
     const StepObserver& on_step;
     const FlowState* resume;
@@ -196,8 +197,7 @@ void compare_with(DecomposedFlow& reference, const Run& run, int step, const Ste
 template <class Flow>
 void run_steps(const Run& run, double curvature_before, Flow& flow, DecomposedFlow* reference, double begin)
 {
-    const auto& [mesh, topology, options, on_step, resume, identity, progress, report] = run;
-    DisplacementMeter meter(mesh, topology);
+    const auto& [mesh, topology, meter, options, on_step, resume, identity, progress, report] = run;
     const double extent = extent_of(mesh.vertices);
     const UpdateLimit limit(mesh, options.largest_update);
     const Rescaling rescaling(mesh, topology, options.rescale);
@@ -297,14 +297,23 @@ FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, 
     return identity;
 }
 
+/// What is measured of a mesh before it flows.
+struct Measured {
+    std::vector<double> curvature;
+    std::optional<DisplacementMeter> meter;
+};
+
 /// Cuts, and chooses whether to converge. METIS has one thread: the others measure in the meantime.
 /// @param options with the tolerance that was chosen, if any.
 Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
-                    FlowOptions& options, std::vector<double>& curvature, const Progress& progress)
+                    FlowOptions& options, Measured& measured, const Progress& progress)
 {
     Cut cut;
     run_both([&] { cut = make_cut(mesh, topology, options, progress.loop()); },
-             [&] { curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian); });
+             [&] {
+                 measured.curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
+                 measured.meter.emplace(mesh, topology);
+             });
     // A whole mesh is solved exactly either way.
     if (cut.n_parts == 1 && !choice.reason.empty())
         options.tolerance.reset();
@@ -335,8 +344,8 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
     options.tolerance = choice.tolerance;
     progress.count();
-    std::vector<double> curvature;
-    Cut cut = cut_and_measure(mesh, topology, choice, options, curvature, progress);
+    Measured measured;
+    Cut cut = cut_and_measure(mesh, topology, choice, options, measured, progress);
     cut.remarks.insert(cut.remarks.end(), remarks.begin(), remarks.end());
     if (!options.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(mesh, topology, cut);
@@ -346,7 +355,7 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     report.seconds.cut = watch.lap();
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options.reference ? 0.8 * setup : setup);
 
-    const Run run{mesh, topology, options, on_step, resume, identity, progress, report};
+    const Run run{mesh, topology, *measured.meter, options, on_step, resume, identity, progress, report};
     const auto run_with = [&](auto&& flow) {
         report.labels = std::move(cut.labels);
         report.seconds.analyse = watch.lap();
@@ -354,10 +363,11 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
         std::optional<DecomposedFlow> reference;
         if (options.reference) {
             progress.enter(FlowPhase::Analyse, 0, 0.8 * setup, setup);
-            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), curvature, progress);
+            reference.emplace(mesh, topology, cut_into(mesh, topology, 1), without_limit(options), measured.curvature,
+                              progress);
         }
-        const double curvature_before = largest_curvature(curvature);
-        std::vector<double>().swap(curvature);
+        const double curvature_before = largest_curvature(measured.curvature);
+        measured.curvature = std::vector<double>();
         run_steps(run, curvature_before, flow, reference ? &*reference : nullptr, setup);
         left_out.complete(report);
         progress.finish();
@@ -369,7 +379,7 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     else if (options.tolerance)
         run_with(KrylovFlow(mesh, topology, cut, options, progress));
     else
-        run_with(DecomposedFlow(mesh, topology, cut, options, curvature, progress));
+        run_with(DecomposedFlow(mesh, topology, cut, options, measured.curvature, progress));
 }
 
 /// @throws OptionError if it is beyond the last step that is wanted.

@@ -38,8 +38,8 @@ struct FactorPattern {
 /// @throws ComputationError if there is too little memory.
 FactorPattern make_factor_pattern(const SparsePattern& pattern);
 
-/// For a symmetric matrix whose unknowns are in the order of elimination, without `position` and `updates`. A few entries that stay
-/// zero are taken in for wider blocks.
+/// For a symmetric matrix whose unknowns are in the order of elimination, without `position` and `updates`. A few
+/// entries that stay zero are taken in for wider blocks.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @param n_last the last unknowns, which are made one block in any case.
 /// @param places receives, per entry of the matrix, where its column stands among the rows of its row's block.
