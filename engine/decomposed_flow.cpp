@@ -1,6 +1,7 @@
 #include "engine/decomposed_flow.h"
 
 #include <algorithm>
+#include <cassert>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,12 @@
 namespace seamflow {
 
 namespace {
+
+/// Whether a sub-mesh takes over something that another has solved.
+[[maybe_unused]] bool follows(const SweepPlan& plan, Index s, Index leader)
+{
+    return std::ranges::any_of(plan.traces[at(s)], [&](const Transfer& trace) { return trace.from == leader; });
+}
 
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
@@ -208,8 +215,11 @@ void DecomposedFlow::add_predictions(const SweepPlan& plan, const std::vector<Ta
         graph_.add_dependency(used, solved[at(s)]);
         if (predicted[at(s)] >= 0)
             graph_.add_dependency(predicted[at(s)], used);
-        for (const Transfer& prediction : plan.predictions[at(s)])
+        for (const Transfer& prediction : plan.predictions[at(s)]) {
+            // Who predicts follows here, and waits with its solution: see SubMeshState::solved.
+            assert(follows(plan, prediction.from, s));
             graph_.add_dependency(predicted[at(prediction.from)], used);
+        }
     }
 }
 

@@ -19,7 +19,7 @@ namespace seamflow {
 /// along and smooths normal ones. Away from Γ the error of a step dies away, so that Γ has the largest.
 ///
 /// Belongs to the arena in which it is used. The bits do not depend on the number of threads, and steps allocate
-/// nothing.
+/// nothing, but for a mean of copies with the classical conditions.
 class DriftEstimate {
   public:
     /// @param decomposition, mesh, topology must outlive this; sub-meshes that do not overlap.

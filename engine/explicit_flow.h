@@ -25,8 +25,7 @@ class ExplicitFlow {
     /// One step. After an exception there are no positions, and the flow is at its end.
     /// @param before #V by 3: Vᵏ, what positions() were, in memory of its own.
     /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
-    /// result
-    ///         is not finite, or farther outside the box around the input than that box's diagonal.
+    ///         result is not finite.
     void step(const Points& before);
 
     /// #V by 3, after the last step.

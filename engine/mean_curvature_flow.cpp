@@ -158,8 +158,8 @@ void restore(const Run& run, Flow& flow, DecomposedFlow* reference, const Rescal
 {
     const FlowState& state = *run.resume;
     if (state.cut != checksum_of(run.report.labels))
-        throw InputError("the state to go on from belongs to another cut of the same mesh: the program that made it "
-                         "had another METIS");
+        throw InputError("the state to go on from belongs to another cut of the same mesh: another version of the "
+                         "program made it, or one with another METIS");
     for (const StepMemory* memory : {&state.flow, state.reference ? &*state.reference : nullptr}) {
         if (memory == nullptr)
             continue;
@@ -202,7 +202,7 @@ void run_steps(const Run& run, double curvature_before, Flow& flow, DecomposedFl
     const UpdateLimit limit(mesh, options.largest_update);
     const Rescaling rescaling(mesh, topology, options.rescale);
     // The others' mean curvature is measured across edges.
-    if (is_symmetric(options.laplacian))
+    if (traits_of(options.laplacian).reach != Reach::TwoRings)
         topology.twin = std::vector<Index>();
     if (resume != nullptr)
         restore(run, flow, reference, rescaling, meter);
@@ -248,7 +248,7 @@ void run_steps(const Run& run, double curvature_before, Flow& flow, DecomposedFl
         // What takes memory comes first: the mesh moves when nothing but the observer can fail any more.
         const StepState state{
             step, mesh.vertices, of_step, flow.pieces(), reference == nullptr ? nullptr : &undecomposed, [&] {
-                return capture(run, flow, reference, meter);
+                return capture(run, flow, reference, run.meter);
             }};
         report.steps.push_back(of_step);
         report.seconds.step += of_step.seconds;

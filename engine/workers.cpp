@@ -74,18 +74,28 @@ bool can_make_threads(int n)
     return error == 0 && !trial.has_failed;
 }
 
-/// Lets all threads of an arena come, if they do within a second.
+/// What an arena that is attached to the caller's reports may be more than the caller's limit.
+int threads_of(const tbb::task_arena& arena)
+{
+    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::min(arena.max_concurrency(), static_cast<int>(allowed));
+}
+
+/// Lets the threads of an arena come, all that do so soon.
 void bring_up_threads(tbb::task_arena& arena)
 {
-    const int n = arena.max_concurrency();
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    const int n = threads_of(arena);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
     std::atomic<int> n_here = 0;
     const auto wait_for_all = [&](int) {
         ++n_here;
         while (n_here < n && std::chrono::steady_clock::now() < end)
             std::this_thread::yield();
     };
-    arena.execute([&] { tbb::parallel_for(0, n, wait_for_all, tbb::simple_partitioner()); });
+    // Isolated, so that the caller's own tasks are not taken up in the meantime.
+    arena.execute([&] {
+        tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, n, wait_for_all, tbb::simple_partitioner()); });
+    });
 }
 
 /// oneTBB ends the program where the system refuses it a thread, or memory for what a thread begins with, which is so
@@ -94,21 +104,24 @@ void bring_up_threads(tbb::task_arena& arena)
 /// @throws ComputationError if there is no room for them.
 void require_room_for_threads(tbb::task_arena& arena)
 {
-    const int n = arena.max_concurrency() - 1;
+    const int n = threads_of(arena) - 1;
     static std::mutex mutex;
     // oneTBB keeps its threads.
     static int most_made = 0;
     rlimit limit = {};
     if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return;
-    const std::lock_guard lock(mutex);
-    if (n <= most_made)
-        return;
-    if (!can_make_threads(n))
-        throw ComputationError("there is no memory for " + std::to_string(n) +
-                               " more threads: use fewer (--threads), or raise the limit of this program (ulimit -v)");
+    {
+        const std::lock_guard lock(mutex);
+        if (n <= most_made)
+            return;
+        if (!can_make_threads(n))
+            throw ComputationError(
+                "there is no memory for " + std::to_string(n) +
+                " more threads: use fewer (--threads), or raise the limit of this program (ulimit -v)");
+        most_made = n;
+    }
     bring_up_threads(arena);
-    most_made = n;
 }
 
 }  // namespace
@@ -154,8 +167,7 @@ void Workers::execute(const std::function<void()>& work)
 
 int Workers::threads() const
 {
-    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return std::min(arena_->arena.max_concurrency(), static_cast<int>(allowed));
+    return threads_of(arena_->arena);
 }
 
 }  // namespace seamflow

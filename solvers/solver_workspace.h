@@ -11,7 +11,8 @@
 
 namespace seamflow {
 
-/// What systems need while they work and not after: one for each thread. Grows to what the largest system needs.
+/// What systems need while they work and not after: one for each thread. Three columns wide they are as long as the
+/// last system needed, the others as the largest.
 struct SolverWorkspace {
     /// Factors outlive the work: this is not the workspace's own. The same in all workspaces that a system meets.
     FactorMemory* factors = &heap_memory();

@@ -59,8 +59,8 @@ class NeumannSystem {
     /// Gives borrowed memory back.
     void give_back(SolverWorkspace& workspace);
 
-    /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after a factorisation, with the same
-    /// workspace.
+    /// Eliminates the interior from A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ. To be called after `assemble` and a factorisation,
+    /// with the same workspace: it has K Vᵏ.
     /// @param eliminated #unknowns by 3: receives what fill_in needs of it.
     /// @param condensed n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
     void condense(Points& eliminated, Eigen::Ref<Points> condensed, const SolverWorkspace& workspace) const;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -93,6 +95,50 @@ void check_fans(const PolygonMesh& mesh, const Topology& topology, std::span<con
 }
 
 }  // namespace
+
+TEST_CASE("the face of a half-edge, and those beside it there, whether all faces have as many corners or not")
+{
+    for (Index degree = 3; degree <= 70; ++degree) {
+        for (const Index last_degree : {degree, degree + 1}) {
+            CAPTURE(degree);
+            CAPTURE(last_degree);
+            PolygonMesh mesh;
+            for (Index f = 0; f < 40; ++f) {
+                std::vector<Index> corners(at(f == 39 ? last_degree : degree));
+                std::iota(corners.begin(), corners.end(), mesh.n_corners());
+                mesh.add_face(corners);
+            }
+            mesh.vertices = Points::Zero(mesh.n_corners(), 3);
+            const Topology topology = make_topology(mesh);
+            for (Index f = 0; f < mesh.n_faces(); ++f) {
+                const Index begin = mesh.face_offsets[at(f)];
+                const Index end = mesh.face_offsets[at(f) + 1];
+                for (Index h = begin; h < end; ++h) {
+                    REQUIRE(topology.face_of[at(h)] == f);
+                    REQUIRE(topology.next(mesh, h) == (h + 1 == end ? begin : h + 1));
+                    REQUIRE(topology.previous(mesh, h) == (h == begin ? end - 1 : h - 1));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("the face of a half-edge is right for as many half-edges as there can be")
+{
+    constexpr std::int64_t end = std::int64_t{1} << 31;
+    for (const Index degree : {3, 4, 5, 6, 7, 11, 64, 1000, 65537, 1 << 20}) {
+        CAPTURE(degree);
+        PolygonMesh mesh;
+        mesh.face_offsets = {0, degree};
+        const FaceOfHalfedge face_of(mesh, run_serially);
+        const std::int64_t last = (end - 1) / degree;
+        for (const std::int64_t face : {std::int64_t{1}, last / 3, last / 2, last - 1, last})
+            for (const std::int64_t h : {face * degree - 1, face * degree, face * degree + degree - 1})
+                if (h < end)
+                    CHECK(face_of[static_cast<std::size_t>(h)] == h / degree);
+        CHECK(face_of[static_cast<std::size_t>(end - 1)] == last);
+    }
+}
 
 TEST_CASE("the ends of a fan are found without listing it")
 {

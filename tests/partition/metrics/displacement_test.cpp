@@ -118,3 +118,18 @@ TEST_CASE("statistics of lengths")
     CHECK(length_statistics(lengths).max == 4.0);
     CHECK(length_statistics({}).mean == 0.0);
 }
+
+TEST_CASE("lengths may be added up in parts")
+{
+    LengthSums first;
+    LengthSums second;
+    first.add(3.0);
+    second.add(std::nan(""));
+    second.add(-4.0);
+    first.add(second);
+    first.add(LengthSums());
+    CHECK(first.statistics().mean == 3.5);
+    CHECK(first.statistics().rms == doctest::Approx(std::sqrt(12.5)));
+    CHECK(first.statistics().max == 4.0);
+    CHECK(LengthSums().statistics().rms == 0.0);
+}
