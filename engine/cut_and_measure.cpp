@@ -1,0 +1,60 @@
+#include "engine/cut_and_measure.h"
+
+#include "engine/choose_subdomains.h"
+#include "engine/parallel_loop.h"
+#include "engine/surface_curvature.h"
+#include "solvers/laplacian/symmetric_laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+Cut uncut(const PolygonMesh& mesh)
+{
+    Cut cut;
+    cut.labels.assign(at(mesh.n_faces()), 0);
+    cut.n_parts = mesh.n_faces() > 0 ? 1 : 0;
+    return cut;
+}
+
+const SubdomainNeeds& needs_of(const FlowOptions& options)
+{
+    if (!options.tolerance)
+        return needs_of_sweeps;
+    return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
+}
+
+Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Loop& loop)
+{
+    if (options.scheme == Scheme::ExplicitEuler)
+        return uncut(mesh);
+    if (!options.labels.empty())
+        return cut_by_labels(mesh, topology, options.labels, loop);
+    if (options.subdomains > 0)
+        return cut_into(mesh, topology, options.subdomains, loop);
+    const SubdomainChoice choice = choose_subdomains(mesh, options.time_step, needs_of(options));
+    Cut cut = cut_into(mesh, topology, choice.count, loop);
+    cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
+    return cut;
+}
+
+}  // namespace
+
+Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
+                    FlowOptions& options, Measured& measured, const Progress& progress)
+{
+    Cut cut;
+    run_both([&] { cut = make_cut(mesh, topology, options, progress.loop()); },
+             [&] {
+                 measured.curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
+                 measured.meter.emplace(mesh, topology);
+             });
+    // A whole mesh is solved exactly either way.
+    if (cut.n_parts == 1 && !choice.reason.empty())
+        options.tolerance.reset();
+    else if (!choice.reason.empty())
+        cut.remarks.insert(cut.remarks.begin(), "Steps are converged: " + choice.reason + ".");
+    return cut;
+}
+
+}  // namespace seamflow
