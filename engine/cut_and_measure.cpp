@@ -9,14 +9,6 @@ namespace seamflow {
 
 namespace {
 
-Cut uncut(const PolygonMesh& mesh)
-{
-    Cut cut;
-    cut.labels.assign(at(mesh.n_faces()), 0);
-    cut.n_parts = mesh.n_faces() > 0 ? 1 : 0;
-    return cut;
-}
-
 const SubdomainNeeds& needs_of(const FlowOptions& options)
 {
     if (!options.tolerance)
@@ -27,7 +19,7 @@ const SubdomainNeeds& needs_of(const FlowOptions& options)
 Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Loop& loop)
 {
     if (options.scheme == Scheme::ExplicitEuler)
-        return uncut(mesh);
+        return cut_into(mesh, topology, 1, loop);
     if (!options.labels.empty())
         return cut_by_labels(mesh, topology, options.labels, loop);
     if (options.subdomains > 0)
