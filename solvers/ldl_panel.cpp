@@ -13,9 +13,10 @@ namespace {
 // Numbers that one operation serves, or two on machines with narrow registers.
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
+using Eight = double __attribute__((vector_size(64)));
 
-/// Columns that are computed at once, and those of a source that are used in one go.
-constexpr Index group = 4;
+/// Columns that are computed at once, at most, and those of a source that are used in one go.
+constexpr Index group = 8;
 constexpr Index chunk = 64;
 
 template <class Vector>
@@ -35,17 +36,17 @@ inline void multiply(const double* rows, std::size_t width, const Vector* factor
         use(r, sums[r]);
 }
 
-/// The rows from `place` on times D Lᵀ of the first n_targets of them, over the panel's columns [0, n).
-/// @param use(i, sums) takes the sums of row place + i; more than one call for each if n is large.
+/// The rows from `place` on times D Lᵀ of the first n_targets of them, over the panel's columns [first, last).
+/// @param use(i, sums) takes the sums of row place + i; more than one call for each if there are many columns.
 template <class Vector, class Use>
-inline void multiply_all(const LdlPanel& panel, Index n, Index place, Index n_targets, Use&& use)
+inline void multiply_all(const LdlPanel& panel, Index first, Index last, Index place, Index n_targets, Use&& use)
 {
     const std::size_t width = at(panel.width);
     const double* rows = panel.values + at(place) * width;
     const Index n_rows = static_cast<Index>(panel.rows.size()) - place;
     std::array<Vector, at(chunk)> factors;
-    for (Index begin = 0; begin < n; begin += chunk) {
-        const Index size = std::min(chunk, n - begin);
+    for (Index begin = first; begin < last; begin += chunk) {
+        const Index size = std::min(chunk, last - begin);
         for (Index c = 0; c < size; ++c) {
             const double pivot = panel.values[at(begin + c) * (width + 1)];
             Vector factor{};
@@ -80,15 +81,32 @@ inline void update_columns(const LdlPanel& earlier, Index place, Index n_columns
     std::array<Index, at(group)> columns{};
     std::copy_n(target_rows, n_columns, columns.begin());
     if (n_columns == lanes<Vector> && columns[at(n_columns - 1)] - columns[0] == n_columns - 1)
-        multiply_all<Vector>(earlier, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
+        multiply_all<Vector>(earlier, 0, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
             subtract(sums, lanes<Vector>, later.values + at(target_rows[i]) * width + at(columns[0]));
         });
     else
-        multiply_all<Vector>(earlier, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
+        multiply_all<Vector>(earlier, 0, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
             double* target = later.values + at(target_rows[i]) * width;
             for (Index t = 0; t < n_columns; ++t)
                 target[columns[at(t)]] -= sums[t];
         });
+}
+
+/// Takes what the panel's columns [first, last) contribute away from the n after them.
+template <class Vector>
+inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Index n)
+{
+    if (first == last || n == 0)
+        return;
+    const std::size_t width = at(panel.width);
+    double* target = panel.values + at(last) * (width + 1);
+    if (n == lanes<Vector>)
+        multiply_all<Vector>(panel, first, last, last, n, [&](Index i, const Vector& sums) {
+            subtract(sums, lanes<Vector>, target + at(i) * width);
+        });
+    else
+        multiply_all<Vector>(panel, first, last, last, n,
+                             [&](Index i, const Vector& sums) { subtract(sums, n, target + at(i) * width); });
 }
 
 /// Factorises columns that depend on each other alone.
@@ -132,6 +150,8 @@ inline bool factorise_columns(const LdlPanel& panel, Index first)
 inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
 {
     switch (n) {
+    case 0:
+        return true;
     case 1:
         return factorise_columns<1>(panel, first);
     case 2:
@@ -152,6 +172,8 @@ SEAMFLOW_WIDE void subtract_update(const LdlPanel& earlier, Index place, Index n
         const Index n = std::min(group, n_columns - t);
         if (n <= 2)
             update_columns<Two>(earlier, place + t, n, target_rows + t, later);
+        else if (n > 4)
+            update_columns<Eight>(earlier, place + t, n, target_rows + t, later);
         else
             update_columns<Four>(earlier, place + t, n, target_rows + t, later);
     }
@@ -159,14 +181,17 @@ SEAMFLOW_WIDE void subtract_update(const LdlPanel& earlier, Index place, Index n
 
 SEAMFLOW_WIDE bool factorise_panel(const LdlPanel& panel)
 {
-    const std::size_t width = at(panel.width);
     for (Index first = 0; first < panel.width; first += group) {
         const Index n = std::min(group, panel.width - first);
-        if (first > 0)
-            multiply_all<Four>(panel, first, first, n, [&](Index i, const Four& sums) {
-                subtract(sums, n, panel.values + at(first + i) * width + at(first));
-            });
-        if (!factorise_columns(panel, first, n))
+        const Index half = std::min(group / 2, n);
+        if (n > half)
+            subtract_columns<Eight>(panel, 0, first, n);
+        else
+            subtract_columns<Four>(panel, 0, first, n);
+        if (!factorise_columns(panel, first, half))
+            return false;
+        subtract_columns<Four>(panel, first, first + half, n - half);
+        if (!factorise_columns(panel, first + half, n - half))
             return false;
     }
     return true;

@@ -1,6 +1,7 @@
 #include "solvers/interface/coarse_space.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <numeric>
 
@@ -35,23 +36,34 @@ std::ptrdiff_t place_in(std::span<const Index> ascending, Index value)
     return std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin();
 }
 
-/// column · v for three columns; by four sums each, as wide registers have them.
-SEAMFLOW_WIDE Point multiply_column(const float* __restrict column, const Columns& v)
+// By name, because compilers do not find sums in loops.
+using Doubles [[gnu::vector_size(64)]] = double;
+using Floats [[gnu::vector_size(32)]] = float;
+constexpr Index n_lanes = 8;
+
+inline double sum_of(const Doubles& lanes)
 {
-    Point result;
-    const auto n = static_cast<Index>(v.rows());
-    const Index n_whole = n / 4 * 4;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-        const double* __restrict values = v.col(c).data();
-        double sums[4] = {};
-        for (Index i = 0; i < n_whole; i += 4)
-            for (Index k = 0; k < 4; ++k)
-                sums[k] += static_cast<double>(column[i + k]) * values[i + k];
-        for (Index i = n_whole; i < n; ++i)
-            sums[0] += static_cast<double>(column[i]) * values[i];
-        result[c] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
+}
+
+/// column · v for three columns.
+/// @param v a multiple of n_lanes by 3.
+SEAMFLOW_WIDE void multiply_column(const float* __restrict column, const Columns& v, Point& result)
+{
+    Doubles sums[3] = {};
+    const double* __restrict values = v.data();
+    const Eigen::Index n = v.rows();
+    for (Eigen::Index i = 0; i < n; i += n_lanes) {
+        Floats factors;
+        std::memcpy(&factors, column + i, sizeof factors);
+        const Doubles wide = __builtin_convertvector(factors, Doubles);
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            Doubles lanes;
+            std::memcpy(&lanes, values + c * n + i, sizeof lanes);
+            sums[c] += wide * lanes;
+        }
     }
-    return result;
+    result = {sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2])};
 }
 
 }  // namespace
@@ -176,27 +188,28 @@ void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::sp
 void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
 {
     const auto functions = functions_at_[s];
-    const std::size_t n = at(copies_.n_in(s));
+    const std::size_t room = DenseFactor::room(copies_.n_in(s));
     const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
-    std::vector<float>& columns = products_[at(s)];
-    columns.assign(n * n_columns, 0.0F);
-    for (std::size_t i = 0; i < n; ++i)
-        for (const Index copy : copies_.of_vertex[copies_.vertex[at(copies_.first[at(s)]) + i]]) {
+    AlignedFloats& columns = products_[at(s)];
+    columns.assign(n_columns * room);
+    for (Index i = 0; i < copies_.n_in(s); ++i)
+        for (const Index copy : copies_.of_vertex[copies_.vertex[at(copies_.first[at(s)] + i)]]) {
             const auto column = static_cast<std::size_t>(place_in(functions, function_[at(copy)]));
-            columns[column * n + i] += static_cast<float>(values_at_[at(copy)]);
+            columns.data()[column * room + at(i)] += static_cast<float>(values_at_[at(copy)]);
         }
-    const auto on_each_three = [&](auto&& apply) {
-        for (std::size_t c = 0; c < n_columns; c += 3)
-            apply(FloatColumns{columns.data() + c * n, columns.data() + (c + 1) * n, columns.data() + (c + 2) * n});
-    };
-    on_each_three([&](FloatColumns v) { schur.multiply_by_root_transposed(v); });
-    const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(n),
-                                                                    static_cast<Eigen::Index>(functions.size()))
-                                      .cast<double>();
-    energies_[at(s)].noalias() = roots.transpose() * roots;
+    AlignedFloats roots;
+    roots.assign(n_columns * room);
+    for (std::size_t c = 0; c < n_columns; c += 3)
+        schur.multiply_by_root_transposed(columns_at(columns.data() + c * room, room),
+                                          columns_at(roots.data() + c * room, room));
+    const Eigen::MatrixXd factors = Eigen::Map<const Eigen::MatrixXf>(roots.data(), static_cast<Eigen::Index>(room),
+                                                                      static_cast<Eigen::Index>(functions.size()))
+                                        .cast<double>();
+    energies_[at(s)].noalias() = factors.transpose() * factors;
     scales_[at(s)] = schur.scale();
     energies_[at(s)] *= scales_[at(s)];
-    on_each_three([&](FloatColumns v) { schur.multiply_by_root(v); });
+    for (std::size_t c = 0; c < n_columns; c += 3)
+        schur.multiply_by_root(columns_at(roots.data() + c * room, room), columns_at(columns.data() + c * room, room));
 }
 
 /// In the order of `entries`.
@@ -241,13 +254,18 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
 void CoarseSpace::multiply_transposed(Index s, const Points& y)
 {
     const Index n = copies_.n_in(s);
-    Columns local(n, 3);
+    const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
+    Columns local(room, 3);
+    local.bottomRows(room - n).setZero();
     for (Index i = 0; i < n; ++i)
         local.row(i) = y.row(copies_.vertex[at(copies_.first[at(s)] + i)]);
-    for (Index place = functions_at_.offsets[at(s)]; place < functions_at_.offsets[at(s) + 1]; ++place)
-        shares_.row(place) =
-            scales_[at(s)] *
-            multiply_column(products_[at(s)].data() + at(place - functions_at_.offsets[at(s)]) * at(n), local);
+    const float* product = products_[at(s)].data();
+    for (Index place = functions_at_.offsets[at(s)]; place < functions_at_.offsets[at(s) + 1]; ++place) {
+        Point share;
+        multiply_column(product, local, share);
+        shares_.row(place) = scales_[at(s)] * share;
+        product += room;
+    }
 }
 
 }  // namespace seamflow

@@ -70,9 +70,9 @@ class CoarseSpace {
     std::vector<double> values_;
     std::vector<Index> slots_;
     std::vector<Index> diagonal_slots_;
-    /// Per sub-mesh, its share of S Z: a column for each function there, and zeros to make their number a multiple of
-    /// three.
-    std::vector<std::vector<float>> products_;
+    /// Per sub-mesh, its share of S Z: a column with DenseFactor::room for each function there, and zeros to make their
+    /// number a multiple of three.
+    std::vector<AlignedFloats> products_;
     /// Per sub-mesh, by what that has to be multiplied (see DenseFactor).
     std::vector<double> scales_;
     /// Per sub-mesh, its share of E: functions there by functions there.

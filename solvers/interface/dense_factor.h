@@ -6,17 +6,47 @@
 
 namespace seamflow {
 
-/// Three columns of single-precision numbers, one after the other.
+/// So many single-precision numbers, in whole cache lines.
+class AlignedFloats {
+  public:
+    /// Makes room for n at least. All are 0 afterwards.
+    void assign(std::size_t n) { lines_.assign((n + line - 1) / line, {}); }
+
+    [[nodiscard]] std::size_t size() const { return lines_.size() * line; }
+    [[nodiscard]] float* data() { return reinterpret_cast<float*>(lines_.data()); }
+    [[nodiscard]] const float* data() const { return reinterpret_cast<const float*>(lines_.data()); }
+
+  private:
+    static constexpr std::size_t line = 16;
+    struct alignas(line * sizeof(float)) Line {
+        float numbers[line] = {};
+    };
+    std::vector<Line> lines_;
+};
+
+/// Three columns of n numbers. Each has room for DenseFactor::room(n), 0 from the n-th on.
 struct FloatColumns {
     float* x;
     float* y;
     float* z;
 };
 
+/// Three columns one after the other.
+/// @param room numbers for each.
+inline FloatColumns columns_at(float* begin, std::size_t room)
+{
+    return {begin, begin + room, begin + 2 * room};
+}
+
 /// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹. S has any unit: it
 /// is kept as scale() S₁, where single precision has room for S₁ and its inverse.
+///
+/// Products are fastest where columns begin at cache lines, as those one after the other in AlignedFloats do.
 class DenseFactor {
   public:
+    /// How many numbers a column of n has room for.
+    [[nodiscard]] static std::size_t room(Index n) { return at((n + lanes - 1) / lanes * lanes); }
+
     /// Takes a factorisation in double precision over.
     void take(const DenseLdl& factor);
 
@@ -25,38 +55,33 @@ class DenseFactor {
     /// A power of two.
     [[nodiscard]] double scale() const { return scale_; }
 
-    /// v becomes S₁ v; n numbers per column.
-    void multiply(FloatColumns v) const;
+    /// v becomes S₁ v.
+    /// @param scratch receives nothing of use.
+    void multiply(FloatColumns v, FloatColumns scratch) const;
 
-    /// The two halves of that, S₁ = R Rᵀ with R = L √D₁: v becomes Rᵀ v, and R v.
-    void multiply_by_root_transposed(FloatColumns v) const;
-    void multiply_by_root(FloatColumns v) const;
+    /// The two halves of that, S₁ = R Rᵀ with R = L √D₁: result becomes Rᵀ v, and R v. v is changed.
+    void multiply_by_root_transposed(FloatColumns v, FloatColumns result) const;
+    void multiply_by_root(FloatColumns v, FloatColumns result) const;
 
     /// v becomes S₁⁻¹ v.
-    void solve(FloatColumns v) const;
+    /// @param scratch receives nothing of use.
+    void solve(FloatColumns v, FloatColumns scratch) const;
 
     /// The diagonal of S.
-    [[nodiscard]] std::vector<double> diagonal() const;
+    [[nodiscard]] const std::vector<double>& diagonal() const { return diagonal_; }
 
   private:
-    void add_multiple(Index column, float sign, FloatColumns v) const;
-    void add_product(Index column, float sign, FloatColumns v) const;
-
-    /// A column of L from the row below the diagonal on.
-    [[nodiscard]] const float* below(Index column) const { return values_.data() + begin_of(column); }
-    [[nodiscard]] float* below(Index column) { return values_.data() + begin_of(column); }
-    [[nodiscard]] std::size_t begin_of(Index column) const
-    {
-        return at(column) * at(n_) - at(column) * (at(column) + 1) / 2;
-    }
+    static constexpr Index lanes = 16;
 
     Index n_ = 0;
     double scale_ = 1.0;
-    /// L by columns, below the diagonal.
-    std::vector<float> values_;
-    /// √D₁, and the inverses of D₁.
+    /// L without its diagonal by blocks of four columns, each from the group of sixteen rows on that its own are in:
+    /// for every sixteen rows the four columns, one after the other, with zeros in the upper triangle.
+    AlignedFloats lower_;
+    /// √D₁, and the inverses of D₁; with zeros as far as there is room.
     std::vector<float> root_;
     std::vector<float> inverse_;
+    std::vector<double> diagonal_;
 };
 
 }  // namespace seamflow

@@ -45,7 +45,6 @@ Point quotients(const std::array<double, 3>& numerators, const std::array<double
 InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing)
     : copies_(decomposition)
     , weights_(at(copies_.n_copies()))
-    , products_(3 * weights_.size())
     , residual_copies_(copies_.n_copies(), 3)
     , right_hand_side_(copies_.n_vertices(), 3)
     , residual_(copies_.n_vertices(), 3)
@@ -54,6 +53,12 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
     , preconditioned_(copies_.n_vertices(), 3)
     , partial_(at(copies_.n_vertices() / block_size) + 1)
 {
+    std::size_t n_numbers = 0;
+    for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
+        first_product_.push_back(n_numbers);
+        n_numbers += 6 * DenseFactor::room(copies_.n_in(s));
+    }
+    products_.assign(n_numbers);
     if (balancing == Balancing::Coarse)
         coarse_.emplace(copies_);
 }
@@ -131,7 +136,7 @@ double InterfaceEquation::estimate_distance(std::span<const NeumannSystem* const
 void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
-        const std::vector<double> diagonal = systems[at(s)]->schur().diagonal();
+        const std::vector<double>& diagonal = systems[at(s)]->schur().diagonal();
         std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[at(s)]);
     });
     for_each(loop, copies_.n_vertices(), [&](Index v) {
@@ -225,18 +230,20 @@ void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, P
 
 void InterfaceEquation::multiply(std::span<const NeumannSystem* const> systems, const Loop& loop)
 {
-    on_each(systems, direction_, false, product_, loop, [](const DenseFactor& schur, FloatColumns columns) {
-        schur.multiply(columns);
-        return schur.scale();
-    });
+    on_each(systems, direction_, false, product_, loop,
+            [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
+                schur.multiply(columns, scratch);
+                return schur.scale();
+            });
 }
 
 void InterfaceEquation::precondition(std::span<const NeumannSystem* const> systems, const Loop& loop)
 {
-    on_each(systems, residual_, true, preconditioned_, loop, [](const DenseFactor& schur, FloatColumns columns) {
-        schur.solve(columns);
-        return 1.0 / schur.scale();
-    });
+    on_each(systems, residual_, true, preconditioned_, loop,
+            [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
+                schur.solve(columns, scratch);
+                return 1.0 / schur.scale();
+            });
     if (coarse_)
         coarse_->correct(residual_, preconditioned_, loop);
 }
@@ -252,8 +259,9 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
         const Index n = copies_.n_in(s);
         const Index first = copies_.first[at(s)];
-        float* begin = products_.data() + 3 * static_cast<std::ptrdiff_t>(first);
-        const FloatColumns columns{begin, begin + n, begin + 2 * static_cast<std::ptrdiff_t>(n)};
+        const std::size_t room = DenseFactor::room(n);
+        const FloatColumns columns = columns_at(products_.data() + first_product_[at(s)], room);
+        const FloatColumns scratch = columns_at(columns.x + 3 * room, room);
         Point largest = Point::Zero();
         for (Index i = 0; i < n; ++i) {
             const Point value = weight(first + i) * source.row(copies_.vertex[at(first + i)]);
@@ -267,7 +275,7 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
             columns.y[i] = static_cast<float>(value[1]);
             columns.z[i] = static_cast<float>(value[2]);
         }
-        const Point factor = apply(systems[at(s)]->schur(), columns) * unit;
+        const Point factor = apply(systems[at(s)]->schur(), columns, scratch) * unit;
         for (Index i = 0; i < n; ++i)
             residual_copies_.row(first + i) = Point(columns.x[i], columns.y[i], columns.z[i]).cwiseProduct(factor);
     });

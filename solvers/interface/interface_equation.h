@@ -91,8 +91,9 @@ class InterfaceEquation {
     std::optional<CoarseSpace> coarse_;
     /// Per copy.
     std::vector<double> weights_;
-    /// Three columns for each sub-mesh.
-    std::vector<float> products_;
+    /// Per sub-mesh, three columns and as many for scratch, and where they begin.
+    AlignedFloats products_;
+    std::vector<std::size_t> first_product_;
     Points residual_copies_;
     Points right_hand_side_;
     Points residual_;

@@ -15,6 +15,10 @@ namespace seamflow {
 
 namespace {
 
+/// How far ahead rows of the factor are asked for, and in what portions, in numbers.
+constexpr Index rows_ahead = 6;
+constexpr Index cache_line = 64 / sizeof(double);
+
 /// v[0 … n - 1] += row[0 … n - 1] · factor, for three columns.
 SEAMFLOW_WIDE void add_row(const double* __restrict row, Index n, const Point& factor, Columns& v)
 {
@@ -158,8 +162,13 @@ void NeumannSystem::condense(Points& eliminated, Eigen::Ref<Points> condensed, c
 void NeumannSystem::subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref<Points> result) const
 {
     Columns scaled = x;
-    for (Index i = 0; i < n_interface(); ++i)
+    for (Index i = 0; i < n_interface(); ++i) {
+        // Rows end before the memory between them does, which processors do not foresee.
+        const Index next = std::min(i + rows_ahead, n_interface() - 1);
+        for (Index j = 0; j <= next; j += cache_line)
+            __builtin_prefetch(last_row(next) + j);
         add_row(last_row(i), i, x.row(i), scaled);
+    }
     for (Index i = 0; i < n_interface(); ++i)
         scaled.row(i) *= last_row(i)[i];
     for (Index i = 0; i < n_interface(); ++i)

@@ -6,10 +6,46 @@
 
 using namespace seamflow;
 
+namespace {
+
+/// Three columns of n numbers, and the room after them.
+class Column3 {
+  public:
+    explicit Column3(Index n)
+        : n_(n)
+    {
+        numbers_.assign(3 * DenseFactor::room(n));
+    }
+    explicit Column3(const Eigen::Matrix<float, Eigen::Dynamic, 3>& values)
+        : Column3(static_cast<Index>(values.rows()))
+    {
+        map().topRows(n_) = values;
+    }
+
+    [[nodiscard]] FloatColumns columns() { return columns_at(numbers_.data(), DenseFactor::room(n_)); }
+    [[nodiscard]] Eigen::MatrixXd values() const { return map().topRows(n_).cast<double>(); }
+    [[nodiscard]] bool is_zero_from(Index n) const { return map().bottomRows(map().rows() - n).isZero(0.0F); }
+
+  private:
+    [[nodiscard]] Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3>> map() const
+    {
+        return {numbers_.data(), static_cast<Eigen::Index>(DenseFactor::room(n_)), 3};
+    }
+    [[nodiscard]] Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3>> map()
+    {
+        return {numbers_.data(), static_cast<Eigen::Index>(DenseFactor::room(n_)), 3};
+    }
+
+    Index n_;
+    AlignedFloats numbers_;
+};
+
+}  // namespace
+
 TEST_CASE("a factorisation in double precision is multiplied with, and solved for, in single precision")
 {
     RandomNumbers random(3);
-    for (const Index n : {1, 2, 7, 40}) {
+    for (const Index n : {1, 2, 4, 7, 16, 17, 21, 40, 67}) {
         Eigen::MatrixXd L = Eigen::MatrixXd::Identity(n, n);
         Eigen::VectorXd diagonal(n);
         for (Index i = 0; i < n; ++i) {
@@ -26,24 +62,36 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
         Eigen::Matrix<float, Eigen::Dynamic, 3> v(n, 3);
         for (float& value : v.reshaped())
             value = static_cast<float>(random.symmetric());
-        const auto columns = [](auto& m) { return FloatColumns{m.col(0).data(), m.col(1).data(), m.col(2).data()}; };
-        auto product = v;
-        factor.multiply(columns(product));
-        CHECK((factor.scale() * product.cast<double>() - S * v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm()));
-        auto halves = v;
-        factor.multiply_by_root_transposed(columns(halves));
-        CHECK(factor.scale() * halves.cast<double>().squaredNorm() ==
+        auto product = Column3(v);
+        Column3 scratch(n);
+        factor.multiply(product.columns(), scratch.columns());
+        CHECK((factor.scale() * product.values() - S * v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm()));
+        auto halves = Column3(v);
+        factor.multiply_by_root_transposed(halves.columns(), scratch.columns());
+        CHECK(factor.scale() * scratch.values().squaredNorm() ==
               doctest::Approx((v.cast<double>().transpose() * S * v.cast<double>()).trace()).epsilon(1e-4));
-        factor.multiply_by_root(columns(halves));
-        CHECK(halves == product);
-        const std::vector<double> of_product = factor.diagonal();
+        factor.multiply_by_root(scratch.columns(), halves.columns());
+        CHECK(halves.values() == product.values());
         for (Index i = 0; i < n; ++i)
-            CHECK(of_product[at(i)] == doctest::Approx(S(i, i)).epsilon(1e-5));
-        auto solution = v;
-        factor.solve(columns(solution));
-        const Eigen::MatrixXd exact = solution.cast<double>() / factor.scale();
+            CHECK(factor.diagonal()[at(i)] == doctest::Approx(S(i, i)).epsilon(1e-13));
+        auto solution = Column3(v);
+        factor.solve(solution.columns(), scratch.columns());
+        const Eigen::MatrixXd exact = solution.values() / factor.scale();
         CHECK((S * exact - v.cast<double>()).norm() < 1e-5 * (1.0 + S.norm() * exact.norm()));
+        for (const Column3& columns : {product, halves, solution, scratch})
+            CHECK(columns.is_zero_from(n));
     }
+}
+
+TEST_CASE("a matrix without rows has products, too")
+{
+    DenseFactor factor;
+    factor.take(DenseLdl(nullptr, 0, 0));
+    Column3 none(0);
+    Column3 scratch(0);
+    factor.multiply(none.columns(), scratch.columns());
+    factor.solve(none.columns(), scratch.columns());
+    CHECK(factor.diagonal().empty());
 }
 
 TEST_CASE("a factorisation in any unit is the same but for its scale")
@@ -59,11 +107,11 @@ TEST_CASE("a factorisation in any unit is the same but for its scale")
         DenseFactor other;
         other.take(DenseLdl(scaled.data(), 3, 3));
         CHECK(other.scale() == 2.0 * unit);
-        const Eigen::Matrix3f v = Eigen::Matrix3f::Identity();
         const auto applied = [&](const DenseFactor& to, auto function) {
-            Eigen::Matrix3f result = v;
-            (to.*function)({result.col(0).data(), result.col(1).data(), result.col(2).data()});
-            return result;
+            Column3 result(Eigen::Matrix3f::Identity());
+            Column3 scratch(3);
+            (to.*function)(result.columns(), scratch.columns());
+            return result.values();
         };
         CHECK(applied(other, &DenseFactor::multiply) == applied(factor, &DenseFactor::multiply));
         CHECK(applied(other, &DenseFactor::solve) == applied(factor, &DenseFactor::solve));
