@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 #include "solvers/wide.h"
 
@@ -26,45 +28,73 @@ constexpr Index lanes = static_cast<Index>(sizeof(Vector) / sizeof(double));
 /// @param rows the first row's first entry; there are `width` from one row to the next.
 /// @param use(r, sums) takes the sums of row r.
 template <Index Rows, class Vector, class Use>
-inline void multiply(const double* rows, std::size_t width, const Vector* factors, Index n, Use&& use)
+inline void multiply(const double* rows, std::size_t width, const double* factors, Index n, Use&& use)
 {
     Vector sums[Rows] = {};
-    for (Index c = 0; c < n; ++c)
+    for (Index c = 0; c < n; ++c) {
+        Vector factor;
+        std::memcpy(&factor, factors + c * lanes<Vector>, sizeof factor);
         for (Index r = 0; r < Rows; ++r)
-            sums[r] += rows[at(r) * width + at(c)] * factors[c];
+            sums[r] += rows[at(r) * width + at(c)] * factor;
+    }
     for (Index r = 0; r < Rows; ++r)
         use(r, sums[r]);
 }
 
-/// The rows from `place` on times D Lᵀ of the first n_targets of them, over the panel's columns [first, last).
-/// @param use(i, sums) takes the sums of row place + i; more than one call for each if there are many columns.
+/// Rows of a panel that are the targets of others', each in a lane of its own; what is in other lanes remains.
+struct Targets {
+    /// The first one, and how many follow each other.
+    Index first;
+    Index n;
+    std::array<Index, at(group)> lane;
+};
+
+Targets in_order(Index first, Index n)
+{
+    Targets targets{first, n, {}};
+    std::iota(targets.lane.begin(), targets.lane.end(), 0);
+    return targets;
+}
+
+/// The rows from that of the first target on times D Lᵀ of the targets, over the panel's columns [first, last).
+/// @param use(i, sums) takes the sums of the i-th of the rows; more than one call for each if there are many columns.
 template <class Vector, class Use>
-inline void multiply_all(const LdlPanel& panel, Index first, Index last, Index place, Index n_targets, Use&& use)
+inline void multiply_all(const LdlPanel& panel, Index first, Index last, const Targets& targets, Use&& use)
 {
     const std::size_t width = at(panel.width);
-    const double* rows = panel.values + at(place) * width;
-    const Index n_rows = static_cast<Index>(panel.rows.size()) - place;
-    std::array<Vector, at(chunk)> factors;
+    const double* rows = panel.values + at(targets.first) * width;
+    const Index n_rows = static_cast<Index>(panel.rows.size()) - targets.first;
+    alignas(Vector) std::array<double, at(chunk * lanes<Vector>)> factors;
     for (Index begin = first; begin < last; begin += chunk) {
         const Index size = std::min(chunk, last - begin);
+        if (targets.n < lanes<Vector>)
+            std::fill_n(factors.begin(), at(size * lanes<Vector>), 0.0);
         for (Index c = 0; c < size; ++c) {
             const double pivot = panel.values[at(begin + c) * (width + 1)];
-            Vector factor{};
-            for (Index t = 0; t < lanes<Vector>; ++t)
-                factor[t] = t < n_targets ? pivot * rows[at(t) * width + at(begin + c)] : 0.0;
-            factors[at(c)] = factor;
+            for (Index t = 0; t < targets.n; ++t)
+                factors[at(c * lanes<Vector> + targets.lane[at(t)])] = pivot * rows[at(t) * width + at(begin + c)];
         }
         Index i = 0;
         for (; i + 4 <= n_rows; i += 4)
-            multiply<4>(rows + at(i) * width + at(begin), width, factors.data(), size,
-                        [&](Index r, const Vector& sums) { use(i + r, sums); });
+            multiply<4, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                                [&](Index r, const Vector& sums) { use(i + r, sums); });
         for (; i < n_rows; ++i)
-            multiply<1>(rows + at(i) * width + at(begin), width, factors.data(), size,
-                        [&](Index, const Vector& sums) { use(i, sums); });
+            multiply<1, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                                [&](Index, const Vector& sums) { use(i, sums); });
     }
 }
 
 /// Takes sums away from neighbouring entries.
+template <class Vector>
+inline void subtract(const Vector& sums, double* target)
+{
+    Vector entries;
+    std::memcpy(&entries, target, sizeof entries);
+    entries -= sums;
+    std::memcpy(target, &entries, sizeof entries);
+}
+
+/// The same of the first n.
 template <class Vector>
 inline void subtract(const Vector& sums, Index n, double* target)
 {
@@ -72,23 +102,33 @@ inline void subtract(const Vector& sums, Index n, double* target)
         target[t] -= sums[t];
 }
 
-/// An update of up to four columns.
+/// How many of the first of these columns, ascending, are among `width` neighbouring ones.
+inline Index count_neighbours(const Index* columns, Index n, Index width)
+{
+    Index count = 1;
+    while (count < n && count < width && columns[count] - columns[0] < width)
+        ++count;
+    return count;
+}
+
+/// An update of columns among as many neighbouring ones as there are lanes. The others in between lose 0.
 template <class Vector>
-inline void update_columns(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+inline void update_columns(const LdlPanel& earlier, Index place, Index n, const Index* target_rows,
                            const LdlPanel& later)
 {
     const std::size_t width = at(later.width);
-    std::array<Index, at(group)> columns{};
-    std::copy_n(target_rows, n_columns, columns.begin());
-    if (n_columns == lanes<Vector> && columns[at(n_columns - 1)] - columns[0] == n_columns - 1)
-        multiply_all<Vector>(earlier, 0, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
-            subtract(sums, lanes<Vector>, later.values + at(target_rows[i]) * width + at(columns[0]));
+    const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - lanes<Vector>));
+    Targets targets{place, n, {}};
+    for (Index t = 0; t < n; ++t)
+        targets.lane[at(t)] = target_rows[t] - begin;
+    double* columns = later.values + begin;
+    if (later.width >= lanes<Vector>)
+        multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
+            subtract(sums, columns + at(target_rows[i]) * width);
         });
     else
-        multiply_all<Vector>(earlier, 0, earlier.width, place, n_columns, [&](Index i, const Vector& sums) {
-            double* target = later.values + at(target_rows[i]) * width;
-            for (Index t = 0; t < n_columns; ++t)
-                target[columns[at(t)]] -= sums[t];
+        multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
+            subtract(sums, later.width, columns + at(target_rows[i]) * width);
         });
 }
 
@@ -100,12 +140,12 @@ inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Ind
         return;
     const std::size_t width = at(panel.width);
     double* target = panel.values + at(last) * (width + 1);
+    const Targets targets = in_order(last, n);
     if (n == lanes<Vector>)
-        multiply_all<Vector>(panel, first, last, last, n, [&](Index i, const Vector& sums) {
-            subtract(sums, lanes<Vector>, target + at(i) * width);
-        });
+        multiply_all<Vector>(panel, first, last, targets,
+                             [&](Index i, const Vector& sums) { subtract(sums, target + at(i) * width); });
     else
-        multiply_all<Vector>(panel, first, last, last, n,
+        multiply_all<Vector>(panel, first, last, targets,
                              [&](Index i, const Vector& sums) { subtract(sums, n, target + at(i) * width); });
 }
 
@@ -168,14 +208,18 @@ inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
 SEAMFLOW_WIDE void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
                                    const LdlPanel& later)
 {
-    for (Index t = 0; t < n_columns; t += group) {
-        const Index n = std::min(group, n_columns - t);
-        if (n <= 2)
-            update_columns<Two>(earlier, place + t, n, target_rows + t, later);
-        else if (n > 4)
+    for (Index t = 0; t < n_columns;) {
+        const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
+        Index n = among(8);
+        if (n > 4) {
             update_columns<Eight>(earlier, place + t, n, target_rows + t, later);
-        else
+        } else if (n = among(4); n > 2) {
             update_columns<Four>(earlier, place + t, n, target_rows + t, later);
+        } else {
+            n = among(2);
+            update_columns<Two>(earlier, place + t, n, target_rows + t, later);
+        }
+        t += n;
     }
 }
 
