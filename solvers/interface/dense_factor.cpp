@@ -256,6 +256,13 @@ void DenseFactor::take(const DenseLdl& factor)
     }
 }
 
+void DenseFactor::prefetch() const
+{
+    const std::size_t n = std::min(lower_.size(), at(tiles_ahead) * at(tile_size));
+    for (std::size_t i = 0; i < n; i += at(n_lanes))
+        __builtin_prefetch(lower_.data() + i);
+}
+
 void DenseFactor::multiply(FloatColumns v, FloatColumns scratch) const
 {
     multiply_by_root_transposed(v, scratch);

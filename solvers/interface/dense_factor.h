@@ -67,6 +67,9 @@ class DenseFactor {
     /// @param scratch receives nothing of use.
     void solve(FloatColumns v, FloatColumns scratch) const;
 
+    /// Asks for what the next product begins with: most factors come from outside the caches.
+    void prefetch() const;
+
     /// The diagonal of S.
     [[nodiscard]] const std::vector<double>& diagonal() const { return diagonal_; }
 

@@ -257,6 +257,8 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[at(copy)] : 1.0; };
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        if (s + 1 < copies_.n_sub_meshes())
+            systems[at(s + 1)]->schur().prefetch();
         const Index n = copies_.n_in(s);
         const Index first = copies_.first[at(s)];
         const std::size_t room = DenseFactor::room(n);
