@@ -29,6 +29,27 @@ SymmetricMatrix full_matrix(Index n, RandomNumbers& random)
     return matrix;
 }
 
+/// Of the last unknowns all have to do with each other, and the others with any of them.
+SymmetricMatrix arrow_matrix(Index n_first, Index n_last, RandomNumbers& random)
+{
+    SymmetricMatrix matrix;
+    const Index n = n_first + n_last;
+    matrix.dense = 2.0 * n * Eigen::MatrixXd::Identity(n, n);
+    for (Index column = 0; column < n; ++column)
+        for (Index row = 0; row < column; ++row)
+            if (row >= n_first || (column >= n_first && random.below(3) > 0))
+                matrix.dense(row, column) = matrix.dense(column, row) = random.symmetric();
+    std::vector<MatrixEntry> entries;
+    for (Index column = 0; column < n; ++column)
+        for (Index row = 0; row <= column; ++row)
+            if (matrix.dense(row, column) != 0.0) {
+                entries.push_back({column, row});
+                matrix.values.push_back(matrix.dense(row, column));
+            }
+    matrix.upper = make_pattern(n, entries);
+    return matrix;
+}
+
 Columns solved(LdlSolver& solver, std::span<const double> values, const Columns& right, LdlWorkspace& workspace)
 {
     REQUIRE(solver.factorise(values, heap_memory(), workspace));
@@ -79,6 +100,20 @@ TEST_CASE("without any entries that are zero there is one block, of any width")
         const Columns found = solved(solver, matrix.values, right, workspace);
         CHECK((found - matrix.dense.llt().solve(right)).norm() < 1e-12 * matrix.dense.norm() * found.norm());
     }
+}
+
+TEST_CASE("blocks take away from any columns of a later one")
+{
+    RandomNumbers random(4);
+    LdlWorkspace workspace;
+    for (const Index n_last : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 40})
+        for (const Index n_first : {1, 5, 80}) {
+            const SymmetricMatrix matrix = arrow_matrix(n_first, n_last, random);
+            LdlSolver solver(matrix.upper, n_last);
+            const Columns right = random_columns(n_first + n_last, random);
+            const Columns found = solved(solver, matrix.values, right, workspace);
+            CHECK((matrix.dense * found - right).norm() < 1e-13 * matrix.dense.norm());
+        }
 }
 
 TEST_CASE("the last block is the Schur complement, and the others are solved for with its unknowns given")
