@@ -58,6 +58,20 @@ Motion random_motion(RandomNumbers& random, double extent)
             extent * Point(random.symmetric(), random.symmetric(), random.symmetric())};
 }
 
+/// Whether rounding decides if the flow can go on: where next to nothing is left of a surface, the equations of the
+/// next step may be singular or not.
+bool is_refused_when_perturbed(Case& c)
+{
+    constexpr int attempts = 20;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        PolygonMesh mesh = c.mesh();
+        perturb(mesh.vertices, c.random);
+        if (!outcome_of(mesh, c.flow.options).refusal.empty())
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 void check_mirrored_and_scaled(Case& c)
@@ -100,7 +114,10 @@ void check_turned_and_renumbered(Case& c)
     mesh.vertices = motion.applied(mesh.vertices);
     const Outcome outcome = outcome_of(mesh, renumbered(options, new_vertex, old_face));
     ++c.n_compared["turned and renumbered"];
-    c.expect(outcome.refusal.empty(), "turned and renumbered: " + outcome.message);
+    if (!outcome.refusal.empty()) {
+        c.expect(is_refused_when_perturbed(c), "turned and renumbered: " + outcome.message);
+        return;
+    }
     const Points expected = motion.applied(c.expected.end);
     double distance = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
