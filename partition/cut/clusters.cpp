@@ -4,26 +4,53 @@
 #include <numeric>
 #include <utility>
 
-#include "partition/cut/components.h"
 #include "partition/index.h"
 
 namespace seamflow {
 
 namespace {
 
+/// Faces that follow each other.
+struct Chunk {
+    Index begin;
+    Index end;
+
+    [[nodiscard]] bool has(Index f) const { return f >= begin && f < end; }
+};
+
+/// Fills a chunk of the faces with clusters. Of other faces nothing is read or written.
 class ClusterGrower {
   public:
-    ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight)
+    /// @param cluster_of #F, -1 in the chunk: receives clusters numbered from 0. @param faces #F: receives those of one
+    /// cluster after the other.
+    ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk,
+                  std::vector<Index>& cluster_of, std::vector<Index>& faces)
         : mesh_(mesh)
         , topology_(topology)
         , weight_(weight)
+        , chunk_(chunk)
+        , cluster_of_(cluster_of)
+        , faces_(faces)
+        , end_(chunk.begin)
     {
-        clusters_.cluster_of.assign(at(mesh.n_faces()), -1);
-        clusters_.faces.values.reserve(at(mesh.n_faces()));
     }
 
-    /// Fills the component of face f with clusters.
-    void grow_component(Index f)
+    /// @returns where the faces of each cluster end.
+    std::vector<Index> grow()
+    {
+        for (Index f = chunk_.begin; f < chunk_.end; ++f)
+            if (is_free(f))
+                grow_around(f);
+        return std::move(ends_);
+    }
+
+  private:
+    [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[at(f)] < 0; }
+    /// The cluster in the making.
+    [[nodiscard]] Index last() const { return static_cast<Index>(ends_.size()); }
+
+    /// Takes all that hangs together with face f.
+    void grow_around(Index f)
     {
         outer_.clear();
         grow_cluster(f);
@@ -33,14 +60,7 @@ class ClusterGrower {
                 grow_cluster(g);
                 return true;
             });
-        ++clusters_.n_components;
     }
-
-    [[nodiscard]] bool is_free(Index f) const { return clusters_.cluster_of[at(f)] < 0; }
-    FaceClusters take() { return std::move(clusters_); }
-
-  private:
-    std::vector<Index>& faces() { return clusters_.faces.values; }
 
     /// Until `visit` returns false.
     template <class Visit>
@@ -55,28 +75,28 @@ class ClusterGrower {
 
     void grow_cluster(Index seed)
     {
+        const Index begin = end_;
         Index left = weight_;
         const auto add = [&](Index f) {
-            clusters_.cluster_of[at(f)] = clusters_.size();
-            faces().push_back(f);
+            cluster_of_[at(f)] = last();
+            faces_[at(end_++)] = f;
             left -= face_weight(mesh_, f);
             return left > 0;
         };
-        std::size_t next = faces().size();
-        for (add(seed); left > 0 && next < faces().size(); ++next)
-            for_each_free_neighbour(faces()[next], add);
+        Index next = begin;
+        for (add(seed); left > 0 && next < end_; ++next)
+            for_each_free_neighbour(faces_[at(next)], add);
         // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer. All faces
         // that the growth has gone past but the last have no free neighbours any more.
-        for (next = std::max(next, at(clusters_.faces.offsets.back()) + 1) - 1; next < faces().size(); ++next) {
-            for_each_free_neighbour(faces()[next], [&](Index g) {
+        for (next = std::max(next, begin + 1) - 1; next < end_; ++next) {
+            for_each_free_neighbour(faces_[at(next)], [&](Index g) {
                 if (belongs_to_last(g))
                     add(g);
                 return true;
             });
-            outer_.push_back(faces()[next]);
+            outer_.push_back(faces_[at(next)]);
         }
-        clusters_.faces.close();
-        clusters_.component_of.push_back(clusters_.n_components);
+        ends_.push_back(end_);
     }
 
     /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to
@@ -89,10 +109,12 @@ class ClusterGrower {
         for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
             if (topology_.twin[at(h)] < 0)
                 continue;
-            const Index cluster = clusters_.cluster_of[at(topology_.face_of[at(topology_.twin[at(h)])])];
             ++inner;
-            shared += cluster == clusters_.size() ? 1 : 0;
-            n_free += cluster < 0 ? 1 : 0;
+            const Index neighbour = topology_.face_of[at(topology_.twin[at(h)])];
+            if (!chunk_.has(neighbour))
+                continue;
+            shared += cluster_of_[at(neighbour)] == last() ? 1 : 0;
+            n_free += cluster_of_[at(neighbour)] < 0 ? 1 : 0;
         }
         return n_free == 0 || 2 * shared > inner;
     }
@@ -100,13 +122,39 @@ class ClusterGrower {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     Index weight_;
-    FaceClusters clusters_;
-    /// Of the component in hand: the faces of clusters that may have free neighbours, in order.
+    Chunk chunk_;
+    std::vector<Index>& cluster_of_;
+    std::vector<Index>& faces_;
+    /// Where the faces of the clusters so far end, and where those of the one in the making do.
+    std::vector<Index> ends_;
+    Index end_;
+    /// Of the faces in hand that hang together: those of clusters that may have free neighbours, in order.
     std::vector<Index> outer_;
 };
 
+/// The chunks of all faces: a single one where too many edges would lead from one to another.
+std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology)
+{
+    constexpr Index sampled = 16;
+    constexpr double most_edges_across = 0.1;
+    Index inner = 0;
+    Index across = 0;
+    for (Index f = 0; f < mesh.n_faces(); f += std::min(sampled, mesh.n_faces() - f))
+        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h)
+            if (const Index twin = topology.twin[at(h)]; twin >= 0) {
+                ++inner;
+                across += topology.face_of[at(twin)] / faces_per_chunk != f / faces_per_chunk ? 1 : 0;
+            }
+    if (across > most_edges_across * inner)
+        return {{0, mesh.n_faces()}};
+    std::vector<Chunk> chunks;
+    for (Index begin = 0; begin < mesh.n_faces(); begin = chunks.back().end)
+        chunks.push_back({begin, begin + std::min(faces_per_chunk, mesh.n_faces() - begin)});
+    return chunks;
+}
+
 /// Face f is cluster f.
-FaceClusters one_face_each(const PolygonMesh& mesh, const Topology& topology)
+FaceClusters one_face_each(const PolygonMesh& mesh)
 {
     FaceClusters clusters;
     clusters.cluster_of.resize(at(mesh.n_faces()));
@@ -114,23 +162,34 @@ FaceClusters one_face_each(const PolygonMesh& mesh, const Topology& topology)
     clusters.faces.values = clusters.cluster_of;
     clusters.faces.offsets = clusters.cluster_of;
     clusters.faces.offsets.push_back(mesh.n_faces());
-    FaceComponents components = face_components(mesh, topology);
-    clusters.component_of = std::move(components.component);
-    clusters.n_components = components.count;
     return clusters;
 }
 
 }  // namespace
 
-FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight)
+FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Loop& loop)
 {
     if (weight == 1)
-        return one_face_each(mesh, topology);
-    ClusterGrower grower(mesh, topology, weight);
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (grower.is_free(f))
-            grower.grow_component(f);
-    return grower.take();
+        return one_face_each(mesh);
+    FaceClusters clusters;
+    clusters.cluster_of.assign(at(mesh.n_faces()), -1);
+    clusters.faces.values.resize(at(mesh.n_faces()));
+    const std::vector<Chunk> chunks = chunks_of(mesh, topology);
+    std::vector<std::vector<Index>> ends(chunks.size());
+    for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
+        ends[at(i)] =
+            ClusterGrower(mesh, topology, weight, chunks[at(i)], clusters.cluster_of, clusters.faces.values).grow();
+    });
+    std::vector<Index> first;
+    for (const std::vector<Index>& of_chunk : ends) {
+        first.push_back(clusters.size());
+        clusters.faces.offsets.insert(clusters.faces.offsets.end(), of_chunk.begin(), of_chunk.end());
+    }
+    for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
+        for (Index f = chunks[at(i)].begin; first[at(i)] > 0 && f < chunks[at(i)].end; ++f)
+            clusters.cluster_of[at(f)] += first[at(i)];
+    });
+    return clusters;
 }
 
 }  // namespace seamflow

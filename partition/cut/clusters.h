@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "partition/index_lists.h"
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -14,9 +15,6 @@ struct FaceClusters {
     IndexLists faces;
     /// #F: the cluster of every face.
     std::vector<Index> cluster_of;
-    /// The connected component of the mesh that every cluster lies in. Components are numbered by their lowest faces.
-    std::vector<Index> component_of;
-    Index n_components = 0;
 
     [[nodiscard]] Index size() const { return faces.size(); }
 };
@@ -29,8 +27,13 @@ inline Index face_weight(const PolygonMesh& mesh, Index f)
 }
 
 /// Grows clusters breadth first, one beside the other, each until its faces weigh `weight` or nothing is left around
-/// it. Linear in the size of the mesh.
+/// it. Linear in the size of the mesh. Large meshes whose faces are for the most part near the ones that come before
+/// and after them are done in chunks of so many faces, several at a time.
 /// @param weight at least 1, which makes every face f the cluster f.
-FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight);
+FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight,
+                           const Loop& loop = run_serially);
+
+/// So many faces (see grow_clusters). Clusters end where chunks do: of smaller ones more would be too small.
+inline constexpr Index faces_per_chunk = 1 << 17;
 
 }  // namespace seamflow

@@ -108,11 +108,12 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
         return uncut(mesh);
     const Index n_parts = sensible(mesh, k);
     const Index weight = cluster_weight(mesh, n_parts);
-    const FaceClusters clusters = grow_clusters(mesh, topology, weight);
+    const FaceClusters clusters = grow_clusters(mesh, topology, weight, loop);
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
     const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
     const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
-    auto part = divide(graph, clusters.component_of, clusters.n_components, n_parts, afterwards);
+    const GraphComponents components = graph_components(graph);
+    auto part = divide(graph, components, n_parts, afterwards);
     if (weight > 1)
         refine(graph, count_parts(part), part);
 
@@ -122,7 +123,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
         shorten_seams(mesh, topology, count_parts(cut.labels), cut.labels, loop);
     cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
     cut.n_parts = count_parts(cut.labels);
-    remark_on_number(mesh, k, clusters.n_components, cut);
+    remark_on_number(mesh, k, components.count, cut);
     return cut;
 }
 

@@ -74,12 +74,12 @@ std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards 
 
 }  // namespace
 
-std::vector<Index> divide(const FaceGraph& graph, std::span<const Index> component_of, Index n_components, Index k,
-                          Afterwards afterwards)
+std::vector<Index> divide(const FaceGraph& graph, const GraphComponents& components, Index k, Afterwards afterwards)
 {
-    if (n_components == 1)
+    if (components.count == 1)
         return divide_connected(graph, k, afterwards);
-    std::vector<double> weight(at(n_components), 0.0);
+    const std::vector<Index>& component_of = components.component_of;
+    std::vector<double> weight(at(components.count), 0.0);
     for (std::size_t node = 0; node < component_of.size(); ++node)
         weight[at(component_of[node])] += graph.node_weights[node];
     return divide_further(graph, component_of, share_out(std::move(weight), k), afterwards);

@@ -120,6 +120,31 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     return graph;
 }
 
+GraphComponents graph_components(const FaceGraph& graph)
+{
+    GraphComponents components;
+    components.component_of.assign(at(graph.n_nodes()), -1);
+    std::vector<Index> reached;
+    const auto reach = [&](Index node) {
+        if (components.component_of[at(node)] >= 0)
+            return;
+        components.component_of[at(node)] = components.count;
+        reached.push_back(node);
+    };
+    for (Index lowest = 0; lowest < graph.n_nodes(); ++lowest) {
+        if (components.component_of[at(lowest)] >= 0)
+            continue;
+        for (reach(lowest); !reached.empty();) {
+            const Index node = reached.back();
+            reached.pop_back();
+            for (Index arc = graph.offsets[at(node)]; arc < graph.offsets[at(node) + 1]; ++arc)
+                reach(graph.targets[at(arc)]);
+        }
+        ++components.count;
+    }
+    return components;
+}
+
 std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts)
 {
     std::vector<FaceGraph> parts(at(n_parts));

@@ -42,6 +42,14 @@ enum class ArcMeasure {
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
                           ArcMeasure measure, const Loop& loop = run_serially);
 
+/// The connected components of a graph: for every node one from 0 to count - 1, numbered by their lowest nodes.
+struct GraphComponents {
+    std::vector<Index> component_of;
+    Index count = 0;
+};
+
+GraphComponents graph_components(const FaceGraph& graph);
+
 /// Takes a graph apart, arcs between parts left out. The nodes of each part keep their order.
 /// @param part_of #nodes, from 0 to n_parts - 1.
 std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts);

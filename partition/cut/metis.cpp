@@ -69,22 +69,6 @@ std::vector<idx_t> copy(const std::vector<Index>& from)
     return {from.begin(), from.end()};
 }
 
-/// Whether every node can be reached from the first: METIS refuses to make connected parts of other graphs.
-bool is_connected(const FaceGraph& graph)
-{
-    std::vector<bool> reached(at(graph.n_nodes()), false);
-    std::vector<Index> nodes{0};
-    reached[0] = true;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        for (Index arc = graph.offsets[at(nodes[i])]; arc < graph.offsets[at(nodes[i]) + 1]; ++arc) {
-            const Index target = graph.targets[at(arc)];
-            if (!reached[at(target)])
-                nodes.push_back(target);
-            reached[at(target)] = true;
-        }
-    return nodes.size() == reached.size();
-}
-
 /// The part of the whole weight for each part; empty if all get the same.
 std::vector<real_t> target_weights(std::span<const Index> shares)
 {
@@ -109,7 +93,8 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
         const bool k_way =
             graph.n_nodes() / n_parts >=
             (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);
-        auto settings = options(k_way && is_connected(graph));
+        // METIS refuses to make connected parts of other graphs.
+        auto settings = options(k_way && graph_components(graph).count == 1);
         if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
             settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
         auto offsets = copy(graph.offsets);

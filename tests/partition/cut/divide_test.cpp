@@ -13,17 +13,18 @@ using namespace seamflow::test;
 namespace {
 
 struct Divided {
-    FaceClusters clusters;
     FaceGraph graph;
+    GraphComponents components;
     std::vector<Index> labels;
 };
 
 Divided divided(const PolygonMesh& mesh, Index cluster_weight, Index k)
 {
     const Topology topology = make_topology(mesh);
-    Divided result{grow_clusters(mesh, topology, cluster_weight), {}, {}};
-    result.graph = make_face_graph(mesh, topology, result.clusters, ArcMeasure::Count);
-    result.labels = divide(result.graph, result.clusters.component_of, result.clusters.n_components, k);
+    Divided result;
+    result.graph = make_face_graph(mesh, topology, grow_clusters(mesh, topology, cluster_weight), ArcMeasure::Count);
+    result.components = graph_components(result.graph);
+    result.labels = divide(result.graph, result.components, k);
     return result;
 }
 
@@ -53,7 +54,7 @@ TEST_CASE("no part lies in two components, and every component has one")
         const Divided d = divided(mesh, 1, k);
         std::vector<std::set<Index>> components_of_part(at(k) + 31);
         for (std::size_t node = 0; node < d.labels.size(); ++node)
-            components_of_part[at(d.labels[node])].insert(d.clusters.component_of[node]);
+            components_of_part[at(d.labels[node])].insert(d.components.component_of[node]);
         Index parts = 0;
         for (const auto& components : components_of_part) {
             CHECK(components.size() <= 1);

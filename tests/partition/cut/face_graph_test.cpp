@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/cut/components.h"
 #include "partition/cut/face_graph.h"
 #include "tests/support/test_meshes.h"
 
@@ -142,4 +143,19 @@ TEST_CASE("edges may count alike, however long")
     mesh.vertices.col(0) *= 3;
     const FaceGraph graph = graph_of(mesh, 1, ArcMeasure::Count);
     CHECK(graph.arc_weights == std::vector<Index>(8, 64));
+}
+
+TEST_CASE("the components of a graph are those of its faces")
+{
+    for (const NamedMesh& m : assorted_meshes())
+        for (const Index weight : {1, 7}) {
+            CAPTURE(m.name);
+            const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
+            const GraphComponents components =
+                graph_components(make_face_graph(m.mesh, m.topology, clusters, ArcMeasure::Count));
+            const FaceComponents of_faces = face_components(m.mesh, m.topology);
+            CHECK(components.count == of_faces.count);
+            for (Index f = 0; f < m.mesh.n_faces(); ++f)
+                CHECK(components.component_of[at(clusters.cluster_of[at(f)])] == of_faces.component[at(f)]);
+        }
 }
