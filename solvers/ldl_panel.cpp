@@ -15,14 +15,51 @@ namespace {
 // Numbers that one operation serves, or two on machines with narrow registers.
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
-using Eight = double __attribute__((vector_size(64)));
 
 /// Columns that are computed at once, at most, and those of a source that are used in one go.
 constexpr Index group = 8;
 constexpr Index chunk = 64;
 
-template <class Vector>
-constexpr Index lanes = static_cast<Index>(sizeof(Vector) / sizeof(double));
+/// Neighbouring numbers in so many registers. No wider vector type does as well: where the processor has no register
+/// for one, it is in memory all the time.
+template <class Vector, Index Parts>
+struct Registers {
+    static constexpr Index lanes_of_part = static_cast<Index>(sizeof(Vector) / sizeof(double));
+    static constexpr Index lanes = Parts * lanes_of_part;
+
+    Vector part[Parts] = {};
+
+    [[gnu::always_inline]] void load(const double* from)
+    {
+        for (Index p = 0; p < Parts; ++p)
+            std::memcpy(&part[p], from + p * lanes_of_part, sizeof part[p]);
+    }
+    [[gnu::always_inline]] void add_product(double factor, const Registers& numbers)
+    {
+        for (Index p = 0; p < Parts; ++p)
+            part[p] += factor * numbers.part[p];
+    }
+    /// Takes all of them away from neighbouring entries.
+    [[gnu::always_inline]] void subtract_from(double* target) const
+    {
+        for (Index p = 0; p < Parts; ++p) {
+            Vector entries;
+            std::memcpy(&entries, target + p * lanes_of_part, sizeof entries);
+            entries -= part[p];
+            std::memcpy(target + p * lanes_of_part, &entries, sizeof entries);
+        }
+    }
+    /// The same with the first n.
+    [[gnu::always_inline]] void subtract_from(double* target, Index n) const
+    {
+        for (Index t = 0; t < n; ++t)
+            target[t] -= part[t / lanes_of_part][t % lanes_of_part];
+    }
+};
+
+using AtMostTwo = Registers<Two, 1>;
+using AtMostFour = Registers<Four, 1>;
+using AtMostEight = Registers<Four, 2>;
 
 /// Some rows of a panel times D Lᵀ of one to four others.
 /// @param rows the first row's first entry; there are `width` from one row to the next.
@@ -30,12 +67,12 @@ constexpr Index lanes = static_cast<Index>(sizeof(Vector) / sizeof(double));
 template <Index Rows, class Vector, class Use>
 inline void multiply(const double* rows, std::size_t width, const double* factors, Index n, Use&& use)
 {
-    Vector sums[Rows] = {};
+    Vector sums[Rows];
     for (Index c = 0; c < n; ++c) {
         Vector factor;
-        std::memcpy(&factor, factors + c * lanes<Vector>, sizeof factor);
+        factor.load(factors + c * Vector::lanes);
         for (Index r = 0; r < Rows; ++r)
-            sums[r] += rows[at(r) * width + at(c)] * factor;
+            sums[r].add_product(rows[at(r) * width + at(c)], factor);
     }
     for (Index r = 0; r < Rows; ++r)
         use(r, sums[r]);
@@ -64,15 +101,15 @@ inline void multiply_all(const LdlPanel& panel, Index first, Index last, const T
     const std::size_t width = at(panel.width);
     const double* rows = panel.values + at(targets.first) * width;
     const Index n_rows = static_cast<Index>(panel.rows.size()) - targets.first;
-    alignas(Vector) std::array<double, at(chunk * lanes<Vector>)> factors;
+    std::array<double, at(chunk * Vector::lanes)> factors;
     for (Index begin = first; begin < last; begin += chunk) {
         const Index size = std::min(chunk, last - begin);
-        if (targets.n < lanes<Vector>)
-            std::fill_n(factors.begin(), at(size * lanes<Vector>), 0.0);
+        if (targets.n < Vector::lanes)
+            std::fill_n(factors.begin(), at(size * Vector::lanes), 0.0);
         for (Index c = 0; c < size; ++c) {
             const double pivot = panel.values[at(begin + c) * (width + 1)];
             for (Index t = 0; t < targets.n; ++t)
-                factors[at(c * lanes<Vector> + targets.lane[at(t)])] = pivot * rows[at(t) * width + at(begin + c)];
+                factors[at(c * Vector::lanes + targets.lane[at(t)])] = pivot * rows[at(t) * width + at(begin + c)];
         }
         Index i = 0;
         for (; i + 4 <= n_rows; i += 4)
@@ -82,24 +119,6 @@ inline void multiply_all(const LdlPanel& panel, Index first, Index last, const T
             multiply<1, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
                                 [&](Index, const Vector& sums) { use(i, sums); });
     }
-}
-
-/// Takes sums away from neighbouring entries.
-template <class Vector>
-inline void subtract(const Vector& sums, double* target)
-{
-    Vector entries;
-    std::memcpy(&entries, target, sizeof entries);
-    entries -= sums;
-    std::memcpy(target, &entries, sizeof entries);
-}
-
-/// The same of the first n.
-template <class Vector>
-inline void subtract(const Vector& sums, Index n, double* target)
-{
-    for (Index t = 0; t < n; ++t)
-        target[t] -= sums[t];
 }
 
 /// How many of the first of these columns, ascending, are among `width` neighbouring ones.
@@ -117,18 +136,18 @@ inline void update_columns(const LdlPanel& earlier, Index place, Index n, const 
                            const LdlPanel& later)
 {
     const std::size_t width = at(later.width);
-    const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - lanes<Vector>));
+    const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - Vector::lanes));
     Targets targets{place, n, {}};
     for (Index t = 0; t < n; ++t)
         targets.lane[at(t)] = target_rows[t] - begin;
     double* columns = later.values + begin;
-    if (later.width >= lanes<Vector>)
+    if (later.width >= Vector::lanes)
         multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
-            subtract(sums, columns + at(target_rows[i]) * width);
+            sums.subtract_from(columns + at(target_rows[i]) * width);
         });
     else
         multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
-            subtract(sums, later.width, columns + at(target_rows[i]) * width);
+            sums.subtract_from(columns + at(target_rows[i]) * width, later.width);
         });
 }
 
@@ -141,12 +160,12 @@ inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Ind
     const std::size_t width = at(panel.width);
     double* target = panel.values + at(last) * (width + 1);
     const Targets targets = in_order(last, n);
-    if (n == lanes<Vector>)
+    if (n == Vector::lanes)
         multiply_all<Vector>(panel, first, last, targets,
-                             [&](Index i, const Vector& sums) { subtract(sums, target + at(i) * width); });
+                             [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width); });
     else
         multiply_all<Vector>(panel, first, last, targets,
-                             [&](Index i, const Vector& sums) { subtract(sums, n, target + at(i) * width); });
+                             [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width, n); });
 }
 
 /// Factorises columns that depend on each other alone.
@@ -212,12 +231,12 @@ SEAMFLOW_WIDE void subtract_update(const LdlPanel& earlier, Index place, Index n
         const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
         Index n = among(8);
         if (n > 4) {
-            update_columns<Eight>(earlier, place + t, n, target_rows + t, later);
+            update_columns<AtMostEight>(earlier, place + t, n, target_rows + t, later);
         } else if (n = among(4); n > 2) {
-            update_columns<Four>(earlier, place + t, n, target_rows + t, later);
+            update_columns<AtMostFour>(earlier, place + t, n, target_rows + t, later);
         } else {
             n = among(2);
-            update_columns<Two>(earlier, place + t, n, target_rows + t, later);
+            update_columns<AtMostTwo>(earlier, place + t, n, target_rows + t, later);
         }
         t += n;
     }
@@ -229,12 +248,12 @@ SEAMFLOW_WIDE bool factorise_panel(const LdlPanel& panel)
         const Index n = std::min(group, panel.width - first);
         const Index half = std::min(group / 2, n);
         if (n > half)
-            subtract_columns<Eight>(panel, 0, first, n);
+            subtract_columns<AtMostEight>(panel, 0, first, n);
         else
-            subtract_columns<Four>(panel, 0, first, n);
+            subtract_columns<AtMostFour>(panel, 0, first, n);
         if (!factorise_columns(panel, first, half))
             return false;
-        subtract_columns<Four>(panel, first, first + half, n - half);
+        subtract_columns<AtMostFour>(panel, first, first + half, n - half);
         if (!factorise_columns(panel, first + half, n - half))
             return false;
     }

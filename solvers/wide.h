@@ -4,7 +4,7 @@
 /// are the same, and so are the results.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&               \
     !defined(__SANITIZE_THREAD__)
-#define SEAMFLOW_WIDE __attribute__((flatten, target_clones("avx512f", "avx2", "default")))
+#define SEAMFLOW_WIDE __attribute__((flatten, target_clones("avx2", "default")))
 #else
 #define SEAMFLOW_WIDE
 #endif

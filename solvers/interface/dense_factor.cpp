@@ -13,13 +13,13 @@ namespace {
 
 /// Columns in a block, rows that are used at once, and how much of L that makes.
 constexpr Index group = 4;
-constexpr Index n_lanes = 16;
+constexpr Index n_lanes = 8;
 constexpr Index tile_size = group * n_lanes;
 /// So many tiles before they are used, they are asked for: most factors come from outside the caches.
-constexpr Index tiles_ahead = 48;
+constexpr Index tiles_ahead = 96;
 
 // By name, because compilers do not find sums in loops.
-using Lanes [[gnu::vector_size(64)]] = float;
+using Lanes [[gnu::vector_size(32)]] = float;
 
 inline void load(const float* from, Lanes& lanes)
 {
@@ -33,8 +33,8 @@ inline void store(const Lanes& lanes, float* to)
 
 inline void prefetch(const float* tile)
 {
-    for (Index c = 0; c < group; ++c)
-        __builtin_prefetch(tile + tiles_ahead * tile_size + c * n_lanes);
+    __builtin_prefetch(tile + tiles_ahead * tile_size);
+    __builtin_prefetch(tile + tiles_ahead * tile_size + tile_size / 2);
 }
 
 /// One number for each column of a block.
@@ -45,15 +45,14 @@ struct Four {
 /// The sums of four registers each.
 inline Four sums_of(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d)
 {
-    const Lanes ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23) +
-                     __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
-    const Lanes cd = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23) +
-                     __builtin_shufflevector(c, d, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
-    Lanes all = __builtin_shufflevector(ab, cd, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27) +
-                __builtin_shufflevector(ab, cd, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31);
-    all += __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
-    all += __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
-    return {{all[0], all[4], all[8], all[12]}};
+    const Lanes ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11) +
+                     __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+    const Lanes cd = __builtin_shufflevector(c, d, 0, 1, 2, 3, 8, 9, 10, 11) +
+                     __builtin_shufflevector(c, d, 4, 5, 6, 7, 12, 13, 14, 15);
+    Lanes all = __builtin_shufflevector(ab, cd, 0, 1, 4, 5, 8, 9, 12, 13) +
+                __builtin_shufflevector(ab, cd, 2, 3, 6, 7, 10, 11, 14, 15);
+    all += __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6);
+    return {{all[0], all[2], all[4], all[6]}};
 }
 
 /// Four columns of L, or fewer in the last block.

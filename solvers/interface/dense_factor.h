@@ -74,12 +74,12 @@ class DenseFactor {
     [[nodiscard]] const std::vector<double>& diagonal() const { return diagonal_; }
 
   private:
-    static constexpr Index lanes = 16;
+    static constexpr Index lanes = 8;
 
     Index n_ = 0;
     double scale_ = 1.0;
-    /// L without its diagonal by blocks of four columns, each from the group of sixteen rows on that its own are in:
-    /// for every sixteen rows the four columns, one after the other, with zeros in the upper triangle.
+    /// L without its diagonal by blocks of four columns, each from the group of eight rows on that its own are in:
+    /// for every eight rows the four columns, one after the other, with zeros in the upper triangle.
     AlignedFloats lower_;
     /// √D₁, and the inverses of D₁; with zeros as far as there is room.
     std::vector<float> root_;
