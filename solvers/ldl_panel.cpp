@@ -61,7 +61,7 @@ using AtMostTwo = Registers<Two, 1>;
 using AtMostFour = Registers<Four, 1>;
 using AtMostEight = Registers<Four, 2>;
 
-/// Some rows of a panel times D Lᵀ of one to four others.
+/// Some rows of a panel times D Lᵀ of one to eight others.
 /// @param rows the first row's first entry; there are `width` from one row to the next.
 /// @param use(r, sums) takes the sums of row r.
 template <Index Rows, class Vector, class Use>

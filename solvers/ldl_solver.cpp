@@ -13,8 +13,8 @@ namespace seamflow {
 namespace {
 
 /// In numbers: how far before it is used what substitution goes through backwards is asked for, and in what portions.
-constexpr Index substituted_ahead = 1024;
-constexpr Index cache_line = 64 / sizeof(double);
+constexpr std::ptrdiff_t substituted_ahead = 1024;
+constexpr std::ptrdiff_t cache_line = 64 / sizeof(double);
 
 /// Per unknown, its block.
 std::vector<Index> blocks_of_unknowns(const FactorPattern& pattern)
@@ -147,8 +147,8 @@ void LdlSolver::substitute_back(double* x, Index n) const
         if (pattern_.first[at(b)] < n) {
             // Processors foresee only ways forward. Not in a function of its own: compilers leave out calls of
             // functions that do nothing but this.
-            for (Index i = panels_[at(b)]; i < panels_[at(b) + 1]; i += cache_line)
-                __builtin_prefetch(values() + std::max(Index{0}, i - substituted_ahead));
+            for (std::ptrdiff_t i = panels_[at(b)]; i < panels_[at(b) + 1]; i += cache_line)
+                __builtin_prefetch(values() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
             substitute_panel(panel(b), x);
         }
 }

@@ -36,34 +36,62 @@ std::ptrdiff_t place_in(std::span<const Index> ascending, Index value)
     return std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin();
 }
 
-// By name, because compilers do not find sums in loops.
-using Doubles [[gnu::vector_size(64)]] = double;
-using Floats [[gnu::vector_size(32)]] = float;
-constexpr Index n_lanes = 8;
+// By name, because compilers do not find sums in loops. Rows are used eight at a time.
+using Four [[gnu::vector_size(32)]] = double;
+using FourFloats [[gnu::vector_size(16)]] = float;
+static_assert(DenseFactor::lanes == 8);
 
-inline double sum_of(const Doubles& lanes)
+inline double sum_of(const Four& low, const Four& high)
 {
-    return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
+    const Four sums = low + high;
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 /// column · v for three columns.
-/// @param v a multiple of n_lanes by 3.
+/// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* __restrict column, const Columns& v, Point& result)
 {
-    Doubles sums[3] = {};
+    Four low[3] = {};
+    Four high[3] = {};
     const double* __restrict values = v.data();
     const Eigen::Index n = v.rows();
-    for (Eigen::Index i = 0; i < n; i += n_lanes) {
-        Floats factors;
-        std::memcpy(&factors, column + i, sizeof factors);
-        const Doubles wide = __builtin_convertvector(factors, Doubles);
+    for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes) {
+        FourFloats factors[2];
+        std::memcpy(factors, column + i, sizeof factors);
+        const Four first = __builtin_convertvector(factors[0], Four);
+        const Four second = __builtin_convertvector(factors[1], Four);
         for (Eigen::Index c = 0; c < 3; ++c) {
-            Doubles lanes;
-            std::memcpy(&lanes, values + c * n + i, sizeof lanes);
-            sums[c] += wide * lanes;
+            Four numbers[2];
+            std::memcpy(numbers, values + c * n + i, sizeof numbers);
+            low[c] += first * numbers[0];
+            high[c] += second * numbers[1];
         }
     }
-    result = {sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2])};
+    result = {sum_of(low[0], high[0]), sum_of(low[1], high[1]), sum_of(low[2], high[2])};
+}
+
+/// product = columnsᵀ columns. Eigen's products of matrices would go by the size of the processor's caches.
+/// @param columns DenseFactor::room by any number.
+/// @param product as large as it will be.
+SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::MatrixXd& product)
+{
+    const Eigen::Index n = columns.rows();
+    for (Eigen::Index f = 0; f < columns.cols(); ++f)
+        for (Eigen::Index g = 0; g <= f; ++g) {
+            const double* __restrict a = columns.data() + f * n;
+            const double* __restrict b = columns.data() + g * n;
+            Four low{};
+            Four high{};
+            for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes) {
+                Four of_a[2];
+                Four of_b[2];
+                std::memcpy(of_a, a + i, sizeof of_a);
+                std::memcpy(of_b, b + i, sizeof of_b);
+                low += of_a[0] * of_b[0];
+                high += of_a[1] * of_b[1];
+            }
+            product(f, g) = product(g, f) = sum_of(low, high);
+        }
 }
 
 }  // namespace
@@ -205,7 +233,8 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     const Eigen::MatrixXd factors = Eigen::Map<const Eigen::MatrixXf>(roots.data(), static_cast<Eigen::Index>(room),
                                                                       static_cast<Eigen::Index>(functions.size()))
                                         .cast<double>();
-    energies_[at(s)].noalias() = factors.transpose() * factors;
+    energies_[at(s)].resize(factors.cols(), factors.cols());
+    multiply_by_itself(factors, energies_[at(s)]);
     scales_[at(s)] = schur.scale();
     energies_[at(s)] *= scales_[at(s)];
     for (std::size_t c = 0; c < n_columns; c += 3)

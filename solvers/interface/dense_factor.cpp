@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "solvers/interface/power_of_two.h"
@@ -13,13 +14,14 @@ namespace {
 
 /// Columns in a block, rows that are used at once, and how much of L that makes.
 constexpr Index group = 4;
-constexpr Index n_lanes = 8;
+constexpr Index n_lanes = DenseFactor::lanes;
 constexpr Index tile_size = group * n_lanes;
 /// So many tiles before they are used, they are asked for: most factors come from outside the caches.
 constexpr Index tiles_ahead = 96;
 
 // By name, because compilers do not find sums in loops.
 using Lanes [[gnu::vector_size(32)]] = float;
+static_assert(sizeof(Lanes) == sizeof(float) * at(n_lanes));
 
 inline void load(const float* from, Lanes& lanes)
 {
@@ -31,10 +33,13 @@ inline void store(const Lanes& lanes, float* to)
     std::memcpy(to, &lanes, sizeof lanes);
 }
 
-inline void prefetch(const float* tile)
+/// Compilers leave out calls of functions that do nothing but this.
+[[gnu::always_inline]] inline void prefetch_after(const float* tile)
 {
-    __builtin_prefetch(tile + tiles_ahead * tile_size);
-    __builtin_prefetch(tile + tiles_ahead * tile_size + tile_size / 2);
+    // The last ones ask for what is after the factor, which does no harm.
+    const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(tile) + at(tiles_ahead * tile_size) * sizeof(float);
+    for (std::size_t byte = 0; byte < at(tile_size) * sizeof(float); byte += 64)
+        __builtin_prefetch(reinterpret_cast<const void*>(ahead + byte));
 }
 
 /// One number for each column of a block.
@@ -83,7 +88,7 @@ inline void add_multiples(const Block& block, const Four& factors, float* v)
     const float* tile = block.tiles;
     float* to = v + block.top();
     for (Index t = 0; t < block.n_tiles; ++t, tile += tile_size, to += n_lanes) {
-        prefetch(tile);
+        prefetch_after(tile);
         Lanes sums;
         load(to, sums);
         for (Index c = 0; c < group; ++c) {
@@ -101,7 +106,7 @@ inline Four multiply_transposed(const Block& block, const float* v)
     Lanes sums[group] = {};
     const float* tile = block.tiles;
     for (Index t = 0; t < block.n_tiles; ++t, tile += tile_size) {
-        prefetch(tile);
+        prefetch_after(tile);
         Lanes values;
         load(v + block.top() + t * n_lanes, values);
         for (Index c = 0; c < group; ++c) {
@@ -258,7 +263,7 @@ void DenseFactor::take(const DenseLdl& factor)
 void DenseFactor::prefetch() const
 {
     const std::size_t n = std::min(lower_.size(), at(tiles_ahead) * at(tile_size));
-    for (std::size_t i = 0; i < n; i += at(n_lanes))
+    for (std::size_t i = 0; i < n; i += 64 / sizeof(float))
         __builtin_prefetch(lower_.data() + i);
 }
 

@@ -41,9 +41,12 @@ inline FloatColumns columns_at(float* begin, std::size_t room)
 /// A small dense symmetric matrix S = L D Lᵀ in single precision, for many products with S and S⁻¹. S has any unit: it
 /// is kept as scale() S₁, where single precision has room for S₁ and its inverse.
 ///
-/// Products are fastest where columns begin at cache lines, as those one after the other in AlignedFloats do.
+/// Products are fastest where columns begin at whole registers, as those one after the other in AlignedFloats do.
 class DenseFactor {
   public:
+    /// Rows that are used at once.
+    static constexpr Index lanes = 8;
+
     /// How many numbers a column of n has room for.
     [[nodiscard]] static std::size_t room(Index n) { return at((n + lanes - 1) / lanes * lanes); }
 
@@ -59,7 +62,8 @@ class DenseFactor {
     /// @param scratch receives nothing of use.
     void multiply(FloatColumns v, FloatColumns scratch) const;
 
-    /// The two halves of that, S₁ = R Rᵀ with R = L √D₁: result becomes Rᵀ v, and R v. v is changed.
+    /// The two halves of that, S₁ = R Rᵀ with R = L √D₁: result, which is elsewhere, becomes Rᵀ v, and R v.
+    /// `multiply_by_root` changes v.
     void multiply_by_root_transposed(FloatColumns v, FloatColumns result) const;
     void multiply_by_root(FloatColumns v, FloatColumns result) const;
 
@@ -74,8 +78,6 @@ class DenseFactor {
     [[nodiscard]] const std::vector<double>& diagonal() const { return diagonal_; }
 
   private:
-    static constexpr Index lanes = 8;
-
     Index n_ = 0;
     double scale_ = 1.0;
     /// L without its diagonal by blocks of four columns, each from the group of eight rows on that its own are in:

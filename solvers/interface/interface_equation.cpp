@@ -277,6 +277,9 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
             columns.y[i] = static_cast<float>(value[1]);
             columns.z[i] = static_cast<float>(value[2]);
         }
+        // What was not finite may have been in a solution before.
+        for (std::size_t c = 0; c < 6; ++c)
+            std::fill(columns.x + c * room + at(n), columns.x + (c + 1) * room, 0.0F);
         const Point factor = apply(systems[at(s)]->schur(), columns, scratch) * unit;
         for (Index i = 0; i < n; ++i)
             residual_copies_.row(first + i) = Point(columns.x[i], columns.y[i], columns.z[i]).cwiseProduct(factor);

@@ -163,7 +163,7 @@ void NeumannSystem::subtract_schur(const Eigen::Ref<const Points>& x, Eigen::Ref
 {
     Columns scaled = x;
     for (Index i = 0; i < n_interface(); ++i) {
-        // Rows end before the memory between them does, which processors do not foresee.
+        // Rows of the factor end before the memory between them does, which processors do not foresee.
         const Index next = std::min(i + rows_ahead, n_interface() - 1);
         for (Index j = 0; j <= next; j += cache_line)
             __builtin_prefetch(last_row(next) + j);

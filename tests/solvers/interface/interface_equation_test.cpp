@@ -3,11 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
+#include <Eigen/Core>
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
+#include "samples/common/meshes/random_numbers.h"
 #include "solvers/interface/interface_equation.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
@@ -160,14 +163,39 @@ TEST_CASE("what cannot be reached ends in stagnation, with what can")
     CHECK(result.residual < 1e-12);
 }
 
-TEST_CASE("what is not finite is refused")
+TEST_CASE("the size of the processor's caches does not show in the solution")
 {
-    Equation problem(chessboard(), Laplacian::Fujiwara, 2.0);
-    Points x;
-    problem.right_hand_sides(3, 1) = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_AS(problem.solve({1e-8, 100}, x), ComputationError);
-    problem.right_hand_sides(3, 1) = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS(problem.solve({1e-8, 100}, x), ComputationError);
+    PolygonMesh mesh = quad_grid(600, 9);
+    RandomNumbers random(6);
+    for (double& z : mesh.vertices.col(2))
+        z += random.symmetric();
+    // The one in the middle has more than 1,000 vertices of Γ.
+    const CutMesh strips = cut_by_place("strips", std::move(mesh),
+                                        [](const Point& p) { return std::min(2, static_cast<Index>(p.y() / 3.0)); });
+    std::array<std::ptrdiff_t, 3> sizes{Eigen::l1CacheSize(), Eigen::l2CacheSize(), Eigen::l3CacheSize()};
+    std::array<Points, 2> solutions;
+    for (std::size_t i = 0; i < 2; ++i) {
+        Eigen::setCpuCacheSizes(i == 0 ? 16'384 : 49'152, i == 0 ? 131'072 : 2'097'152, 4'194'304);
+        Equation(strips, Laplacian::Fujiwara, 50.0).solve({1e-8, 100}, solutions[i]);
+    }
+    Eigen::setCpuCacheSizes(sizes[0], sizes[1], sizes[2]);
+    REQUIRE(solutions[0].rows() > 1000);
+    CHECK(solutions[0] == solutions[1]);
+}
+
+TEST_CASE("what is not finite is refused, and leaves nothing behind")
+{
+    Points expected;
+    Equation(chessboard(), Laplacian::Fujiwara, 2.0).solve({1e-8, 100}, expected);
+    for (const double number : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+        Equation problem(chessboard(), Laplacian::Fujiwara, 2.0);
+        const double sound = std::exchange(problem.right_hand_sides(3, 1), number);
+        Points x;
+        CHECK_THROWS_AS(problem.solve({1e-8, 100}, x), ComputationError);
+        problem.right_hand_sides(3, 1) = sound;
+        problem.solve({1e-8, 100}, x);
+        CHECK(x == expected);
+    }
 }
 
 TEST_CASE("the estimated distance is that to the solution within a factor of 3")
