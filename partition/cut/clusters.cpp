@@ -133,7 +133,7 @@ class ClusterGrower {
 };
 
 /// The chunks of all faces: a single one where too many edges would lead from one to another.
-std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology)
+std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index size)
 {
     constexpr Index sampled = 16;
     constexpr double most_edges_across = 0.1;
@@ -143,13 +143,13 @@ std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology)
         for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h)
             if (const Index twin = topology.twin[at(h)]; twin >= 0) {
                 ++inner;
-                across += topology.face_of[at(twin)] / faces_per_chunk != f / faces_per_chunk ? 1 : 0;
+                across += topology.face_of[at(twin)] / size != f / size ? 1 : 0;
             }
     if (across > most_edges_across * inner)
         return {{0, mesh.n_faces()}};
     std::vector<Chunk> chunks;
     for (Index begin = 0; begin < mesh.n_faces(); begin = chunks.back().end)
-        chunks.push_back({begin, begin + std::min(faces_per_chunk, mesh.n_faces() - begin)});
+        chunks.push_back({begin, begin + std::min(size, mesh.n_faces() - begin)});
     return chunks;
 }
 
@@ -167,14 +167,15 @@ FaceClusters one_face_each(const PolygonMesh& mesh)
 
 }  // namespace
 
-FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Loop& loop)
+FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Loop& loop,
+                           Index chunk)
 {
     if (weight == 1)
         return one_face_each(mesh);
     FaceClusters clusters;
     clusters.cluster_of.assign(at(mesh.n_faces()), -1);
     clusters.faces.values.resize(at(mesh.n_faces()));
-    const std::vector<Chunk> chunks = chunks_of(mesh, topology);
+    const std::vector<Chunk> chunks = chunks_of(mesh, topology, chunk);
     std::vector<std::vector<Index>> ends(chunks.size());
     for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
         ends[at(i)] =

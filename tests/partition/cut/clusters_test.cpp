@@ -62,31 +62,32 @@ TEST_CASE("clusters are connected and about as heavy as asked")
 
 TEST_CASE("large meshes are done in chunks, in any order, unless their faces are in none")
 {
-    PolygonMesh mesh = make_triangles(faces_per_chunk);
-    REQUIRE(mesh.n_faces() > faces_per_chunk);
+    constexpr Index chunk = 10'000;
+    PolygonMesh mesh = make_triangles(2 * chunk);
     const auto has_cluster_of_several_chunks = [](const FaceClusters& clusters) {
         for (Index cluster = 0; cluster < clusters.size(); ++cluster)
             for (const Index f : clusters.faces[cluster])
-                if (f / faces_per_chunk != clusters.faces[cluster].front() / faces_per_chunk)
+                if (f / chunk != clusters.faces[cluster].front() / chunk)
                     return true;
         return false;
     };
     constexpr Index weight = 40;
     const Index n_expected = weight_of(mesh, grow_clusters(mesh, make_topology(mesh), 1).faces.values) / weight;
-    const FaceClusters clusters = grow_clusters(mesh, make_topology(mesh), weight);
+    const FaceClusters clusters = grow_clusters(mesh, make_topology(mesh), weight, run_serially, chunk);
     CHECK_FALSE(has_cluster_of_several_chunks(clusters));
     CHECK(clusters.size() < 1.2 * n_expected);
-    const FaceClusters backwards = grow_clusters(mesh, make_topology(mesh), weight, [](Index n, const LoopBody& body) {
+    const Loop in_reverse = [](Index n, const LoopBody& body) {
         for (Index i = n; i-- > 0;)
             body(i, i + 1);
-    });
+    };
+    const FaceClusters backwards = grow_clusters(mesh, make_topology(mesh), weight, in_reverse, chunk);
     CHECK(backwards.cluster_of == clusters.cluster_of);
     CHECK(backwards.faces.values == clusters.faces.values);
     CHECK(backwards.faces.offsets == clusters.faces.offsets);
 
     RandomNumbers random(1);
     mesh = renumbered(mesh, random_permutation(mesh.n_vertices(), random), random_permutation(mesh.n_faces(), random));
-    const FaceClusters shuffled = grow_clusters(mesh, make_topology(mesh), weight);
+    const FaceClusters shuffled = grow_clusters(mesh, make_topology(mesh), weight, run_serially, chunk);
     CHECK(has_cluster_of_several_chunks(shuffled));
     CHECK(shuffled.size() < 1.2 * n_expected);
 }
