@@ -47,27 +47,44 @@ inline double sum_of(const Four& low, const Four& high)
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+inline void load(const double* from, Four& numbers)
+{
+    std::memcpy(&numbers, from, sizeof numbers);
+}
+
+inline void load(const float* from, Four& numbers)
+{
+    FourFloats narrow;
+    std::memcpy(&narrow, from, sizeof narrow);
+    numbers = __builtin_convertvector(narrow, Four);
+}
+
+/// a · b, in single numbers: GCC keeps arrays of them in memory.
+/// @param n a multiple of DenseFactor::lanes.
+template <class Number>
+[[gnu::always_inline]] inline double dot(const Number* __restrict a, const double* __restrict b, Eigen::Index n)
+{
+    Four low{};
+    Four high{};
+    for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes) {
+        Four of_a;
+        Four of_b;
+        load(a + i, of_a);
+        load(b + i, of_b);
+        low += of_a * of_b;
+        load(a + i + 4, of_a);
+        load(b + i + 4, of_b);
+        high += of_a * of_b;
+    }
+    return sum_of(low, high);
+}
+
 /// column · v for three columns.
 /// @param v DenseFactor::room by 3.
-SEAMFLOW_WIDE void multiply_column(const float* __restrict column, const Columns& v, Point& result)
+SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
-    Four low[3] = {};
-    Four high[3] = {};
-    const double* __restrict values = v.data();
-    const Eigen::Index n = v.rows();
-    for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes) {
-        FourFloats factors[2];
-        std::memcpy(factors, column + i, sizeof factors);
-        const Four first = __builtin_convertvector(factors[0], Four);
-        const Four second = __builtin_convertvector(factors[1], Four);
-        for (Eigen::Index c = 0; c < 3; ++c) {
-            Four numbers[2];
-            std::memcpy(numbers, values + c * n + i, sizeof numbers);
-            low[c] += first * numbers[0];
-            high[c] += second * numbers[1];
-        }
-    }
-    result = {sum_of(low[0], high[0]), sum_of(low[1], high[1]), sum_of(low[2], high[2])};
+    for (Eigen::Index c = 0; c < 3; ++c)
+        result[c] = dot(column, v.data() + c * v.rows(), v.rows());
 }
 
 /// product = columnsᵀ columns. Eigen's products of matrices would go by the size of the processor's caches.
@@ -77,21 +94,8 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
 {
     const Eigen::Index n = columns.rows();
     for (Eigen::Index f = 0; f < columns.cols(); ++f)
-        for (Eigen::Index g = 0; g <= f; ++g) {
-            const double* __restrict a = columns.data() + f * n;
-            const double* __restrict b = columns.data() + g * n;
-            Four low{};
-            Four high{};
-            for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes) {
-                Four of_a[2];
-                Four of_b[2];
-                std::memcpy(of_a, a + i, sizeof of_a);
-                std::memcpy(of_b, b + i, sizeof of_b);
-                low += of_a[0] * of_b[0];
-                high += of_a[1] * of_b[1];
-            }
-            product(f, g) = product(g, f) = sum_of(low, high);
-        }
+        for (Eigen::Index g = 0; g <= f; ++g)
+            product(f, g) = product(g, f) = dot(columns.data() + f * n, columns.data() + g * n, n);
 }
 
 }  // namespace
