@@ -18,7 +18,7 @@ namespace seamflow {
 namespace {
 
 /// Wider sub-meshes, in √dt, do without a coarse space: it would save a tenth of the iterations.
-constexpr double width_without_coarse_space = 4.0;
+constexpr double width_without_coarse_space = 8.0;
 
 Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step)
 {

@@ -3,65 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
-#include "solvers/wide.h"
+#include "solvers/registers.h"
 
 namespace seamflow {
 
 namespace {
 
-// Numbers that one operation serves, or two on machines with narrow registers.
-using Two = double __attribute__((vector_size(16)));
-using Four = double __attribute__((vector_size(32)));
-
-/// Columns that are computed at once, at most, and those of a source that are used in one go.
+/// Columns that are factorised at once, and those of a source that are used in one go.
 constexpr Index group = 8;
 constexpr Index chunk = 64;
+/// Targets that are computed at once, at most.
+constexpr Index most_lanes = 16;
 
-/// Neighbouring numbers in so many registers. No wider vector type does as well: where the processor has no register
-/// for one, it is in memory all the time.
-template <class Vector, Index Parts>
-struct Registers {
-    static constexpr Index lanes_of_part = static_cast<Index>(sizeof(Vector) / sizeof(double));
-    static constexpr Index lanes = Parts * lanes_of_part;
-
-    Vector part[Parts] = {};
-
-    [[gnu::always_inline]] void load(const double* from)
-    {
-        for (Index p = 0; p < Parts; ++p)
-            std::memcpy(&part[p], from + p * lanes_of_part, sizeof part[p]);
-    }
-    [[gnu::always_inline]] void add_product(double factor, const Registers& numbers)
-    {
-        for (Index p = 0; p < Parts; ++p)
-            part[p] += factor * numbers.part[p];
-    }
-    /// Takes all of them away from neighbouring entries.
-    [[gnu::always_inline]] void subtract_from(double* target) const
-    {
-        for (Index p = 0; p < Parts; ++p) {
-            Vector entries;
-            std::memcpy(&entries, target + p * lanes_of_part, sizeof entries);
-            entries -= part[p];
-            std::memcpy(target + p * lanes_of_part, &entries, sizeof entries);
-        }
-    }
-    /// The same with the first n.
-    [[gnu::always_inline]] void subtract_from(double* target, Index n) const
-    {
-        for (Index t = 0; t < n; ++t)
-            target[t] -= part[t / lanes_of_part][t % lanes_of_part];
-    }
-};
-
-using AtMostTwo = Registers<Two, 1>;
-using AtMostFour = Registers<Four, 1>;
-using AtMostEight = Registers<Four, 2>;
-
-/// Some rows of a panel times D Lᵀ of one to eight others.
+/// Some rows of a panel times D Lᵀ of as many others as there are lanes.
 /// @param rows the first row's first entry; there are `width` from one row to the next.
 /// @param use(r, sums) takes the sums of row r.
 template <Index Rows, class Vector, class Use>
@@ -78,12 +34,16 @@ inline void multiply(const double* rows, std::size_t width, const double* factor
         use(r, sums[r]);
 }
 
+/// Their sums, 16 registers at most.
+template <class Vector>
+constexpr Index rows_at_once = Vector::lanes / Vector::lanes_of_part > 2 ? 2 : 4;
+
 /// Rows of a panel that are the targets of others', each in a lane of its own; what is in other lanes remains.
 struct Targets {
     /// The first one, and how many follow each other.
     Index first;
     Index n;
-    std::array<Index, at(group)> lane;
+    std::array<Index, at(most_lanes)> lane;
 };
 
 Targets in_order(Index first, Index n)
@@ -111,10 +71,11 @@ inline void multiply_all(const LdlPanel& panel, Index first, Index last, const T
             for (Index t = 0; t < targets.n; ++t)
                 factors[at(c * Vector::lanes + targets.lane[at(t)])] = pivot * rows[at(t) * width + at(begin + c)];
         }
+        constexpr Index at_once = rows_at_once<Vector>;
         Index i = 0;
-        for (; i + 4 <= n_rows; i += 4)
-            multiply<4, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
-                                [&](Index r, const Vector& sums) { use(i + r, sums); });
+        for (; i + at_once <= n_rows; i += at_once)
+            multiply<at_once, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                                      [&](Index r, const Vector& sums) { use(i + r, sums); });
         for (; i < n_rows; ++i)
             multiply<1, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
                                 [&](Index, const Vector& sums) { use(i, sums); });
@@ -222,42 +183,62 @@ inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
     }
 }
 
+struct SubtractUpdate {
+    template <class Machine>
+    void operator()(Machine, const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+                    const LdlPanel& later) const
+    {
+        for (Index t = 0, n = 0; t < n_columns; t += n) {
+            const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
+            if (n = among(16); Machine::width == 8 && n > 8)
+                update_columns<typename Machine::template Neighbours<16>>(earlier, place + t, n, target_rows + t,
+                                                                          later);
+            else if (n = among(8); n > 4)
+                update_columns<typename Machine::template Neighbours<8>>(earlier, place + t, n, target_rows + t, later);
+            else if (n = among(4); n > 2)
+                update_columns<typename Machine::template Neighbours<4>>(earlier, place + t, n, target_rows + t, later);
+            else {
+                n = among(2);
+                update_columns<typename Machine::template Neighbours<2>>(earlier, place + t, n, target_rows + t, later);
+            }
+        }
+    }
+};
+
+struct FactorisePanel {
+    template <class Machine>
+    bool operator()(Machine, const LdlPanel& panel) const
+    {
+        using Four = typename Machine::template Neighbours<4>;
+        using Eight = typename Machine::template Neighbours<8>;
+        for (Index first = 0; first < panel.width; first += group) {
+            const Index n = std::min(group, panel.width - first);
+            const Index half = std::min(group / 2, n);
+            if (n > half)
+                subtract_columns<Eight>(panel, 0, first, n);
+            else
+                subtract_columns<Four>(panel, 0, first, n);
+            if (!factorise_columns(panel, first, half))
+                return false;
+            subtract_columns<Four>(panel, first, first + half, n - half);
+            if (!factorise_columns(panel, first + half, n - half))
+                return false;
+        }
+        return true;
+    }
+};
+
 }  // namespace
 
-SEAMFLOW_WIDE void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
-                                   const LdlPanel& later)
+void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+                     const LdlPanel& later, Index width)
 {
-    for (Index t = 0; t < n_columns;) {
-        const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
-        Index n = among(8);
-        if (n > 4) {
-            update_columns<AtMostEight>(earlier, place + t, n, target_rows + t, later);
-        } else if (n = among(4); n > 2) {
-            update_columns<AtMostFour>(earlier, place + t, n, target_rows + t, later);
-        } else {
-            n = among(2);
-            update_columns<AtMostTwo>(earlier, place + t, n, target_rows + t, later);
-        }
-        t += n;
-    }
+    on_machine(width, SubtractUpdate(), earlier, place, n_columns, target_rows, later);
 }
 
-SEAMFLOW_WIDE bool factorise_panel(const LdlPanel& panel)
+bool factorise_panel(const LdlPanel& panel, Index width)
 {
-    for (Index first = 0; first < panel.width; first += group) {
-        const Index n = std::min(group, panel.width - first);
-        const Index half = std::min(group / 2, n);
-        if (n > half)
-            subtract_columns<AtMostEight>(panel, 0, first, n);
-        else
-            subtract_columns<AtMostFour>(panel, 0, first, n);
-        if (!factorise_columns(panel, first, half))
-            return false;
-        subtract_columns<AtMostFour>(panel, first, first + half, n - half);
-        if (!factorise_columns(panel, first + half, n - half))
-            return false;
-    }
-    return true;
+    return on_machine(width, FactorisePanel(), panel);
 }
 
 }  // namespace seamflow

@@ -59,32 +59,40 @@ inline void load(const float* from, Four& numbers)
     numbers = __builtin_convertvector(narrow, Four);
 }
 
-/// a · b, in single numbers: GCC keeps arrays of them in memory.
-/// @param n a multiple of DenseFactor::lanes.
+/// The next numbers of two vectors, multiplied and added to eight sums, which are single numbers: GCC keeps arrays of
+/// them in memory.
 template <class Number>
-[[gnu::always_inline]] inline double dot(const Number* __restrict a, const double* __restrict b, Eigen::Index n)
+[[gnu::always_inline]] inline void add_products(const Number* a, const double* b, Four& low, Four& high)
 {
-    Four low{};
-    Four high{};
-    for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes) {
-        Four of_a;
-        Four of_b;
-        load(a + i, of_a);
-        load(b + i, of_b);
-        low += of_a * of_b;
-        load(a + i + 4, of_a);
-        load(b + i + 4, of_b);
-        high += of_a * of_b;
-    }
-    return sum_of(low, high);
+    Four of_a;
+    Four of_b;
+    load(a, of_a);
+    load(b, of_b);
+    low += of_a * of_b;
+    load(a + 4, of_a);
+    load(b + 4, of_b);
+    high += of_a * of_b;
 }
 
-/// column · v for three columns.
+/// In numbers: how far before they are used products are asked for, which have left the caches since the last time.
+constexpr std::size_t products_ahead = 2048;
+constexpr std::size_t cache_line = 64 / sizeof(float);
+
+/// column · v for three columns. What comes a certain way after the column is asked for.
 /// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
-    for (Eigen::Index c = 0; c < 3; ++c)
-        result[c] = dot(column, v.data() + c * v.rows(), v.rows());
+    Four x_low{}, x_high{}, y_low{}, y_high{}, z_low{}, z_high{};
+    const double* x = v.data();
+    const double* y = x + v.rows();
+    const double* z = y + v.rows();
+    for (Eigen::Index i = 0; i < v.rows(); i += DenseFactor::lanes) {
+        __builtin_prefetch(column + i + products_ahead);
+        add_products(column + i, x + i, x_low, x_high);
+        add_products(column + i, y + i, y_low, y_high);
+        add_products(column + i, z + i, z_low, z_high);
+    }
+    result = {sum_of(x_low, x_high), sum_of(y_low, y_high), sum_of(z_low, z_high)};
 }
 
 /// product = columnsᵀ columns. Eigen's products of matrices would go by the size of the processor's caches.
@@ -94,8 +102,12 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
 {
     const Eigen::Index n = columns.rows();
     for (Eigen::Index f = 0; f < columns.cols(); ++f)
-        for (Eigen::Index g = 0; g <= f; ++g)
-            product(f, g) = product(g, f) = dot(columns.data() + f * n, columns.data() + g * n, n);
+        for (Eigen::Index g = 0; g <= f; ++g) {
+            Four low{}, high{};
+            for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes)
+                add_products(columns.data() + f * n + i, columns.data() + g * n + i, low, high);
+            product(f, g) = product(g, f) = sum_of(low, high);
+        }
 }
 
 }  // namespace
@@ -288,6 +300,9 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
 {
     const Index n = copies_.n_in(s);
     const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
+    if (s + 1 < copies_.n_sub_meshes())
+        for (std::size_t i = 0; i < std::min(products_[at(s + 1)].size(), products_ahead); i += cache_line)
+            __builtin_prefetch(products_[at(s + 1)].data() + i);
     Columns local(room, 3);
     local.bottomRows(room - n).setZero();
     for (Index i = 0; i < n; ++i)

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// Neighbouring numbers in so many registers. No vector type that is wider than a register does as well: GCC keeps such
+/// numbers in memory all the time, which takes ten times as long.
+template <class Vector, Index Parts>
+struct Registers {
+    static constexpr Index lanes_of_part = static_cast<Index>(sizeof(Vector) / sizeof(double));
+    static constexpr Index lanes = Parts * lanes_of_part;
+
+    Vector part[Parts] = {};
+
+    [[gnu::always_inline]] void load(const double* from)
+    {
+        for (Index p = 0; p < Parts; ++p)
+            std::memcpy(&part[p], from + p * lanes_of_part, sizeof part[p]);
+    }
+    [[gnu::always_inline]] void add_product(double factor, const Registers& numbers)
+    {
+        for (Index p = 0; p < Parts; ++p)
+            part[p] += factor * numbers.part[p];
+    }
+    /// Takes all of them away from neighbouring entries.
+    [[gnu::always_inline]] void subtract_from(double* target) const
+    {
+        for (Index p = 0; p < Parts; ++p) {
+            Vector entries;
+            std::memcpy(&entries, target + p * lanes_of_part, sizeof entries);
+            entries -= part[p];
+            std::memcpy(target + p * lanes_of_part, &entries, sizeof entries);
+        }
+    }
+    /// The same with the first n.
+    [[gnu::always_inline]] void subtract_from(double* target, Index n) const
+    {
+        for (Index t = 0; t < n; ++t)
+            target[t] -= part[t / lanes_of_part][t % lanes_of_part];
+    }
+};
+
+namespace detail {
+
+template <Index N>
+struct Vector;
+template <>
+struct Vector<2> {
+    using Type = double __attribute__((vector_size(16)));
+};
+template <>
+struct Vector<4> {
+    using Type = double __attribute__((vector_size(32)));
+};
+template <>
+struct Vector<8> {
+    using Type = double __attribute__((vector_size(64)));
+};
+
+}  // namespace detail
+
+/// A machine whose registers hold so many numbers.
+/// @param Width 2, 4 or 8.
+template <Index Width>
+struct Machine {
+    static constexpr Index width = Width;
+    /// So many neighbouring numbers, in as many registers as that takes.
+    /// @param Lanes a power of two.
+    template <Index Lanes>
+    using Neighbours = Registers<typename detail::Vector<std::min(Lanes, Width)>::Type, Lanes / std::min(Lanes, Width)>;
+};
+
+#if defined(__x86_64__)
+namespace detail {
+
+template <class Kernel, class... Arguments>
+[[gnu::target("avx2"), gnu::flatten]] auto run_wide(const Kernel& kernel, Arguments&&... arguments)
+{
+    return kernel(Machine<4>(), std::forward<Arguments>(arguments)...);
+}
+
+template <class Kernel, class... Arguments>
+[[gnu::target("avx512f,avx512vl"), gnu::flatten]] auto run_widest(const Kernel& kernel, Arguments&&... arguments)
+{
+    return kernel(Machine<8>(), std::forward<Arguments>(arguments)...);
+}
+
+}  // namespace detail
+#endif
+
+/// How many numbers the widest registers hold that are of use here.
+inline Index register_width()
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512vl"))
+        return 8;
+    if (__builtin_cpu_supports("avx2"))
+        return 4;
+#endif
+    return 2;
+}
+
+/// kernel(machine, arguments…), compiled for a machine with registers of that width. The operations on each number are
+/// the same on all of them, and so are the results.
+/// @param width register_width() at most.
+template <class Kernel, class... Arguments>
+auto on_machine(Index width, const Kernel& kernel, Arguments&&... arguments)
+{
+#if defined(__x86_64__)
+    if (width == 8)
+        return detail::run_widest(kernel, std::forward<Arguments>(arguments)...);
+    if (width == 4)
+        return detail::run_wide(kernel, std::forward<Arguments>(arguments)...);
+#endif
+    return kernel(Machine<2>(), std::forward<Arguments>(arguments)...);
+}
+
+}  // namespace seamflow
