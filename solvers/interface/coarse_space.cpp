@@ -234,27 +234,24 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     const auto functions = functions_at_[s];
     const std::size_t room = DenseFactor::room(copies_.n_in(s));
     const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
-    AlignedFloats& columns = products_[at(s)];
+    AlignedFloats columns;
     columns.assign(n_columns * room);
     for (Index i = 0; i < copies_.n_in(s); ++i)
         for (const Index copy : copies_.of_vertex[copies_.vertex[at(copies_.first[at(s)] + i)]]) {
             const auto column = static_cast<std::size_t>(place_in(functions, function_[at(copy)]));
             columns.data()[column * room + at(i)] += static_cast<float>(values_at_[at(copy)]);
         }
-    AlignedFloats roots;
-    roots.assign(n_columns * room);
+    products_[at(s)].assign(n_columns * room);
     for (std::size_t c = 0; c < n_columns; c += 3)
-        schur.multiply_by_root_transposed(columns_at(columns.data() + c * room, room),
-                                          columns_at(roots.data() + c * room, room));
-    const Eigen::MatrixXd factors = Eigen::Map<const Eigen::MatrixXf>(roots.data(), static_cast<Eigen::Index>(room),
-                                                                      static_cast<Eigen::Index>(functions.size()))
-                                        .cast<double>();
-    energies_[at(s)].resize(factors.cols(), factors.cols());
-    multiply_by_itself(factors, energies_[at(s)]);
+        schur.multiply(columns_at(columns.data() + c * room, room),
+                       columns_at(products_[at(s)].data() + c * room, room));
+    const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(room),
+                                                                    static_cast<Eigen::Index>(functions.size()))
+                                      .cast<double>();
+    energies_[at(s)].resize(roots.cols(), roots.cols());
+    multiply_by_itself(roots, energies_[at(s)]);
     scales_[at(s)] = schur.scale();
     energies_[at(s)] *= scales_[at(s)];
-    for (std::size_t c = 0; c < n_columns; c += 3)
-        schur.multiply_by_root(columns_at(roots.data() + c * room, room), columns_at(columns.data() + c * room, room));
 }
 
 /// In the order of `entries`.

@@ -47,6 +47,46 @@ struct Four {
     float of[group];
 };
 
+/// The same for each of three vectors.
+struct Fours {
+    Four x;
+    Four y;
+    Four z;
+};
+
+/// Some rows of three vectors. All three are used with a tile at once: a third of the loops, whose ends processors do
+/// not foresee.
+struct Rows {
+    Lanes x{};
+    Lanes y{};
+    Lanes z{};
+
+    [[gnu::always_inline]] void load_from(const FloatColumns& v, Index first)
+    {
+        load(v.x + first, x);
+        load(v.y + first, y);
+        load(v.z + first, z);
+    }
+    [[gnu::always_inline]] void store_to(const FloatColumns& v, Index first) const
+    {
+        store(x, v.x + first);
+        store(y, v.y + first);
+        store(z, v.z + first);
+    }
+    [[gnu::always_inline]] void add_products(const Lanes& column, const Rows& rows)
+    {
+        x += column * rows.x;
+        y += column * rows.y;
+        z += column * rows.z;
+    }
+    [[gnu::always_inline]] void add_multiples(float of_x, float of_y, float of_z, const Lanes& column)
+    {
+        x += of_x * column;
+        y += of_y * column;
+        z += of_z * column;
+    }
+};
+
 /// The sums of four registers each.
 inline Four sums_of(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d)
 {
@@ -80,42 +120,61 @@ inline Four own_rows(const Block& block, const float* v)
     return rows;
 }
 
-/// Adds sign · (the block) · factors to v.
-template <int Sign>
-inline void add_multiples(const Block& block, const Four& factors, float* v)
+inline void store_own_rows(const Block& block, const Four& rows, float* v)
 {
-    constexpr auto sign = static_cast<float>(Sign);
+    std::memcpy(v + block.begin, &rows, sizeof rows);
+}
+
+inline Four negative(Four rows)
+{
+    for (float& row : rows.of)
+        row = -row;
+    return rows;
+}
+
+/// Adds the block times the factors to v.
+inline void add_multiples(const Block& block, const Fours& factors, const FloatColumns& v)
+{
+    const auto& [x, y, z] = factors;
     const float* tile = block.tiles;
-    float* to = v + block.top();
-    for (Index t = 0; t < block.n_tiles; ++t, tile += tile_size, to += n_lanes) {
+    Index row = block.top();
+    for (Index t = 0; t < block.n_tiles; ++t, tile += tile_size, row += n_lanes) {
         prefetch_after(tile);
-        Lanes sums;
-        load(to, sums);
-        for (Index c = 0; c < group; ++c) {
-            Lanes column;
-            load(tile + c * n_lanes, column);
-            sums += (sign * factors.of[c]) * column;
-        }
-        store(sums, to);
+        Rows sums;
+        sums.load_from(v, row);
+        Lanes column;
+        load(tile, column);
+        sums.add_multiples(x.of[0], y.of[0], z.of[0], column);
+        load(tile + n_lanes, column);
+        sums.add_multiples(x.of[1], y.of[1], z.of[1], column);
+        load(tile + 2 * n_lanes, column);
+        sums.add_multiples(x.of[2], y.of[2], z.of[2], column);
+        load(tile + 3 * n_lanes, column);
+        sums.add_multiples(x.of[3], y.of[3], z.of[3], column);
+        sums.store_to(v, row);
     }
 }
 
-/// The block, transposed, times v.
-inline Four multiply_transposed(const Block& block, const float* v)
+/// The block, transposed, times v. The last rows come first: those of the block itself may have only just been found.
+inline Fours multiply_transposed(const Block& block, const FloatColumns& v)
 {
-    Lanes sums[group] = {};
-    const float* tile = block.tiles;
-    for (Index t = 0; t < block.n_tiles; ++t, tile += tile_size) {
+    Rows a, b, c, d;
+    for (Index t = block.n_tiles; t-- > 0;) {
+        const float* tile = block.tiles + t * tile_size;
         prefetch_after(tile);
-        Lanes values;
-        load(v + block.top() + t * n_lanes, values);
-        for (Index c = 0; c < group; ++c) {
-            Lanes column;
-            load(tile + c * n_lanes, column);
-            sums[c] += column * values;
-        }
+        Rows rows;
+        rows.load_from(v, block.top() + t * n_lanes);
+        Lanes column;
+        load(tile, column);
+        a.add_products(column, rows);
+        load(tile + n_lanes, column);
+        b.add_products(column, rows);
+        load(tile + 2 * n_lanes, column);
+        c.add_products(column, rows);
+        load(tile + 3 * n_lanes, column);
+        d.add_products(column, rows);
     }
-    return sums_of(sums[0], sums[1], sums[2], sums[3]);
+    return {sums_of(a.x, b.x, c.x, d.x), sums_of(a.y, b.y, c.y, d.y), sums_of(a.z, b.z, c.z, d.z)};
 }
 
 /// L as it is stored.
@@ -140,71 +199,63 @@ struct Lower {
     [[nodiscard]] Index last_block() const { return (n + group - 1) / group * group - group; }
 };
 
-/// result = Lᵀ v.
-SEAMFLOW_WIDE void multiply_by_transposed(Lower lower, FloatColumns v, FloatColumns result)
-{
-    const auto multiply = [](const Block& block, const float* from, float* to) {
-        const Four products = multiply_transposed(block, from);
-        for (Index c = 0; c < group; ++c)
-            to[block.begin + c] = from[block.begin + c] + products.of[c];
-    };
-    for (Index begin = 0; begin < lower.n; begin += group) {
-        const Block block = lower.block(begin);
-        multiply(block, v.x, result.x);
-        multiply(block, v.y, result.y);
-        multiply(block, v.z, result.z);
-    }
-}
-
-/// Adds (L - 1) v to the result.
-SEAMFLOW_WIDE void add_product(Lower lower, FloatColumns v, FloatColumns result)
+/// result += R Rᵀ v and v = Rᵀ v, where R is L with columns scaled. A block is used for both while it is in the caches.
+SEAMFLOW_WIDE void multiply_twice(Lower lower, const float* scales, FloatColumns v, FloatColumns result)
 {
     for (Index begin = 0; begin < lower.n; begin += group) {
         const Block block = lower.block(begin);
-        add_multiples<1>(block, own_rows(block, v.x), result.x);
-        add_multiples<1>(block, own_rows(block, v.y), result.y);
-        add_multiples<1>(block, own_rows(block, v.z), result.z);
+        Fours factors = multiply_transposed(block, v);
+        const auto scale = [&](float* from, Four& products, float* to) {
+            for (Index c = 0; c < group; ++c) {
+                from[begin + c] = scales[begin + c] * (from[begin + c] + products.of[c]);
+                products.of[c] = scales[begin + c] * from[begin + c];
+                to[begin + c] += products.of[c];
+            }
+        };
+        scale(v.x, factors.x, result.x);
+        scale(v.y, factors.y, result.y);
+        scale(v.z, factors.z, result.z);
+        add_multiples(block, factors, result);
     }
 }
 
 /// result = L⁻¹ v; of v nothing of use remains.
 SEAMFLOW_WIDE void eliminate(Lower lower, FloatColumns v, FloatColumns result)
 {
-    const auto solve = [](const Block& block, float* from, float* to) {
-        Four rows = own_rows(block, from);
-        for (Index row = 1; row < group; ++row)
-            for (Index c = 0; c < row; ++c)
-                rows.of[row] -= block.own(row, c) * rows.of[c];
-        std::memcpy(to + block.begin, &rows, sizeof rows);
-        add_multiples<-1>(block, rows, from);
-    };
     for (Index begin = 0; begin < lower.n; begin += group) {
         const Block block = lower.block(begin);
-        solve(block, v.x, result.x);
-        solve(block, v.y, result.y);
-        solve(block, v.z, result.z);
+        const auto solve = [&](const float* from, float* to) {
+            Four rows = own_rows(block, from);
+            for (Index row = 1; row < group; ++row)
+                for (Index c = 0; c < row; ++c)
+                    rows.of[row] -= block.own(row, c) * rows.of[c];
+            store_own_rows(block, rows, to);
+            return negative(rows);
+        };
+        const Fours factors = {solve(v.x, result.x), solve(v.y, result.y), solve(v.z, result.z)};
+        add_multiples(block, factors, v);
     }
 }
 
 /// result = L⁻ᵀ v, where it is 0 before.
 SEAMFLOW_WIDE void substitute_back(Lower lower, FloatColumns v, FloatColumns result)
 {
-    const auto solve = [](const Block& block, const float* from, float* to) {
-        // What the own rows would contribute is 0 as yet.
-        const Four products = multiply_transposed(block, to);
-        Four rows = own_rows(block, from);
-        for (Index c = group - 1; c >= 0; --c) {
-            rows.of[c] -= products.of[c];
-            for (Index row = c + 1; row < group; ++row)
-                rows.of[c] -= block.own(row, c) * rows.of[row];
-        }
-        std::memcpy(to + block.begin, &rows, sizeof rows);
-    };
     for (Index begin = lower.last_block(); begin >= 0; begin -= group) {
         const Block block = lower.block(begin);
-        solve(block, v.x, result.x);
-        solve(block, v.y, result.y);
-        solve(block, v.z, result.z);
+        const auto solve = [&](const float* from, const Four& products, float* to) {
+            Four rows = own_rows(block, from);
+            for (Index c = group - 1; c >= 0; --c) {
+                rows.of[c] -= products.of[c];
+                for (Index row = c + 1; row < group; ++row)
+                    rows.of[c] -= block.own(row, c) * rows.of[row];
+            }
+            store_own_rows(block, rows, to);
+        };
+        // What the own rows would contribute is 0 as yet.
+        const Fours products = multiply_transposed(block, result);
+        solve(v.x, products.x, result.x);
+        solve(v.y, products.y, result.y);
+        solve(v.z, products.z, result.z);
     }
 }
 
@@ -213,13 +264,6 @@ SEAMFLOW_WIDE void multiply_by_diagonal(const std::vector<float>& diagonal, Floa
     for (float* column : {v.x, v.y, v.z})
         for (std::size_t i = 0; i < diagonal.size(); ++i)
             column[i] *= diagonal[i];
-}
-
-void copy(const FloatColumns& from, std::size_t n, const FloatColumns& to)
-{
-    std::copy_n(from.x, n, to.x);
-    std::copy_n(from.y, n, to.y);
-    std::copy_n(from.z, n, to.z);
 }
 
 void set_zero(const FloatColumns& v, std::size_t n)
@@ -267,23 +311,10 @@ void DenseFactor::prefetch() const
         __builtin_prefetch(lower_.data() + i);
 }
 
-void DenseFactor::multiply(FloatColumns v, FloatColumns scratch) const
+void DenseFactor::multiply(FloatColumns v, FloatColumns result) const
 {
-    multiply_by_root_transposed(v, scratch);
-    multiply_by_root(scratch, v);
-}
-
-void DenseFactor::multiply_by_root_transposed(FloatColumns v, FloatColumns result) const
-{
-    multiply_by_transposed({lower_.data(), n_}, v, result);
-    multiply_by_diagonal(root_, result);
-}
-
-void DenseFactor::multiply_by_root(FloatColumns v, FloatColumns result) const
-{
-    multiply_by_diagonal(root_, v);
-    copy(v, root_.size(), result);
-    add_product({lower_.data(), n_}, v, result);
+    set_zero(result, root_.size());
+    multiply_twice({lower_.data(), n_}, root_.data(), v, result);
 }
 
 void DenseFactor::solve(FloatColumns v, FloatColumns scratch) const

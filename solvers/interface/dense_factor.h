@@ -58,14 +58,8 @@ class DenseFactor {
     /// A power of two.
     [[nodiscard]] double scale() const { return scale_; }
 
-    /// v becomes S₁ v.
-    /// @param scratch receives nothing of use.
-    void multiply(FloatColumns v, FloatColumns scratch) const;
-
-    /// The two halves of that, S₁ = R Rᵀ with R = L √D₁: result, which is elsewhere, becomes Rᵀ v, and R v.
-    /// `multiply_by_root` changes v.
-    void multiply_by_root_transposed(FloatColumns v, FloatColumns result) const;
-    void multiply_by_root(FloatColumns v, FloatColumns result) const;
+    /// result, which is elsewhere, becomes S₁ v, and v becomes Rᵀ v with R = L √D₁, so that S₁ = R Rᵀ.
+    void multiply(FloatColumns v, FloatColumns result) const;
 
     /// v becomes S₁⁻¹ v.
     /// @param scratch receives nothing of use.

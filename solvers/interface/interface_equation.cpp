@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "partition/errors.h"
 #include "solvers/interface/power_of_two.h"
@@ -231,9 +232,9 @@ void InterfaceEquation::advance(std::span<const NeumannSystem* const> systems, P
 void InterfaceEquation::multiply(std::span<const NeumannSystem* const> systems, const Loop& loop)
 {
     on_each(systems, direction_, false, product_, loop,
-            [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
-                schur.multiply(columns, scratch);
-                return schur.scale();
+            [](const DenseFactor& schur, FloatColumns columns, FloatColumns result) {
+                schur.multiply(columns, result);
+                return std::pair(result, schur.scale());
             });
 }
 
@@ -242,15 +243,15 @@ void InterfaceEquation::precondition(std::span<const NeumannSystem* const> syste
     on_each(systems, residual_, true, preconditioned_, loop,
             [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
                 schur.solve(columns, scratch);
-                return 1.0 / schur.scale();
+                return std::pair(columns, 1.0 / schur.scale());
             });
     if (coarse_)
         coarse_->correct(residual_, preconditioned_, loop);
 }
 
 /// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted. Applied to columns in units of
-/// their own, so that single precision has room for lengths of any unit; `apply` returns by what its result is to be
-/// multiplied.
+/// their own, so that single precision has room for lengths of any unit; `apply` returns which columns have its result,
+/// and by what that is to be multiplied.
 template <class Apply>
 void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, const Points& source, bool weighted,
                                 Points& target, const Loop& loop, Apply&& apply)
@@ -264,25 +265,39 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
         const std::size_t room = DenseFactor::room(n);
         const FloatColumns columns = columns_at(products_.data() + first_product_[at(s)], room);
         const FloatColumns scratch = columns_at(columns.x + 3 * room, room);
-        Point largest = Point::Zero();
+        // In plain numbers, which takes less time than expressions of rows.
+        double* const rows = residual_copies_.row(first).data();
+        double largest[3] = {};
         for (Index i = 0; i < n; ++i) {
-            const Point value = weight(first + i) * source.row(copies_.vertex[at(first + i)]);
-            residual_copies_.row(first + i) = value;
-            largest = largest.cwiseMax(value.cwiseAbs());
+            const double* const row = source.row(copies_.vertex[at(first + i)]).data();
+            const double w = weight(first + i);
+            for (Index c = 0; c < 3; ++c) {
+                rows[3 * i + c] = w * row[c];
+                largest[c] = std::max(largest[c], std::abs(rows[3 * i + c]));
+            }
         }
-        const Point unit = largest.unaryExpr(&power_of_two_near);
+        Point unit;
+        Point inverse;
+        for (Index c = 0; c < 3; ++c) {
+            unit[c] = power_of_two_near(largest[c]);
+            inverse[c] = 1.0 / unit[c];
+        }
         for (Index i = 0; i < n; ++i) {
-            const Point value = residual_copies_.row(first + i).cwiseQuotient(unit);
-            columns.x[i] = static_cast<float>(value[0]);
-            columns.y[i] = static_cast<float>(value[1]);
-            columns.z[i] = static_cast<float>(value[2]);
+            columns.x[i] = static_cast<float>(rows[3 * i] * inverse[0]);
+            columns.y[i] = static_cast<float>(rows[3 * i + 1] * inverse[1]);
+            columns.z[i] = static_cast<float>(rows[3 * i + 2] * inverse[2]);
         }
         // What was not finite may have been in a solution before.
         for (std::size_t c = 0; c < 6; ++c)
             std::fill(columns.x + c * room + at(n), columns.x + (c + 1) * room, 0.0F);
-        const Point factor = apply(systems[at(s)]->schur(), columns, scratch) * unit;
-        for (Index i = 0; i < n; ++i)
-            residual_copies_.row(first + i) = Point(columns.x[i], columns.y[i], columns.z[i]).cwiseProduct(factor);
+        const std::pair<FloatColumns, double> applied = apply(systems[at(s)]->schur(), columns, scratch);
+        const FloatColumns& result = applied.first;
+        const Point factor = applied.second * unit;
+        for (Index i = 0; i < n; ++i) {
+            rows[3 * i] = factor[0] * result.x[i];
+            rows[3 * i + 1] = factor[1] * result.y[i];
+            rows[3 * i + 2] = factor[2] * result.z[i];
+        }
     });
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
