@@ -190,7 +190,7 @@ struct SubtractUpdate {
     {
         for (Index t = 0, n = 0; t < n_columns; t += n) {
             const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
-            if (n = among(16); Machine::width == 8 && n > 8)
+            if (Machine::width == 8 && n_columns - t > 8 && (n = among(16)) > 8)
                 update_columns<typename Machine::template Neighbours<16>>(earlier, place + t, n, target_rows + t,
                                                                           later);
             else if (n = among(8); n > 4)

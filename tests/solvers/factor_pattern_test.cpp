@@ -127,3 +127,33 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
         check_places(upper, factor, places);
     }
 }
+
+TEST_CASE("subtrees of the elimination tree are made one block where that takes few zeros")
+{
+    // Two leaves of one column each, below a third with which all later unknowns have to do.
+    const SparsePattern upper = make_pattern(6, {{0, 0},
+                                                 {1, 1},
+                                                 {2, 0},
+                                                 {2, 1},
+                                                 {2, 2},
+                                                 {3, 2},
+                                                 {3, 3},
+                                                 {4, 2},
+                                                 {4, 3},
+                                                 {4, 4},
+                                                 {5, 2},
+                                                 {5, 3},
+                                                 {5, 4},
+                                                 {5, 5}});
+    std::vector<Index> places;
+    const FactorPattern factor = make_symmetric_factor_pattern(upper, 0, places);
+    CHECK(factor.first == std::vector<Index>{0, 6});
+    check_places(upper, factor, places);
+
+    // The same in an order in which what leads to the third is not together: column 1 has nothing to do with it.
+    const SparsePattern apart = make_pattern(
+        7, {{0, 0}, {1, 1}, {2, 2}, {3, 0}, {3, 2}, {3, 3}, {4, 3}, {4, 4}, {5, 3}, {5, 4}, {5, 5}, {6, 1}, {6, 6}});
+    const FactorPattern blocks = make_symmetric_factor_pattern(apart, 0, places);
+    CHECK(blocks.first == std::vector<Index>{0, 1, 2, 3, 6, 7});
+    check_places(apart, blocks, places);
+}
