@@ -266,7 +266,7 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
         const FloatColumns columns = columns_at(products_.data() + first_product_[at(s)], room);
         const FloatColumns scratch = columns_at(columns.x + 3 * room, room);
         // In plain numbers, which takes less time than expressions of rows.
-        double* const rows = residual_copies_.row(first).data();
+        double* const rows = residual_copies_.data() + Eigen::Index{3} * first;
         double largest[3] = {};
         for (Index i = 0; i < n; ++i) {
             const double* const row = source.row(copies_.vertex[at(first + i)]).data();
