@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-/// Wider sub-meshes, in √dt, do without a coarse space: it would save a tenth of the iterations.
+/// Wider sub-meshes, in √dt, do without a coarse space: it would save an iteration in nine, and cost more.
 constexpr double width_without_coarse_space = 8.0;
 
 Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step)

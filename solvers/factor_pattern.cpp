@@ -29,23 +29,11 @@ SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>
 struct Tree {
     std::vector<Index> parent;
     std::vector<Index> count;
-    /// The number of columns from which parents lead to this one, itself among them, and the first of them.
-    std::vector<Index> descendants;
-    std::vector<Index> first_descendant;
-
-    /// Whether all columns from `first` to this one lead to it.
-    [[nodiscard]] bool is_led_to_from(Index first, Index column) const
-    {
-        const Index begin = first_descendant[at(column)];
-        return begin <= first && column + 1 - begin == descendants[at(column)];
-    }
 };
 
 Tree make_tree(const SparsePattern& upper)
 {
-    Tree tree{std::vector<Index>(at(upper.n()), -1), std::vector<Index>(at(upper.n()), 0),
-              std::vector<Index>(at(upper.n()), 1), std::vector<Index>(at(upper.n()))};
-    std::iota(tree.first_descendant.begin(), tree.first_descendant.end(), 0);
+    Tree tree{std::vector<Index>(at(upper.n()), -1), std::vector<Index>(at(upper.n()), 0)};
     std::vector<Index> visited(at(upper.n()), -1);
     for (Index row = 0; row < upper.n(); ++row) {
         visited[at(row)] = row;
@@ -57,12 +45,6 @@ Tree make_tree(const SparsePattern& upper)
                     tree.parent[at(column)] = row;
             }
     }
-    for (Index column = 0; column < upper.n(); ++column)
-        if (const Index parent = tree.parent[at(column)]; parent >= 0) {
-            tree.descendants[at(parent)] += tree.descendants[at(column)];
-            Index& first = tree.first_descendant[at(parent)];
-            first = std::min(first, tree.first_descendant[at(column)]);
-        }
     return tree;
 }
 
@@ -93,19 +75,26 @@ bool is_worth(double zeros, Index width, Index n_rows)
     return (width <= 8 && zeros <= 0.4 * size) || (width <= most_relaxed_columns && zeros <= 0.15 * size);
 }
 
-/// Goes on to columns to which all before them in the block lead, as long as it is worth it: none of those has a row
-/// outside that the last one does not have.
+/// The furthest end of a block without zeros that is worth it and to which parents lead from all columns before it in
+/// the block: none of those has a row outside that the last one does not have.
 Index end_of_relaxed_block(const Tree& tree, Index first, Index last, Index n_last)
 {
-    const Index end = std::min(static_cast<Index>(tree.parent.size()) - n_last, first + most_relaxed_columns);
-    double entries = 0.0;
-    Index n_counted = first;
-    for (Index top = last; top >= 0 && top < end; top = tree.parent[at(top)]) {
-        for (; n_counted <= top; ++n_counted)
-            entries += tree.count[at(n_counted)] + 1.0;
+    const auto n = static_cast<Index>(tree.parent.size());
+    double entries_before = 0.0;
+    Index furthest_parent = first;
+    Index n_seen = first;
+    for (Index top = last; top >= 0 && top < std::min(n - n_last, first + most_relaxed_columns);
+         top = tree.parent[at(top)]) {
+        for (; n_seen < top; ++n_seen) {
+            const Index parent = tree.parent[at(n_seen)];
+            furthest_parent = parent < 0 ? n : std::max(furthest_parent, parent);
+            entries_before += tree.count[at(n_seen)] + 1.0;
+        }
         const Index width = top + 1 - first;
-        const double zeros = 0.5 * width * (width + 1.0) + 1.0 * width * tree.count[at(top)] - entries;
-        if (tree.is_led_to_from(first, top) && is_worth(zeros, width, tree.count[at(top)]))
+        const Index n_rows = tree.count[at(top)];
+        const double zeros = 0.5 * (width - 1.0) * width + (width - 1.0) * (n_rows + 1.0) - entries_before;
+        const bool is_end = top + 1 == n - n_last || !belong_together(tree, top);
+        if (is_end && furthest_parent <= top && is_worth(zeros, width, n_rows))
             last = top;
     }
     return last;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "solvers/registers.h"
-
 namespace seamflow {
 
 namespace {
@@ -21,7 +19,8 @@ constexpr Index most_lanes = 16;
 /// @param rows the first row's first entry; there are `width` from one row to the next.
 /// @param use(r, sums) takes the sums of row r.
 template <Index Rows, class Vector, class Use>
-inline void multiply(const double* rows, std::size_t width, const double* factors, Index n, Use&& use)
+[[gnu::always_inline]] inline void multiply(const double* rows, std::size_t width, const double* factors, Index n,
+                                            Use&& use)
 {
     Vector sums[Rows];
     for (Index c = 0; c < n; ++c) {
@@ -34,7 +33,7 @@ inline void multiply(const double* rows, std::size_t width, const double* factor
         use(r, sums[r]);
 }
 
-/// Their sums, 16 registers at most.
+/// Their sums fill eight registers at most.
 template <class Vector>
 constexpr Index rows_at_once = Vector::lanes / Vector::lanes_of_part > 2 ? 2 : 4;
 
@@ -56,7 +55,8 @@ Targets in_order(Index first, Index n)
 /// The rows from that of the first target on times D Lᵀ of the targets, over the panel's columns [first, last).
 /// @param use(i, sums) takes the sums of the i-th of the rows; more than one call for each if there are many columns.
 template <class Vector, class Use>
-inline void multiply_all(const LdlPanel& panel, Index first, Index last, const Targets& targets, Use&& use)
+[[gnu::always_inline]] inline void multiply_all(const LdlPanel& panel, Index first, Index last, const Targets& targets,
+                                                Use&& use)
 {
     const std::size_t width = at(panel.width);
     const double* rows = panel.values + at(targets.first) * width;
@@ -83,7 +83,7 @@ inline void multiply_all(const LdlPanel& panel, Index first, Index last, const T
 }
 
 /// How many of the first of these columns, ascending, are among `width` neighbouring ones.
-inline Index count_neighbours(const Index* columns, Index n, Index width)
+[[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
 {
     Index count = 1;
     while (count < n && count < width && columns[count] - columns[0] < width)
@@ -93,8 +93,8 @@ inline Index count_neighbours(const Index* columns, Index n, Index width)
 
 /// An update of columns among as many neighbouring ones as there are lanes. The others in between lose 0.
 template <class Vector>
-inline void update_columns(const LdlPanel& earlier, Index place, Index n, const Index* target_rows,
-                           const LdlPanel& later)
+[[gnu::always_inline]] inline void update_columns(const LdlPanel& earlier, Index place, Index n,
+                                                  const Index* target_rows, const LdlPanel& later)
 {
     const std::size_t width = at(later.width);
     const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - Vector::lanes));
@@ -114,7 +114,7 @@ inline void update_columns(const LdlPanel& earlier, Index place, Index n, const 
 
 /// Takes what the panel's columns [first, last) contribute away from the n after them.
 template <class Vector>
-inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Index n)
+[[gnu::always_inline]] inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Index n)
 {
     if (first == last || n == 0)
         return;
@@ -132,7 +132,7 @@ inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Ind
 /// Factorises columns that depend on each other alone.
 /// @param Columns 1 to 4.
 template <Index Columns>
-inline bool factorise_columns(const LdlPanel& panel, Index first)
+[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel& panel, Index first)
 {
     const std::size_t width = at(panel.width);
     double* top = panel.values + at(first) * (width + 1);
@@ -167,7 +167,7 @@ inline bool factorise_columns(const LdlPanel& panel, Index first)
     return positive;
 }
 
-inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
+[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
 {
     switch (n) {
     case 0:
@@ -190,10 +190,13 @@ struct SubtractUpdate {
     {
         for (Index t = 0, n = 0; t < n_columns; t += n) {
             const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
-            if (Machine::width == 8 && n_columns - t > 8 && (n = among(16)) > 8)
-                update_columns<typename Machine::template Neighbours<16>>(earlier, place + t, n, target_rows + t,
-                                                                          later);
-            else if (n = among(8); n > 4)
+            if constexpr (Machine::width == 8)
+                if (n_columns - t > 8 && (n = among(16)) > 8) {
+                    update_columns<typename Machine::template Neighbours<16>>(earlier, place + t, n, target_rows + t,
+                                                                              later);
+                    continue;
+                }
+            if (n = among(8); n > 4)
                 update_columns<typename Machine::template Neighbours<8>>(earlier, place + t, n, target_rows + t, later);
             else if (n = among(4); n > 2)
                 update_columns<typename Machine::template Neighbours<4>>(earlier, place + t, n, target_rows + t, later);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -8,8 +9,8 @@
 
 namespace seamflow {
 
-/// Neighbouring numbers in so many registers. No vector type that is wider than a register does as well: GCC keeps such
-/// numbers in memory all the time, which takes ten times as long.
+/// Neighbouring numbers in so many registers. Arrays of vectors that are wider than a register do not do as well: GCC
+/// keeps them in memory all the time, which takes ten times as long.
 template <class Vector, Index Parts>
 struct Registers {
     static constexpr Index lanes_of_part = static_cast<Index>(sizeof(Vector) / sizeof(double));
@@ -76,6 +77,7 @@ struct Machine {
 };
 
 #if defined(__x86_64__)
+
 namespace detail {
 
 template <class Kernel, class... Arguments>
@@ -91,33 +93,43 @@ template <class Kernel, class... Arguments>
 }
 
 }  // namespace detail
-#endif
 
 /// How many numbers the widest registers hold that are of use here.
 inline Index register_width()
 {
-#if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512vl"))
         return 8;
-    if (__builtin_cpu_supports("avx2"))
-        return 4;
-#endif
-    return 2;
+    return __builtin_cpu_supports("avx2") ? 4 : 2;
 }
 
 /// kernel(machine, arguments…), compiled for a machine with registers of that width. The operations on each number are
 /// the same on all of them, and so are the results.
-/// @param width register_width() at most.
+/// @param kernel what it calls is to be inlined always: clang compiles the rest for any machine.
+/// @param width 2, 4 or 8, register_width() at most.
 template <class Kernel, class... Arguments>
 auto on_machine(Index width, const Kernel& kernel, Arguments&&... arguments)
 {
-#if defined(__x86_64__)
+    assert(width <= register_width() && "the machine lacks such registers");
     if (width == 8)
         return detail::run_widest(kernel, std::forward<Arguments>(arguments)...);
     if (width == 4)
         return detail::run_wide(kernel, std::forward<Arguments>(arguments)...);
-#endif
     return kernel(Machine<2>(), std::forward<Arguments>(arguments)...);
 }
+
+#else
+
+inline Index register_width()
+{
+    return 2;
+}
+
+template <class Kernel, class... Arguments>
+auto on_machine(Index, const Kernel& kernel, Arguments&&... arguments)
+{
+    return kernel(Machine<2>(), std::forward<Arguments>(arguments)...);
+}
+
+#endif
 
 }  // namespace seamflow

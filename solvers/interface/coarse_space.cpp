@@ -1,6 +1,7 @@
 #include "solvers/interface/coarse_space.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <numeric>
@@ -82,12 +83,14 @@ constexpr std::size_t cache_line = 64 / sizeof(float);
 /// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
+    // The last ones ask for what is after the products, which does no harm.
+    const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(column) + products_ahead * sizeof(float);
     Four x_low{}, x_high{}, y_low{}, y_high{}, z_low{}, z_high{};
     const double* x = v.data();
     const double* y = x + v.rows();
     const double* z = y + v.rows();
     for (Eigen::Index i = 0; i < v.rows(); i += DenseFactor::lanes) {
-        __builtin_prefetch(column + i + products_ahead);
+        __builtin_prefetch(reinterpret_cast<const void*>(ahead + static_cast<std::size_t>(i) * sizeof(float)));
         add_products(column + i, x + i, x_low, x_high);
         add_products(column + i, y + i, y_low, y_high);
         add_products(column + i, z + i, z_low, z_high);

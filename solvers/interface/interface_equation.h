@@ -91,7 +91,7 @@ class InterfaceEquation {
     std::optional<CoarseSpace> coarse_;
     /// Per copy.
     std::vector<double> weights_;
-    /// Per sub-mesh, three columns and as many for scratch, and where they begin.
+    /// Per sub-mesh, three columns and as many for scratch or the result, and where they begin.
     AlignedFloats products_;
     std::vector<std::size_t> first_product_;
     Points residual_copies_;

@@ -150,10 +150,36 @@ TEST_CASE("subtrees of the elimination tree are made one block where that takes 
     CHECK(factor.first == std::vector<Index>{0, 6});
     check_places(upper, factor, places);
 
-    // The same in an order in which what leads to the third is not together: column 1 has nothing to do with it.
+    // What leads to the third is not together: column 1 has nothing to do with it.
     const SparsePattern apart = make_pattern(
         7, {{0, 0}, {1, 1}, {2, 2}, {3, 0}, {3, 2}, {3, 3}, {4, 3}, {4, 4}, {5, 3}, {5, 4}, {5, 5}, {6, 1}, {6, 6}});
     const FactorPattern blocks = make_symmetric_factor_pattern(apart, 0, places);
-    CHECK(blocks.first == std::vector<Index>{0, 1, 2, 3, 6, 7});
+    CHECK(blocks.first == std::vector<Index>{0, 1, 2, 6, 7});
     check_places(apart, blocks, places);
+}
+
+TEST_CASE("subtrees remain apart where one block of them would have many zeros, or be too wide")
+{
+    std::vector<Index> places;
+    const auto full_from = [&](Index begin, Index n, std::vector<MatrixEntry> entries) {
+        for (Index column = 0; column < n; ++column)
+            for (Index row = 0; row <= column; ++row)
+                if (row == column || row >= begin)
+                    entries.push_back({column, row});
+        const SparsePattern upper = make_pattern(n, entries);
+        FactorPattern factor = make_symmetric_factor_pattern(upper, 0, places);
+        check_places(upper, factor, places);
+        return factor.first;
+    };
+    // Two leaves with one row each: a block with the others would have seven zeros, or more, for either of them.
+    CHECK(full_from(2, 10, {{2, 0}, {2, 1}}) == std::vector<Index>{0, 1, 2, 10});
+    // Two leaves that have all rows but each other's: one zero.
+    const auto with_two_leaves = [&](Index n) {
+        std::vector<MatrixEntry> entries;
+        for (Index column = 2; column < n; ++column)
+            entries.insert(entries.end(), {{column, 0}, {column, 1}});
+        return full_from(2, n, entries);
+    };
+    CHECK(with_two_leaves(32) == std::vector<Index>{0, 32});
+    CHECK(with_two_leaves(33) == std::vector<Index>{0, 1, 33});
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
