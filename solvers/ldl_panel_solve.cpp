@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <type_traits>
 
 #include "solvers/ldl_panel.h"
 
@@ -97,36 +98,34 @@ void substitute_columns(const LdlPanel& panel, Index first, double* x)
     }
 }
 
+/// use(n), n from 1 to 4 being known to the compiler.
+template <class Use>
+void with_known(Index n, Use use)
+{
+    if (n == 1)
+        use(std::integral_constant<Index, 1>());
+    else if (n == 2)
+        use(std::integral_constant<Index, 2>());
+    else if (n == 3)
+        use(std::integral_constant<Index, 3>());
+    else
+        use(std::integral_constant<Index, 4>());
+}
+
 }  // namespace
 
 void eliminate_panel(const LdlPanel& panel, double* x)
 {
-    for (Index first = 0; first < panel.width; first += group) {
-        const Index n = std::min(group, panel.width - first);
-        if (n == 1)
-            eliminate_columns<1>(panel, first, x);
-        else if (n == 2)
-            eliminate_columns<2>(panel, first, x);
-        else if (n == 3)
-            eliminate_columns<3>(panel, first, x);
-        else
-            eliminate_columns<4>(panel, first, x);
-    }
+    for (Index first = 0; first < panel.width; first += group)
+        with_known(std::min(group, panel.width - first), [&](auto n) { eliminate_columns<n>(panel, first, x); });
 }
 
 void substitute_panel(const LdlPanel& panel, double* x)
 {
     for (Index end = panel.width; end > 0;) {
-        const Index n = std::min(group, end);
-        end -= n;
-        if (n == 1)
-            substitute_columns<1>(panel, end, x);
-        else if (n == 2)
-            substitute_columns<2>(panel, end, x);
-        else if (n == 3)
-            substitute_columns<3>(panel, end, x);
-        else
-            substitute_columns<4>(panel, end, x);
+        const Index n_columns = std::min(group, end);
+        end -= n_columns;
+        with_known(n_columns, [&](auto n) { substitute_columns<n>(panel, end, x); });
     }
 }
 
