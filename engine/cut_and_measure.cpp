@@ -1,5 +1,7 @@
 #include "engine/cut_and_measure.h"
 
+#include <functional>
+
 #include "engine/choose_subdomains.h"
 #include "engine/parallel_loop.h"
 #include "engine/surface_curvature.h"
@@ -16,16 +18,17 @@ const SubdomainNeeds& needs_of(const FlowOptions& options)
     return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
 }
 
-Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Loop& loop)
+Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Loop& loop,
+             const Alongside& alongside)
 {
     if (options.scheme == Scheme::ExplicitEuler)
         return cut_into(mesh, topology, 1, loop);
     if (!options.labels.empty())
         return cut_by_labels(mesh, topology, options.labels, loop);
     if (options.subdomains > 0)
-        return cut_into(mesh, topology, options.subdomains, loop);
+        return cut_into(mesh, topology, options.subdomains, loop, alongside);
     const SubdomainChoice choice = choose_subdomains(mesh, options.time_step, needs_of(options));
-    Cut cut = cut_into(mesh, topology, choice.count, loop);
+    Cut cut = cut_into(mesh, topology, choice.count, loop, alongside);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
 }
@@ -35,12 +38,14 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
 Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
                     FlowOptions& options, Measured& measured, const Progress& progress)
 {
-    Cut cut;
-    run_both([&] { cut = make_cut(mesh, topology, options, progress.loop()); },
-             [&] {
-                 measured.curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
-                 measured.meter.emplace(mesh, topology);
-             });
+    const auto measure = [&] {
+        measured.curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
+        measured.meter.emplace(mesh, topology);
+    };
+    Cut cut = make_cut(mesh, topology, options, progress.loop(),
+                       [&](const std::function<void()>& serial) { run_both(serial, measure); });
+    if (!measured.meter)
+        measure();
     // A whole mesh is solved exactly either way.
     if (cut.n_parts == 1 && !choice.reason.empty())
         options.tolerance.reset();

@@ -1,6 +1,7 @@
 #include "partition/cut/clusters.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -18,40 +19,42 @@ struct Chunk {
     [[nodiscard]] bool has(Index f) const { return f >= begin && f < end; }
 };
 
+/// What has been grown.
+struct Grown {
+    /// Where the faces of each cluster end.
+    std::vector<Index> ends;
+    /// One entry per cluster: whether one of its edges leads to another chunk.
+    std::vector<std::uint8_t> touches_others;
+
+    [[nodiscard]] Index size() const { return static_cast<Index>(ends.size()); }
+};
+
 /// Fills a chunk of the faces with clusters. Of other faces nothing is read or written.
 class ClusterGrower {
   public:
-    /// @param cluster_of #F, -1 in the chunk: receives clusters numbered from 0. @param faces #F: receives those of one
-    /// cluster after the other.
-    ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk,
-                  std::vector<Index>& cluster_of, std::vector<Index>& faces)
+    /// @param first the number of the first cluster. @param begin where the faces of that one begin in `faces`.
+    /// @param cluster_of #F, negative where a face has no cluster yet. @param faces #F: receives those of one cluster
+    /// after the other.
+    ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk, Index first,
+                  Index begin, std::vector<Index>& cluster_of, std::vector<Index>& faces)
         : mesh_(mesh)
         , topology_(topology)
         , weight_(weight)
         , chunk_(chunk)
+        , first_(first)
         , cluster_of_(cluster_of)
         , faces_(faces)
-        , end_(chunk.begin)
+        , end_(begin)
     {
     }
 
-    /// @returns where the faces of each cluster end.
-    std::vector<Index> grow()
-    {
-        for (Index f = chunk_.begin; f < chunk_.end; ++f)
-            if (is_free(f))
-                grow_around(f);
-        return std::move(ends_);
-    }
+    [[nodiscard]] const Grown& grown() const { return grown_; }
 
-  private:
-    [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[at(f)] < 0; }
-    /// The cluster in the making.
-    [[nodiscard]] Index last() const { return static_cast<Index>(ends_.size()); }
-
-    /// Takes all that hangs together with face f.
+    /// Takes all that hangs together with face f of the chunk, unless it has a cluster.
     void grow_around(Index f)
     {
+        if (!is_free(f))
+            return;
         outer_.clear();
         grow_cluster(f);
         // Each next cluster begins beside the earliest face that has a free neighbour, so that few gaps remain.
@@ -62,13 +65,23 @@ class ClusterGrower {
             });
     }
 
+  private:
+    [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[at(f)] < 0; }
+    /// The cluster in the making.
+    [[nodiscard]] Index last() const { return first_ + grown_.size(); }
+
     /// Until `visit` returns false.
     template <class Visit>
     void for_each_free_neighbour(Index f, Visit&& visit)
     {
         for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
             const Index twin = topology_.twin[at(h)];
-            if (twin >= 0 && is_free(topology_.face_of[at(twin)]) && !visit(topology_.face_of[at(twin)]))
+            if (twin < 0)
+                continue;
+            const Index neighbour = topology_.face_of[at(twin)];
+            if (!chunk_.has(neighbour))
+                touches_others_ = true;
+            else if (cluster_of_[at(neighbour)] < 0 && !visit(neighbour))
                 return;
         }
     }
@@ -76,6 +89,7 @@ class ClusterGrower {
     void grow_cluster(Index seed)
     {
         const Index begin = end_;
+        touches_others_ = false;
         Index left = weight_;
         const auto add = [&](Index f) {
             cluster_of_[at(f)] = last();
@@ -96,7 +110,8 @@ class ClusterGrower {
             });
             outer_.push_back(faces_[at(next)]);
         }
-        ends_.push_back(end_);
+        grown_.ends.push_back(end_);
+        grown_.touches_others.push_back(touches_others_ ? 1 : 0);
     }
 
     /// Whether most edges of a free face lead to the cluster in the making, whose outline it would shorten, or none to
@@ -123,11 +138,13 @@ class ClusterGrower {
     const Topology& topology_;
     Index weight_;
     Chunk chunk_;
+    Index first_;
     std::vector<Index>& cluster_of_;
     std::vector<Index>& faces_;
-    /// Where the faces of the clusters so far end, and where those of the one in the making do.
-    std::vector<Index> ends_;
+    Grown grown_;
+    /// Of the cluster in the making: where its faces end, and whether one of its edges leads to another chunk.
     Index end_;
+    bool touches_others_ = false;
     /// Of the faces in hand that hang together: those of clusters that may have free neighbours, in order.
     std::vector<Index> outer_;
 };
@@ -172,24 +189,52 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
 {
     if (weight == 1)
         return one_face_each(mesh);
+    const std::vector<Chunk> chunks = chunks_of(mesh, topology, chunk);
+    std::vector<Grown> grown(chunks.size());
     FaceClusters clusters;
     clusters.cluster_of.assign(at(mesh.n_faces()), -1);
-    clusters.faces.values.resize(at(mesh.n_faces()));
-    const std::vector<Chunk> chunks = chunks_of(mesh, topology, chunk);
-    std::vector<std::vector<Index>> ends(chunks.size());
+    std::vector<Index> faces(at(mesh.n_faces()));
     for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
-        ends[at(i)] =
-            ClusterGrower(mesh, topology, weight, chunks[at(i)], clusters.cluster_of, clusters.faces.values).grow();
+        const Chunk& own = chunks[at(i)];
+        ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, clusters.cluster_of, faces);
+        for (Index f = own.begin; f < own.end; ++f)
+            grower.grow_around(f);
+        grown[at(i)] = grower.grown();
     });
+    // Clusters that end where a chunk does are dissolved.
+    auto& offsets = clusters.faces.offsets;
     std::vector<Index> first;
-    for (const std::vector<Index>& of_chunk : ends) {
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
         first.push_back(clusters.size());
-        clusters.faces.offsets.insert(clusters.faces.offsets.end(), of_chunk.begin(), of_chunk.end());
+        for (Index c = 0; c < grown[i].size(); ++c)
+            if (grown[i].touches_others[at(c)] == 0)
+                offsets.push_back(offsets.back() + grown[i].ends[at(c)] -
+                                  (c > 0 ? grown[i].ends[at(c) - 1] : chunks[i].begin));
     }
+    clusters.faces.values.resize(at(mesh.n_faces()));
+    std::vector<std::vector<Index>> dissolved(chunks.size());
     for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
-        for (Index f = chunks[at(i)].begin; first[at(i)] > 0 && f < chunks[at(i)].end; ++f)
-            clusters.cluster_of[at(f)] += first[at(i)];
+        Index number = first[at(i)];
+        Index begin = chunks[at(i)].begin;
+        for (Index c = 0; c < grown[at(i)].size(); ++c) {
+            const Index end = grown[at(i)].ends[at(c)];
+            const bool is_kept = grown[at(i)].touches_others[at(c)] == 0;
+            for (Index place = begin; place < end; ++place)
+                clusters.cluster_of[at(faces[at(place)])] = is_kept ? number : -1;
+            if (is_kept)
+                std::copy(faces.begin() + begin, faces.begin() + end,
+                          clusters.faces.values.begin() + offsets[at(number++)]);
+            else
+                dissolved[at(i)].insert(dissolved[at(i)].end(), faces.begin() + begin, faces.begin() + end);
+            begin = end;
+        }
     });
+    ClusterGrower grower(mesh, topology, weight, {0, mesh.n_faces()}, clusters.size(), offsets.back(),
+                         clusters.cluster_of, clusters.faces.values);
+    for (const std::vector<Index>& seeds : dissolved)
+        for (const Index f : seeds)
+            grower.grow_around(f);
+    offsets.insert(offsets.end(), grower.grown().ends.begin(), grower.grown().ends.end());
     return clusters;
 }
 

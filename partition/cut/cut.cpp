@@ -100,7 +100,7 @@ void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
 
 }  // namespace
 
-Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop)
+Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop, const Alongside& alongside)
 {
     if (k < 1)
         throw OptionError("the number of parts is " + std::to_string(k) + ", but must be at least 1");
@@ -112,16 +112,23 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
     const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
     const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
-    const GraphComponents components = graph_components(graph);
-    auto part = divide(graph, components, n_parts, afterwards);
-    if (weight > 1)
-        refine(graph, count_parts(part), part);
+    GraphComponents components;
+    std::vector<Index> part;
+    alongside([&] {
+        components = graph_components(graph);
+        part = divide(graph, components, n_parts, afterwards);
+        if (weight > 1)
+            refine(graph, count_parts(part), part);
+    });
 
     Cut cut = uncut(mesh);
     for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(clusters.cluster_of[at(f)])]; });
-    if (weight > 1)
-        shorten_seams(mesh, topology, count_parts(cut.labels), cut.labels, loop);
-    cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
+    if (weight > 1) {
+        const Doubts doubts = shorten_seams(mesh, topology, compact_labels(cut.labels), cut.labels, loop);
+        cut.repaired_faces = repair_where_doubtful(mesh, topology, doubts, cut.labels, loop);
+    } else {
+        cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
+    }
     cut.n_parts = count_parts(cut.labels);
     remark_on_number(mesh, k, components.count, cut);
     return cut;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,11 +27,22 @@ struct Cut {
 /// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
 inline constexpr Index min_faces_per_part = 12;
 
+/// Runs what takes but one thread: a caller who has others, and work for them that does not need the cut, passes one
+/// that does both at once.
+using Alongside = std::function<void(const std::function<void()>& serial)>;
+
+inline void run_alone(const std::function<void()>& serial)
+{
+    serial();
+}
+
 /// Cuts a mesh into k parts of about equal numbers of unknowns with short interfaces. k = 1: all faces have label 0,
 /// even where the mesh has several connected components. k > 1: every part lies within one component, so that there are
 /// at least as many parts as components; there may be fewer than k on a small mesh. A remark says when it is not k.
+/// @param alongside is given METIS's part of the work, once; not where there is none.
 /// @throws OptionError if k < 1, ComputationError if METIS fails.
-Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop = run_serially);
+Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop = run_serially,
+             const Alongside& alongside = run_alone);
 
 /// Cuts a mesh as given. Gaps in the labels are closed, keeping their order, and parts that are no manifolds with
 /// boundary are repaired (see repair); remarks tell of both. If all labels are equal the mesh is not cut at all.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "partition/index.h"
 
@@ -52,6 +53,22 @@ struct Arc {
     friend auto operator<=>(const Arc&, const Arc&) = default;
 };
 
+/// Of a cluster's arcs so far, how many are looked through for one that an edge belongs to: clusters have about six
+/// neighbours.
+constexpr std::ptrdiff_t most_looked_through = 8;
+
+/// Adds an edge to one of the latest arcs, or as a new one; later ones may have the same target. Numbers of edges add
+/// up to the same bits in any order.
+void count_edge(Index target, std::ptrdiff_t begin, std::vector<Arc>& arcs)
+{
+    const auto first = arcs.begin() + std::max(begin, std::ssize(arcs) - most_looked_through);
+    const auto arc = std::find_if(first, arcs.end(), [&](const Arc& a) { return a.target == target; });
+    if (arc != arcs.end())
+        arc->length += 1.0;
+    else
+        arcs.push_back({target, 1.0});
+}
+
 /// Appends the arcs of a cluster, ascending, with the lengths of all edges shared with the same other cluster added up.
 void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters, ArcMeasure measure,
                  Index cluster, std::vector<Arc>& arcs)
@@ -61,8 +78,12 @@ void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceCl
         for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
             const Index twin = topology.twin[at(h)];
             const Index target = twin < 0 ? cluster : clusters.cluster_of[at(topology.face_of[at(twin)])];
-            if (target != cluster)
-                arcs.push_back({target, measure == ArcMeasure::Length ? edge_length(mesh, topology, h) : 1.0});
+            if (target == cluster)
+                continue;
+            if (measure == ArcMeasure::Count)
+                count_edge(target, begin, arcs);
+            else
+                arcs.push_back({target, edge_length(mesh, topology, h)});
         }
     std::sort(arcs.begin() + begin, arcs.end());
     auto last = arcs.begin() + begin;

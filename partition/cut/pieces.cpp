@@ -189,6 +189,8 @@ std::vector<Index> LoosePieces::join()
 std::vector<Index> join_loose_pieces(const PolygonMesh& mesh, const Topology& topology,
                                      const std::vector<bool>& suspects, std::vector<Index>& labels, const Loop& loop)
 {
+    if (std::find(suspects.begin(), suspects.end(), true) == suspects.end())
+        return {};
     LoosePieces pieces(mesh, topology, labels, suspects.size());
     pieces.find(suspects, loop);
     return pieces.join();

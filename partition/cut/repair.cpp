@@ -1,5 +1,6 @@
 #include "partition/cut/repair.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "partition/cut/compact.h"
@@ -49,16 +50,48 @@ class VertexQueue {
     std::vector<Index> vertices_;
 };
 
+/// What to look at first.
+struct Suspects {
+    /// See join_loose_pieces.
+    std::vector<bool> parts;
+    /// All that may be pinched, ascending.
+    std::vector<Index> vertices;
+};
+
+Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
+                     const std::vector<Index>& labels, const Loop& loop)
+{
+    return {
+        .parts = std::vector<bool>(at(n_labels), true),
+        .vertices = select(loop, mesh.n_vertices(),
+                           [&](Index v) { return may_be_pinched(mesh, topology, labels, v); }),
+    };
+}
+
+Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Doubts& doubts,
+                     const std::vector<Index>& labels, const Loop& loop)
+{
+    VertexQueue corners(mesh.n_vertices(), {});
+    corners.add_corners_of(mesh, doubts.faces);
+    const std::vector<Index> vertices = corners.take();
+    Suspects suspects{.parts = doubts.parts, .vertices = {}};
+    for (const Index i : select(loop, static_cast<Index>(vertices.size()), [&](Index k) {
+             return may_be_pinched(mesh, topology, labels, vertices[at(k)]);
+         }))
+        suspects.vertices.push_back(vertices[at(i)]);
+    std::ranges::sort(suspects.vertices);
+    return suspects;
+}
+
 /// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
 /// @returns whether no vertex is pinched any more.
-bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
+bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects found, std::vector<Index>& labels,
                     const Loop& loop)
 {
+    auto& suspects = found.parts;
+    const auto n_labels = static_cast<Index>(suspects.size());
     PinchMender mender(mesh, topology, labels, n_labels);
-    const auto candidates =
-        select(loop, mesh.n_vertices(), [&](Index v) { return may_be_pinched(mesh, topology, labels, v); });
-    VertexQueue queue(mesh.n_vertices(), candidates);
-    std::vector<bool> suspects(at(n_labels), true);
+    VertexQueue queue(mesh.n_vertices(), std::move(found.vertices));
     for (int round = 0;; ++round) {
         queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));
         if (round == max_rounds)
@@ -77,12 +110,13 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Index n_l
     }
 }
 
-/// @param labels from 0 to n_labels - 1, each within one component.
+/// @param suspects their parts are those of all labels, each within one component.
 /// @returns the number of faces whose labels differ from `before`.
-Index mend(const PolygonMesh& mesh, const Topology& topology, Index n_labels, const std::vector<Index>& before,
+Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const std::vector<Index>& before,
            std::vector<Index>& labels, const Loop& loop)
 {
-    if (!mend_in_rounds(mesh, topology, n_labels, labels, loop))
+    const auto n_labels = static_cast<Index>(suspects.parts.size());
+    if (!mend_in_rounds(mesh, topology, std::move(suspects), labels, loop))
         merge_pinched(mesh, topology, n_labels, labels);
     Index n_moved = 0;
     for (std::size_t f = 0; f < labels.size(); ++f)
@@ -98,7 +132,7 @@ Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Inde
     Index n_labels = compact_labels(labels);
     const std::vector<Index> before = labels;
     n_labels = split_by_component(mesh, topology, n_labels, labels);
-    return mend(mesh, topology, n_labels, before, labels, loop);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
 }
 
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
@@ -106,7 +140,14 @@ Index repair_within_components(const PolygonMesh& mesh, const Topology& topology
 {
     const Index n_labels = compact_labels(labels);
     const std::vector<Index> before = labels;
-    return mend(mesh, topology, n_labels, before, labels, loop);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
+}
+
+Index repair_where_doubtful(const PolygonMesh& mesh, const Topology& topology, const Doubts& doubts,
+                            std::vector<Index>& labels, const Loop& loop)
+{
+    const std::vector<Index> before = labels;
+    return mend(mesh, topology, suspects_of(mesh, topology, doubts, labels, loop), before, labels, loop);
 }
 
 }  // namespace seamflow

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "partition/cut/doubts.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -22,5 +23,10 @@ Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Inde
 /// The same for a cut of which each part is known to lie within one connected component of the mesh.
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
                                const Loop& loop = run_serially);
+
+/// The same for a cut that is known to have no defects elsewhere than where there are doubts.
+/// @param labels #F, from 0 to n_parts - 1 without gaps.
+Index repair_where_doubtful(const PolygonMesh& mesh, const Topology& topology, const Doubts& doubts,
+                            std::vector<Index>& labels, const Loop& loop = run_serially);
 
 }  // namespace seamflow

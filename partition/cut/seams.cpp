@@ -32,6 +32,7 @@ class SeamShortener {
         , labels_(labels)
         , weight_(at(n_labels), 0)
         , shared_(at(n_labels), 0)
+        , may_be_in_pieces_(at(n_labels), false)
     {
         std::int64_t total = 0;
         for (Index f = 0; f < mesh.n_faces(); ++f) {
@@ -64,6 +65,9 @@ class SeamShortener {
         for (const Index label : candidates_)
             if (label != own && may_move(f, own, label) && is_better(f, label, best))
                 best = label;
+        // A face with one edge to its part leaves the rest of it connected.
+        if (best != own && shared_[at(own)] > 1)
+            may_be_in_pieces_[at(own)] = true;
         for (const Index label : candidates_)
             shared_[at(label)] = 0;
         weight_[at(own)] -= face_weight(mesh_, f);
@@ -71,6 +75,9 @@ class SeamShortener {
         labels_[at(f)] = best;
         return best != own;
     }
+
+    /// One entry per label: whether faces have left the part that may have held it together.
+    [[nodiscard]] const std::vector<bool>& may_be_in_pieces() const { return may_be_in_pieces_; }
 
   private:
     [[nodiscard]] bool may_move(Index f, Index from, Index to) const
@@ -122,6 +129,7 @@ class SeamShortener {
     std::int64_t lightest_ = 0;
     /// One entry per label, 0 between faces: how many edges the face in hand shares with the part.
     std::vector<Index> shared_;
+    std::vector<bool> may_be_in_pieces_;
     std::vector<Index> candidates_;
 };
 
@@ -141,13 +149,14 @@ std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<In
                   [&](Index v) { return is_mixed(topology, labels, v); });
 }
 
-void shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
-                   const Loop& loop)
+Doubts shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
+                     const Loop& loop)
 {
     if (n_labels < 2)
-        return;
+        return {.parts = std::vector<bool>(at(n_labels), false), .faces = {}};
     SeamShortener shortener(mesh, topology, n_labels, labels);
     auto faces = select(loop, mesh.n_faces(), [&](Index f) { return shortener.is_beside_seam(f); });
+    std::vector<Index> doubtful = faces;
     for (int round = 0; round < max_rounds && !faces.empty(); ++round) {
         // Only around faces that have moved may others follow.
         std::vector<Index> next;
@@ -157,7 +166,9 @@ void shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_la
         std::sort(next.begin(), next.end());
         next.erase(std::unique(next.begin(), next.end()), next.end());
         faces = std::move(next);
+        doubtful.insert(doubtful.end(), faces.begin(), faces.end());
     }
+    return {.parts = shortener.may_be_in_pieces(), .faces = std::move(doubtful)};
 }
 
 }  // namespace seamflow
