@@ -1,40 +1,29 @@
 #include "partition/decomposition/local_mesh.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace seamflow {
 
 namespace {
 
-std::size_t count_corners(const PolygonMesh& mesh, std::span<const Index> faces)
-{
-    std::size_t n = 0;
-    for (const Index f : faces)
-        n += mesh.face(f).size();
-    return n;
-}
-
-/// Numbers the vertices as they are met, then in the order of their global indices.
-void copy_vertices(const PolygonMesh& mesh, std::size_t n_corners, SubMeshDraft& draft)
+/// Numbers the vertices in the order of their global indices.
+void copy_vertices(const PolygonMesh& mesh, SubMeshDraft& draft)
 {
     SubMesh& sub_mesh = draft.sub_mesh;
     auto& [offsets, corners] = sub_mesh.face_vertices;
     offsets.reserve(sub_mesh.faces.size() + 1);
-    corners.reserve(n_corners);
-    std::vector<Index> met;
-    for (const Index f : sub_mesh.faces) {
-        for (const Index v : mesh.face(f))
-            corners.push_back(draft.vertices.position_or_append(v, met));
-        sub_mesh.face_vertices.close();
-    }
-    sub_mesh.n_vertices = static_cast<Index>(met.size());
-    sub_mesh.local_to_global = met;
-    std::sort(sub_mesh.local_to_global.begin(), sub_mesh.local_to_global.end());
-    draft.vertices.set_positions(sub_mesh.local_to_global);
-    std::transform(met.begin(), met.end(), met.begin(), [&](Index v) { return draft.vertices[v]; });
+    for (const Index f : sub_mesh.faces)
+        offsets.push_back(offsets.back() + static_cast<Index>(mesh.face(f).size()));
+    corners.reserve(at(offsets.back()));
+    for (const Index f : sub_mesh.faces)
+        corners.insert(corners.end(), mesh.face(f).begin(), mesh.face(f).end());
+    draft.vertices = IndexSet(corners);
+    sub_mesh.local_to_global = draft.vertices.ascending();
+    sub_mesh.n_vertices = static_cast<Index>(sub_mesh.local_to_global.size());
     for (Index& corner : corners)
-        corner = met[at(corner)];
+        corner = draft.vertices[corner];
 }
 
 /// A pair of half-edges is found once, from the first of its faces.
@@ -110,15 +99,11 @@ void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v,
 
 SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> faces)
 {
-    const std::size_t n_corners = count_corners(mesh, faces);
-    // Of triangles there are twice as many as vertices, of other faces fewer. Both tables are made before the
-    // aggregate: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
-    PositionTable vertices(n_corners / 4);
-    PositionTable of_faces(faces.size());
-    SubMeshDraft draft{.sub_mesh = {}, .vertices = std::move(vertices), .faces = std::move(of_faces)};
-    draft.faces.insert_list(faces);
+    // Made before the aggregate: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    IndexSet of_faces(faces);
+    SubMeshDraft draft{.sub_mesh = {}, .vertices = {}, .halo = {}, .faces = std::move(of_faces)};
     draft.sub_mesh.faces = std::move(faces);
-    copy_vertices(mesh, n_corners, draft);
+    copy_vertices(mesh, draft);
     copy_twins(mesh, topology, draft);
     mark_fixed(topology, draft.sub_mesh);
     return draft;
@@ -126,23 +111,23 @@ SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::
 
 void append_halo(std::span<const Index> vertices, SubMeshDraft& draft)
 {
+    std::vector<Index> others;
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(others),
+                 [&](Index v) { return draft.vertices[v] < 0; });
+    draft.halo = IndexSet(others);
+    const std::vector<Index>& halo = draft.halo.ascending();
     auto& local_to_global = draft.sub_mesh.local_to_global;
-    for (const Index v : vertices)
-        if (draft.vertices.insert(v))
-            local_to_global.push_back(v);
-    local_to_global.shrink_to_fit();
-    const auto halo = std::span(local_to_global).subspan(at(draft.sub_mesh.n_vertices));
-    std::sort(halo.begin(), halo.end());
-    draft.vertices.set_positions(halo, draft.sub_mesh.n_vertices);
+    local_to_global.reserve(local_to_global.size() + halo.size());
+    local_to_global.insert(local_to_global.end(), halo.begin(), halo.end());
     draft.sub_mesh.n_halo = static_cast<Index>(halo.size());
 }
 
 void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& draft)
 {
     auto& seam = draft.sub_mesh.seam;
-    seam.vertices.push_back(draft.vertices[v]);
+    seam.vertices.push_back(draft.local(v));
     for (const Index neighbour : neighbours)
-        seam.neighbours.values.push_back(draft.vertices[neighbour]);
+        seam.neighbours.values.push_back(draft.local(neighbour));
     seam.neighbours.close();
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "partition/decomposition/position_table.h"
+#include "partition/decomposition/index_set.h"
 #include "partition/decomposition/sub_mesh.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -29,9 +29,17 @@ void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v,
 /// A sub-mesh in the making, and where things are in it.
 struct SubMeshDraft {
     SubMesh sub_mesh;
-    /// Local indices, those of the halo included.
-    PositionTable vertices;
-    PositionTable faces;
+    /// The own vertices, those of the halo, and the faces, as in the whole mesh.
+    IndexSet vertices;
+    IndexSet halo;
+    IndexSet faces;
+
+    /// The local index of a vertex of the sub-mesh or its halo.
+    [[nodiscard]] Index local(Index v) const
+    {
+        const Index own = vertices[v];
+        return own >= 0 ? own : sub_mesh.n_vertices + halo[v];
+    }
 };
 
 /// A sub-mesh of the given faces with its vertices, their fixedness, and its half-edges; nothing of other sub-meshes

@@ -49,18 +49,15 @@ void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_
     }
 }
 
-/// The faces of other sub-meshes that touch Γ, as indices into the whole mesh, and where they are in this list.
-std::vector<Index> list_halo_faces(const Whole& whole, const SubMesh& sub_mesh, PositionTable& positions)
+/// The faces of other sub-meshes that touch Γ, as indices into the whole mesh.
+IndexSet list_halo_faces(const Whole& whole, const SubMesh& sub_mesh)
 {
     std::vector<Index> faces;
     for (const Index i : sub_mesh.interface.vertices)
         for (const Index corner : whole.topology.corners_at(sub_mesh.local_to_global[at(i)]))
-            if (const Index f = whole.topology.face_of[at(corner)];
-                whole.labels[at(f)] != whole.own && positions.insert(f))
+            if (const Index f = whole.topology.face_of[at(corner)]; whole.labels[at(f)] != whole.own)
                 faces.push_back(f);
-    std::sort(faces.begin(), faces.end());
-    positions.set_positions(faces);
-    return faces;
+    return IndexSet(faces);
 }
 
 void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_faces, SubMeshDraft& draft)
@@ -72,13 +69,13 @@ void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_fa
     append_halo(vertices, draft);
     for (const Index f : halo_faces) {
         for (const Index v : mesh.face(f))
-            lists.values.push_back(draft.vertices[v]);
+            lists.values.push_back(draft.local(v));
         lists.close();
     }
 }
 
 /// Fans and neighbours at one vertex of Γ.
-void describe_interface_vertex(const Whole& whole, const PositionTable& halo_faces, Index v,
+void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, Index v,
                                std::vector<Index>& neighbours, SubMeshDraft& draft)
 {
     auto& interface = draft.sub_mesh.interface;
@@ -120,11 +117,11 @@ SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::sp
     mark_owned(whole, shared, sub_mesh);
     std::copy_if(shared.begin(), shared.end(), std::back_inserter(sub_mesh.interface.vertices),
                  [&](Index i) { return sub_mesh.fixed[at(i)] == 0; });
-    PositionTable halo_positions(2 * sub_mesh.interface.vertices.size());
-    localise_halo_faces(mesh, list_halo_faces(whole, sub_mesh, halo_positions), draft);
+    const IndexSet halo_faces = list_halo_faces(whole, sub_mesh);
+    localise_halo_faces(mesh, halo_faces.ascending(), draft);
     std::vector<Index> neighbours;
     for (const Index i : sub_mesh.interface.vertices)
-        describe_interface_vertex(whole, halo_positions, sub_mesh.local_to_global[at(i)], neighbours, draft);
+        describe_interface_vertex(whole, halo_faces, sub_mesh.local_to_global[at(i)], neighbours, draft);
     auto& interface = sub_mesh.interface;
     for (auto* list : {&interface.vertices, &interface.before, &interface.after, &sub_mesh.seam.vertices})
         list->shrink_to_fit();

@@ -45,6 +45,12 @@ TransferRow sender_of(const Decomposition& decomposition, std::span<const Index>
     return {-1, -1, -1};
 }
 
+/// The lowest of the sub-meshes at a vertex of Γ other than s.
+Index lowest_but(Index s, std::span<const Index> sharing)
+{
+    return sharing[0] == s ? sharing[1] : sharing[0];
+}
+
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
     const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
@@ -59,6 +65,8 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                     continue;
                 // The lowest of all, whichever vertex of Γ comes first: numbers of vertices decide nothing.
                 TransferRow& sender = senders[at(v - sub_mesh.n_vertices)];
+                if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
+                    continue;
                 if (const TransferRow found = sender_of(decomposition, interface.sharing[i], s, v);
                     sender.from < 0 || (found.from >= 0 && found.from < sender.from))
                     sender = found;

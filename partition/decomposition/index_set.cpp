@@ -1,0 +1,63 @@
+#include "partition/decomposition/index_set.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace seamflow {
+
+namespace {
+
+/// With at most so many indices from the first value to the last for each value, they lie together.
+constexpr std::size_t most_indices_per_value = 64;
+
+}  // namespace
+
+IndexSet::IndexSet(std::span<const Index> values)
+{
+    if (values.empty())
+        return;
+    Index last = first_ = values.front();
+    for (const Index value : values) {
+        first_ = std::min(first_, value);
+        last = std::max(last, value);
+    }
+    const std::size_t width = at(last) - at(first_) + 1;
+    if (width <= most_indices_per_value * values.size())
+        fill_window(values, width);
+    else
+        fill_slots(values);
+}
+
+void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
+{
+    words_.assign(width / bits_per_word + 1, 0);
+    for (const Index value : values) {
+        const std::size_t offset = at(value) - at(first_);
+        words_[offset / bits_per_word] |= std::uint64_t{1} << offset % bits_per_word;
+    }
+    // What no bit is set for is never read.
+    positions_ = std::make_unique_for_overwrite<Index[]>(width);
+    ascending_.reserve(std::min(values.size(), width));
+    for (std::size_t word = 0; word < words_.size(); ++word)
+        for (std::uint64_t left = words_[word]; left != 0; left &= left - 1) {
+            const std::size_t offset = word * bits_per_word + static_cast<std::size_t>(std::countr_zero(left));
+            positions_[offset] = static_cast<Index>(ascending_.size());
+            ascending_.push_back(first_ + static_cast<Index>(offset));
+        }
+}
+
+void IndexSet::fill_slots(std::span<const Index> values)
+{
+    ascending_.assign(values.begin(), values.end());
+    std::sort(ascending_.begin(), ascending_.end());
+    ascending_.erase(std::unique(ascending_.begin(), ascending_.end()), ascending_.end());
+    slots_.assign(std::bit_ceil(2 * ascending_.size()), Slot{-1, -1});
+    // A shift by all bits of the product would be none.
+    if (slots_.size() < 2)
+        slots_.resize(2, Slot{-1, -1});
+    shift_ = 64 - std::countr_zero(slots_.size());
+    for (std::size_t i = 0; i < ascending_.size(); ++i)
+        slots_[slot_of(ascending_[i])] = {ascending_[i], static_cast<Index>(i)};
+}
+
+}  // namespace seamflow
