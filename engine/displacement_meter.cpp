@@ -1,6 +1,7 @@
 #include "engine/displacement_meter.h"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "engine/parallel_loop.h"
@@ -12,12 +13,6 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-DisplacementField undefined_field(Index vertices)
-{
-    return {.tangential = std::vector<double>(at(vertices), undefined),
-            .normal = std::vector<double>(at(vertices), undefined)};
-}
-
 /// To a sum that is undefined as long as nothing was added.
 void add(double& sum, double value)
 {
@@ -27,16 +22,27 @@ void add(double& sum, double value)
 }  // namespace
 
 DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& topology)
-    : normals_(mesh, topology)
-    , normal_(mesh.n_vertices(), 3)
-    , drift_(Points::Zero(mesh.n_vertices(), 3))
-    , path_(undefined_field(mesh.n_vertices()))
+    : mesh_(mesh)
+    , normals_(mesh, topology, run_in_parallel)
 {
-    measure_normals(mesh.vertices);
+}
+
+/// No vertex has moved.
+void DisplacementMeter::begin(const Points& positions)
+{
+    const auto n = static_cast<std::size_t>(positions.rows());
+    const std::function<void()> parts[] = {
+        [&] { drift_ = Points::Zero(positions.rows(), 3); },
+        [&] { path_.tangential.assign(n, undefined); },
+        [&] { path_.normal.assign(n, undefined); },
+    };
+    for_each(run_in_parallel, 3, [&](Index part) { parts[part](); });
+    measure_normals(positions);
 }
 
 void DisplacementMeter::measure_normals(const Points& positions)
 {
+    normal_.resize(positions.rows(), 3);
     for_each(run_in_parallel, static_cast<Index>(positions.rows()),
              [&](Index v) { normal_.row(v) = normals_(v, positions); });
 }
@@ -48,8 +54,8 @@ DisplacementSums DisplacementMeter::sums() const
 
 void DisplacementMeter::restore(const DisplacementSums& sums, const Points& now)
 {
-    if (sums.drift.rows() != drift_.rows() || sums.tangential.size() != path_.tangential.size() ||
-        sums.normal.size() != path_.normal.size())
+    const std::size_t n = at(mesh_.n_vertices());
+    if (sums.drift.rows() != mesh_.n_vertices() || sums.tangential.size() != n || sums.normal.size() != n)
         throw InputError("the displacements to go on from are not those of this mesh");
     drift_ = sums.drift;
     path_ = {.tangential = sums.tangential, .normal = sums.normal};
@@ -62,6 +68,8 @@ DisplacementStatistics DisplacementMeter::add_step(const Points& before, const P
         LengthSums tangential;
         LengthSums normal;
     };
+    if (normal_.rows() == 0)
+        begin(before);
     const auto n = static_cast<Index>(after.rows());
     std::vector<Sums> of_block(at(n / block_size) + 1);
     for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {

@@ -12,11 +12,11 @@ namespace seamflow {
 /// parallel, sums in order: the bits do not depend on the number of threads.
 class DisplacementMeter {
   public:
-    /// @param mesh in its state before the first step; it and its topology must outlive the meter.
+    /// @param mesh it and its topology must outlive the meter.
     DisplacementMeter(const PolygonMesh& mesh, const Topology& topology);
 
     /// Takes account of one step.
-    /// @param before, after #V by 3.
+    /// @param before, after #V by 3; `before` is `after` of the last step, if there was one.
     DisplacementStatistics add_step(const Points& before, const Points& after);
 
     /// Of all steps so far.
@@ -29,10 +29,13 @@ class DisplacementMeter {
     void restore(const DisplacementSums& sums, const Points& now);
 
   private:
+    void begin(const Points& positions);
     void measure_normals(const Points& positions);
 
+    const PolygonMesh& mesh_;
     VertexNormals normals_;
-    /// #V by 3: unit normals of the latest state, and the sums of the tangential parts.
+    /// All empty before the first step. #V by 3: unit normals of the latest state, and the sums of the tangential
+    /// parts.
     Points normal_;
     Points drift_;
     /// The sums of the lengths of both parts over those steps where they are defined.

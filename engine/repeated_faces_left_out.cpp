@@ -12,6 +12,8 @@ namespace seamflow {
 RepeatedFacesLeftOut::RepeatedFacesLeftOut(PolygonMesh& mesh, const Topology& topology, FlowOptions& options)
     : mesh_(&mesh)
 {
+    if (std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
+        return;
     const auto is_suspicious = [&](Index v) { return topology.kind[at(v)] == VertexKind::NonManifold; };
     const auto candidates = select(run_in_parallel, mesh.n_faces(),
                                    [&](Index f) { return std::ranges::any_of(mesh.face(f), is_suspicious); });

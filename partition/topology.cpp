@@ -159,9 +159,13 @@ FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop)
 Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
 {
     Topology topology;
-    topology.twin.assign(mesh.face_vertices.size(), -1);
     topology.face_of = FaceOfHalfedge(mesh, loop);
-    list_corners(mesh, topology);
+    for_each(loop, 2, [&](Index one_of_both) {
+        if (one_of_both == 0)
+            list_corners(mesh, topology);
+        else
+            topology.twin.assign(mesh.face_vertices.size(), -1);
+    });
     loop(mesh.n_vertices(), [&](Index begin, Index end) {
         std::vector<Spoke> spokes;
         for (Index v = begin; v < end; ++v)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "partition/index.h"
@@ -19,14 +20,20 @@ struct Chunk {
     [[nodiscard]] bool has(Index f) const { return f >= begin && f < end; }
 };
 
-/// What has been grown.
+/// Clusters, the faces of one after those of the other in an array of all faces.
 struct Grown {
-    /// Where the faces of each cluster end.
+    /// Where the faces of the first cluster begin, and where those of each end.
+    Index begin = 0;
     std::vector<Index> ends;
     /// One entry per cluster: whether one of its edges leads to another chunk.
     std::vector<std::uint8_t> touches_others;
 
     [[nodiscard]] Index size() const { return static_cast<Index>(ends.size()); }
+    [[nodiscard]] std::span<const Index> faces_of(Index cluster, const std::vector<Index>& faces) const
+    {
+        const Index first = cluster > 0 ? ends[at(cluster) - 1] : begin;
+        return std::span(faces).subspan(at(first), at(ends[at(cluster)] - first));
+    }
 };
 
 /// Fills a chunk of the faces with clusters. Of other faces nothing is read or written.
@@ -44,6 +51,7 @@ class ClusterGrower {
         , first_(first)
         , cluster_of_(cluster_of)
         , faces_(faces)
+        , grown_{.begin = begin, .ends = {}, .touches_others = {}}
         , end_(begin)
     {
     }
@@ -152,7 +160,7 @@ class ClusterGrower {
 /// The chunks of all faces: a single one where too many edges would lead from one to another.
 std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index size)
 {
-    constexpr Index sampled = 16;
+    constexpr Index sampled = 64;
     constexpr double most_edges_across = 0.1;
     Index inner = 0;
     Index across = 0;
@@ -182,6 +190,49 @@ FaceClusters one_face_each(const PolygonMesh& mesh)
     return clusters;
 }
 
+/// Clusters without those that end where a chunk does.
+struct InnerClusters {
+    FaceClusters clusters;
+    /// The faces that are left over, whose cluster is -1, in no order that the number of threads has a say in.
+    std::vector<Index> left_over;
+};
+
+/// @param grown chunk by chunk. @param faces #F, those of the clusters; all of `cluster_of` is written anew.
+InnerClusters keep_inner(const std::vector<Grown>& grown, const std::vector<Index>& faces,
+                         std::vector<Index> cluster_of, const Loop& loop)
+{
+    InnerClusters inner;
+    FaceClusters& clusters = inner.clusters;
+    clusters.cluster_of = std::move(cluster_of);
+    clusters.faces.values.resize(faces.size());
+    std::vector<Index> first_of_chunk;
+    for (const Grown& chunk : grown) {
+        first_of_chunk.push_back(clusters.size());
+        for (Index c = 0; c < chunk.size(); ++c)
+            if (chunk.touches_others[at(c)] == 0)
+                clusters.faces.offsets.push_back(clusters.faces.offsets.back() +
+                                                 static_cast<Index>(chunk.faces_of(c, faces).size()));
+    }
+    std::vector<std::vector<Index>> left_over(grown.size());
+    for_each(loop, static_cast<Index>(grown.size()), [&](Index i) {
+        const Grown& chunk = grown[at(i)];
+        Index number = first_of_chunk[at(i)];
+        for (Index c = 0; c < chunk.size(); ++c) {
+            const auto of_cluster = chunk.faces_of(c, faces);
+            const bool is_inner = chunk.touches_others[at(c)] == 0;
+            for (const Index f : of_cluster)
+                clusters.cluster_of[at(f)] = is_inner ? number : -1;
+            if (is_inner)
+                std::ranges::copy(of_cluster, clusters.faces.values.begin() + clusters.faces.offsets[at(number++)]);
+            else
+                left_over[at(i)].insert(left_over[at(i)].end(), of_cluster.begin(), of_cluster.end());
+        }
+    });
+    for (const std::vector<Index>& of_chunk : left_over)
+        inner.left_over.insert(inner.left_over.end(), of_chunk.begin(), of_chunk.end());
+    return inner;
+}
+
 }  // namespace
 
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Loop& loop,
@@ -189,53 +240,33 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
 {
     if (weight == 1)
         return one_face_each(mesh);
+    std::vector<Index> cluster_of;
+    std::vector<Index> faces;
+    for_each(loop, 2, [&](Index one_of_both) {
+        if (one_of_both == 0)
+            cluster_of.assign(at(mesh.n_faces()), -1);
+        else
+            faces.resize(at(mesh.n_faces()));
+    });
     const std::vector<Chunk> chunks = chunks_of(mesh, topology, chunk);
     std::vector<Grown> grown(chunks.size());
-    FaceClusters clusters;
-    clusters.cluster_of.assign(at(mesh.n_faces()), -1);
-    std::vector<Index> faces(at(mesh.n_faces()));
     for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
         const Chunk& own = chunks[at(i)];
-        ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, clusters.cluster_of, faces);
+        ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, cluster_of, faces);
         for (Index f = own.begin; f < own.end; ++f)
             grower.grow_around(f);
         grown[at(i)] = grower.grown();
     });
-    // Clusters that end where a chunk does are dissolved.
-    auto& offsets = clusters.faces.offsets;
-    std::vector<Index> first;
-    for (std::size_t i = 0; i < chunks.size(); ++i) {
-        first.push_back(clusters.size());
-        for (Index c = 0; c < grown[i].size(); ++c)
-            if (grown[i].touches_others[at(c)] == 0)
-                offsets.push_back(offsets.back() + grown[i].ends[at(c)] -
-                                  (c > 0 ? grown[i].ends[at(c) - 1] : chunks[i].begin));
-    }
-    clusters.faces.values.resize(at(mesh.n_faces()));
-    std::vector<std::vector<Index>> dissolved(chunks.size());
-    for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
-        Index number = first[at(i)];
-        Index begin = chunks[at(i)].begin;
-        for (Index c = 0; c < grown[at(i)].size(); ++c) {
-            const Index end = grown[at(i)].ends[at(c)];
-            const bool is_kept = grown[at(i)].touches_others[at(c)] == 0;
-            for (Index place = begin; place < end; ++place)
-                clusters.cluster_of[at(faces[at(place)])] = is_kept ? number : -1;
-            if (is_kept)
-                std::copy(faces.begin() + begin, faces.begin() + end,
-                          clusters.faces.values.begin() + offsets[at(number++)]);
-            else
-                dissolved[at(i)].insert(dissolved[at(i)].end(), faces.begin() + begin, faces.begin() + end);
-            begin = end;
-        }
-    });
-    ClusterGrower grower(mesh, topology, weight, {0, mesh.n_faces()}, clusters.size(), offsets.back(),
+
+    auto [clusters, left_over] = keep_inner(grown, faces, std::move(cluster_of), loop);
+    const Chunk all{0, mesh.n_faces()};
+    ClusterGrower grower(mesh, topology, weight, all, clusters.size(), clusters.faces.offsets.back(),
                          clusters.cluster_of, clusters.faces.values);
-    for (const std::vector<Index>& seeds : dissolved)
-        for (const Index f : seeds)
-            grower.grow_around(f);
-    offsets.insert(offsets.end(), grower.grown().ends.begin(), grower.grown().ends.end());
-    return clusters;
+    for (const Index f : left_over)
+        grower.grow_around(f);
+    const auto& ends = grower.grown().ends;
+    clusters.faces.offsets.insert(clusters.faces.offsets.end(), ends.begin(), ends.end());
+    return std::move(clusters);
 }
 
 }  // namespace seamflow

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "partition/index.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -53,38 +55,9 @@ struct Arc {
     friend auto operator<=>(const Arc&, const Arc&) = default;
 };
 
-/// Of a cluster's arcs so far, how many are looked through for one that an edge belongs to: clusters have about six
-/// neighbours.
-constexpr std::ptrdiff_t most_looked_through = 8;
-
-/// Adds an edge to one of the latest arcs, or as a new one; later ones may have the same target. Numbers of edges add
-/// up to the same bits in any order.
-void count_edge(Index target, std::ptrdiff_t begin, std::vector<Arc>& arcs)
+/// Makes one of the arcs with the same target, from `begin` on, their lengths added up, and sorts them.
+void add_up(std::ptrdiff_t begin, std::vector<Arc>& arcs)
 {
-    const auto first = arcs.begin() + std::max(begin, std::ssize(arcs) - most_looked_through);
-    const auto arc = std::find_if(first, arcs.end(), [&](const Arc& a) { return a.target == target; });
-    if (arc != arcs.end())
-        arc->length += 1.0;
-    else
-        arcs.push_back({target, 1.0});
-}
-
-/// Appends the arcs of a cluster, ascending, with the lengths of all edges shared with the same other cluster added up.
-void append_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters, ArcMeasure measure,
-                 Index cluster, std::vector<Arc>& arcs)
-{
-    const auto begin = static_cast<std::ptrdiff_t>(arcs.size());
-    for (const Index f : clusters.faces[cluster])
-        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
-            const Index twin = topology.twin[at(h)];
-            const Index target = twin < 0 ? cluster : clusters.cluster_of[at(topology.face_of[at(twin)])];
-            if (target == cluster)
-                continue;
-            if (measure == ArcMeasure::Count)
-                count_edge(target, begin, arcs);
-            else
-                arcs.push_back({target, edge_length(mesh, topology, h)});
-        }
     std::sort(arcs.begin() + begin, arcs.end());
     auto last = arcs.begin() + begin;
     for (auto arc = last; arc != arcs.end(); ++arc)
@@ -102,19 +75,98 @@ struct BlockOfArcs {
     std::vector<Index> counts;
 };
 
-std::vector<BlockOfArcs> list_arcs(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
-                                   ArcMeasure measure, const Loop& loop)
+/// Calls append(node, arcs), which appends the arcs of a node with repetitions, for all nodes.
+template <class Append>
+std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Loop& loop, Append&& append)
 {
-    std::vector<BlockOfArcs> blocks(at(clusters.size() / block_size) + 1);
-    for_each_block(loop, clusters.size(), [&](Index b, Index begin, Index end) {
+    std::vector<BlockOfArcs> blocks(at(n_nodes / block_size) + 1);
+    for_each_block(loop, n_nodes, [&](Index b, Index begin, Index end) {
         BlockOfArcs& block = blocks[at(b)];
-        for (Index cluster = begin; cluster < end; ++cluster) {
-            const std::size_t before = block.arcs.size();
-            append_arcs(mesh, topology, clusters, measure, cluster, block.arcs);
-            block.counts.push_back(static_cast<Index>(block.arcs.size() - before));
+        for (Index node = begin; node < end; ++node) {
+            const auto before = std::ssize(block.arcs);
+            append(node, block.arcs);
+            add_up(before, block.arcs);
+            block.counts.push_back(static_cast<Index>(std::ssize(block.arcs) - before));
         }
     });
     return blocks;
+}
+
+std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topology& topology,
+                                             const FaceClusters& clusters, const Loop& loop)
+{
+    return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
+        for (const Index f : clusters.faces[cluster])
+            for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
+                const Index twin = topology.twin[at(h)];
+                const Index target = twin < 0 ? cluster : clusters.cluster_of[at(topology.face_of[at(twin)])];
+                if (target != cluster)
+                    arcs.push_back({target, edge_length(mesh, topology, h)});
+            }
+    });
+}
+
+/// Two clusters on either side of an edge.
+struct ClusterPair {
+    Index low;
+    Index high;
+};
+
+/// The pairs at all edges between clusters, block by block of the faces. Whether there is one at a half-edge is hard to
+/// foresee: each is written down, and most are written over.
+std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, const Topology& topology,
+                                                     const FaceClusters& clusters, const Loop& loop)
+{
+    std::vector<std::vector<ClusterPair>> blocks(at(mesh.n_faces() / block_size) + 1);
+    for_each_block(loop, mesh.n_faces(), [&](Index b, Index begin, Index end) {
+        std::vector<ClusterPair> found(at(mesh.face_offsets[at(end)] - mesh.face_offsets[at(begin)]));
+        std::size_t n = 0;
+        for (Index f = begin; f < end; ++f) {
+            const Index own = clusters.cluster_of[at(f)];
+            for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
+                const Index twin = topology.twin[at(h)];
+                const Index other = clusters.cluster_of[at(topology.face_of[at(twin < 0 ? h : twin)])];
+                found[n] = {own, other};
+                n += own < other ? 1 : 0;
+            }
+        }
+        blocks[at(b)].assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n));
+    });
+    return blocks;
+}
+
+std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topology& topology,
+                                            const FaceClusters& clusters, const Loop& loop)
+{
+    const auto blocks = list_cut_edges(mesh, topology, clusters, loop);
+    const auto for_each_pair = [&](auto use) {
+        for (const auto& pairs : blocks)
+            for (const ClusterPair& pair : pairs) {
+                use(pair.low, pair.high);
+                use(pair.high, pair.low);
+            }
+    };
+    IndexLists neighbours;
+    auto& [offsets, targets] = neighbours;
+    // Every node's beginning moves on to its end, which is where the next one begins.
+    offsets.assign(at(clusters.size()) + 2, 0);
+    for_each_pair([&](Index node, Index) { ++offsets[at(node) + 2]; });
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    targets.resize(at(offsets.back()));
+    for_each_pair([&](Index node, Index target) { targets[at(offsets[at(node) + 1]++)] = target; });
+    offsets.pop_back();
+    // As plain numbers: those of a cluster are five times as many as its arcs.
+    for_each(loop, clusters.size(), [&](Index cluster) {
+        std::sort(targets.begin() + offsets[at(cluster)], targets.begin() + offsets[at(cluster) + 1]);
+    });
+    return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
+        const auto begin = std::ssize(arcs);
+        for (const Index target : neighbours[cluster])
+            if (std::ssize(arcs) > begin && arcs.back().target == target)
+                arcs.back().length += 1.0;
+            else
+                arcs.push_back({target, 1.0});
+    });
 }
 
 }  // namespace
@@ -124,7 +176,9 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
 {
     FaceGraph graph;
     std::vector<double> lengths;
-    for (const BlockOfArcs& block : list_arcs(mesh, topology, clusters, measure, loop)) {
+    for (const BlockOfArcs& block : measure == ArcMeasure::Count
+                                        ? list_arcs_by_count(mesh, topology, clusters, loop)
+                                        : list_arcs_by_length(mesh, topology, clusters, loop)) {
         for (const Index count : block.counts)
             graph.offsets.push_back(graph.offsets.back() + count);
         for (const Arc& arc : block.arcs) {

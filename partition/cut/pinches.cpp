@@ -1,6 +1,7 @@
 #include "partition/cut/pinches.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "partition/cut/seams.h"
 #include "partition/index.h"
@@ -14,15 +15,18 @@ bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std
     if (topology.kind[at(v)] != VertexKind::Interior)
         return true;
     const auto label_of = [&](Index halfedge) { return labels[at(topology.face_of[at(halfedge)])]; };
-    std::vector<Index> around;
+    const auto corners = topology.corners_at(v);
     std::size_t n_half_joints = 0;
-    for (const Index corner : topology.corners_at(v)) {
-        around.push_back(label_of(corner));
+    for (const Index corner : corners)
         for (const Index spoke : {corner, topology.previous(mesh, corner)})
-            n_half_joints += label_of(topology.twin[at(spoke)]) == around.back() ? 1 : 0;
-    }
+            n_half_joints += label_of(topology.twin[at(spoke)]) == label_of(corner) ? 1 : 0;
     // Each fan has one face more than edges between two of its faces.
-    const std::size_t n_fans = around.size() - n_half_joints / 2;
+    const std::size_t n_fans = corners.size() - n_half_joints / 2;
+    // There are two labels at least: with one fan each, none is pinched.
+    if (n_fans == 2)
+        return false;
+    std::vector<Index> around;
+    std::ranges::transform(corners, std::back_inserter(around), label_of);
     std::sort(around.begin(), around.end());
     return n_fans > static_cast<std::size_t>(std::unique(around.begin(), around.end()) - around.begin());
 }

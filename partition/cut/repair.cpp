@@ -63,8 +63,7 @@ Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_
 {
     return {
         .parts = std::vector<bool>(at(n_labels), true),
-        .vertices = select(loop, mesh.n_vertices(),
-                           [&](Index v) { return may_be_pinched(mesh, topology, labels, v); }),
+        .vertices = select(loop, mesh.n_vertices(), [&](Index v) { return may_be_pinched(mesh, topology, labels, v); }),
     };
 }
 
@@ -75,9 +74,8 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Do
     corners.add_corners_of(mesh, doubts.faces);
     const std::vector<Index> vertices = corners.take();
     Suspects suspects{.parts = doubts.parts, .vertices = {}};
-    for (const Index i : select(loop, static_cast<Index>(vertices.size()), [&](Index k) {
-             return may_be_pinched(mesh, topology, labels, vertices[at(k)]);
-         }))
+    for (const Index i : select(loop, static_cast<Index>(vertices.size()),
+                                [&](Index k) { return may_be_pinched(mesh, topology, labels, vertices[at(k)]); }))
         suspects.vertices.push_back(vertices[at(i)]);
     std::ranges::sort(suspects.vertices);
     return suspects;
@@ -89,6 +87,8 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
                     const Loop& loop)
 {
     auto& suspects = found.parts;
+    if (found.vertices.empty() && std::ranges::find(suspects, true) == suspects.end())
+        return true;
     const auto n_labels = static_cast<Index>(suspects.size());
     PinchMender mender(mesh, topology, labels, n_labels);
     VertexQueue queue(mesh.n_vertices(), std::move(found.vertices));

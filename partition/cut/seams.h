@@ -24,6 +24,6 @@ std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<In
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
 /// @returns where defects may be now if all parts were connected.
 Doubts shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
-                   const Loop& loop = run_serially);
+                     const Loop& loop = run_serially);
 
 }  // namespace seamflow

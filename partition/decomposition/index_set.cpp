@@ -8,7 +8,7 @@ namespace seamflow {
 namespace {
 
 /// With at most so many indices from the first value to the last for each value, they lie together.
-constexpr std::size_t most_indices_per_value = 64;
+constexpr std::size_t most_indices_per_value = 256;
 
 }  // namespace
 
@@ -30,20 +30,20 @@ IndexSet::IndexSet(std::span<const Index> values)
 
 void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
 {
-    words_.assign(width / bits_per_word + 1, 0);
+    words_.resize(width / bits_per_word + 1);
     for (const Index value : values) {
         const std::size_t offset = at(value) - at(first_);
-        words_[offset / bits_per_word] |= std::uint64_t{1} << offset % bits_per_word;
+        words_[offset / bits_per_word].bits |= std::uint64_t{1} << offset % bits_per_word;
     }
-    // What no bit is set for is never read.
-    positions_ = std::make_unique_for_overwrite<Index[]>(width);
-    ascending_.reserve(std::min(values.size(), width));
+    Index n = 0;
+    for (Word& word : words_) {
+        word.before = n;
+        n += count(word.bits);
+    }
+    ascending_.reserve(at(n));
     for (std::size_t word = 0; word < words_.size(); ++word)
-        for (std::uint64_t left = words_[word]; left != 0; left &= left - 1) {
-            const std::size_t offset = word * bits_per_word + static_cast<std::size_t>(std::countr_zero(left));
-            positions_[offset] = static_cast<Index>(ascending_.size());
-            ascending_.push_back(first_ + static_cast<Index>(offset));
-        }
+        for (std::uint64_t left = words_[word].bits; left != 0; left &= left - 1)
+            ascending_.push_back(first_ + static_cast<Index>(word * bits_per_word) + std::countr_zero(left));
 }
 
 void IndexSet::fill_slots(std::span<const Index> values)

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,16 +26,32 @@ class IndexSet {
             return slots_[slot_of(value)].position;
         // What is below the first one is far beyond the last, too.
         const std::uint32_t offset = static_cast<std::uint32_t>(value) - static_cast<std::uint32_t>(first_);
-        const std::size_t word = offset / bits_per_word;
-        return word < words_.size() && (words_[word] >> offset % bits_per_word & 1) != 0 ? positions_[offset] : -1;
+        if (offset / bits_per_word >= words_.size())
+            return -1;
+        const Word& word = words_[offset / bits_per_word];
+        const std::uint64_t bit = std::uint64_t{1} << offset % bits_per_word;
+        return (word.bits & bit) != 0 ? word.before + count(word.bits & (bit - 1)) : -1;
     }
 
   private:
     static constexpr std::uint32_t bits_per_word = 64;
+    struct Word {
+        std::uint64_t bits = 0;
+        /// How many bits are set in the words before.
+        Index before = 0;
+    };
     struct Slot {
         Index value;
         Index position;
     };
+
+    /// The number of bits that are set; std::popcount is a call where the processor may lack an instruction for it.
+    static Index count(std::uint64_t bits)
+    {
+        bits -= bits >> 1 & 0x5555555555555555U;
+        bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);
+        return static_cast<Index>(((bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0FU) * 0x0101010101010101U >> 56);
+    }
 
     void fill_window(std::span<const Index> values, std::size_t width);
     void fill_slots(std::span<const Index> values);
@@ -52,11 +67,9 @@ class IndexSet {
     }
 
     std::vector<Index> ascending_;
-    /// Where the values lie together: a bit for each index from the first value to the last, and for those that have
-    /// theirs set where they stand.
+    /// Where the values lie together: a bit for each index from the first value to the last.
     Index first_ = 0;
-    std::vector<std::uint64_t> words_;
-    std::unique_ptr<Index[]> positions_;
+    std::vector<Word> words_;
     /// Where they are scattered: a table of a power of two slots, free ones with the value -1.
     std::vector<Slot> slots_;
     int shift_ = 0;

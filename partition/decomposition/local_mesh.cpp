@@ -18,7 +18,8 @@ void copy_vertices(const PolygonMesh& mesh, SubMeshDraft& draft)
         offsets.push_back(offsets.back() + static_cast<Index>(mesh.face(f).size()));
     corners.reserve(at(offsets.back()));
     for (const Index f : sub_mesh.faces)
-        corners.insert(corners.end(), mesh.face(f).begin(), mesh.face(f).end());
+        for (const Index v : mesh.face(f))
+            corners.push_back(v);
     draft.vertices = IndexSet(corners);
     sub_mesh.local_to_global = draft.vertices.ascending();
     sub_mesh.n_vertices = static_cast<Index>(sub_mesh.local_to_global.size());

@@ -75,8 +75,8 @@ void localise_halo_faces(const PolygonMesh& mesh, std::span<const Index> halo_fa
 }
 
 /// Fans and neighbours at one vertex of Γ.
-void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, Index v,
-                               std::vector<Index>& neighbours, SubMeshDraft& draft)
+void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, Index v, std::vector<Index>& neighbours,
+                               SubMeshDraft& draft)
 {
     auto& interface = draft.sub_mesh.interface;
     const auto corners = whole.topology.corners_at(v);

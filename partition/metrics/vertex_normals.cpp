@@ -6,13 +6,14 @@ namespace seamflow {
 
 namespace {
 
-bool is_oriented(const PolygonMesh& mesh, const Topology& topology)
+bool is_oriented(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
 {
-    for (Index h = 0; h < mesh.n_corners(); ++h)
-        if (const Index twin = topology.twin[at(h)];
-            twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)])
-            return false;
-    return true;
+    return select(loop, mesh.n_corners(),
+                  [&](Index h) {
+                      const Index twin = topology.twin[at(h)];
+                      return twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)];
+                  })
+        .empty();
 }
 
 /// Turns the faces of a fan alike. Its corners come in order around the vertex: a face that goes round it the same way
@@ -33,11 +34,11 @@ void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, st
 
 }  // namespace
 
-VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
+VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
     : mesh_(mesh)
     , topology_(topology)
 {
-    if (is_oriented(mesh, topology))
+    if (is_oriented(mesh, topology, loop))
         return;
     sense_.assign(at(mesh.n_corners()), 1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)

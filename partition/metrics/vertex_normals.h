@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/loop.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
 
@@ -16,7 +17,7 @@ namespace seamflow {
 class VertexNormals {
   public:
     /// @param mesh, topology must outlive the normals.
-    VertexNormals(const PolygonMesh& mesh, const Topology& topology);
+    VertexNormals(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
 
     /// Of length 1, or 0 where there is none: without faces, or if their vector areas add up to nothing.
     /// @param positions #V by 3, not necessarily those of the mesh.

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "solvers/laplacian/symmetric_laplacian.h"
 
@@ -28,14 +28,26 @@ struct OuterEdges {
 };
 
 /// Each of them once, in ascending order.
-OuterEdges by_number_of_faces(std::vector<VertexPair> edges)
+OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vertices)
 {
+    // By first vertices: where those of each begin, which moves on to where they end.
+    std::vector<Index> ends(at(n_vertices) + 1, 0);
+    for (const VertexPair& e : edges)
+        ++ends[at(e.first) + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Index> seconds(edges.size());
+    for (const VertexPair& e : edges)
+        seconds[at(ends[at(e.first)]++)] = e.second;
     OuterEdges outer;
-    std::sort(edges.begin(), edges.end());
-    for (auto first = edges.begin(); first != edges.end();) {
-        const auto last = std::find_if(first, edges.end(), [&](const VertexPair& e) { return e != *first; });
-        (last - first == 1 ? outer.rim : outer.inner).push_back(*first);
-        first = last;
+    auto second = seconds.begin();
+    for (Index first = 0; first < n_vertices; ++first) {
+        const auto end = seconds.begin() + ends[at(first)];
+        std::sort(second, end);
+        while (second != end) {
+            const auto next = std::find_if(second, end, [&](Index v) { return v != *second; });
+            (next - second == 1 ? outer.rim : outer.inner).push_back({first, *second});
+            second = next;
+        }
     }
     return outer;
 }
@@ -50,7 +62,7 @@ OuterEdges list_outer_edges(const FacesOnBothSides& faces)
             add(start, end);
     });
     for_each_halfedge(faces.beyond, [&](std::size_t, Index start, Index end) { add(start, end); });
-    return by_number_of_faces(std::move(edges));
+    return by_number_of_faces(edges, faces.n_vertices);
 }
 
 /// The edges between two own faces, or those on the rim, each once.
