@@ -29,11 +29,11 @@ constexpr double min_weight_for_clusters = 500'000;
 constexpr double small_part = 5'000;
 constexpr double min_weight_for_small_parts = 300'000;
 /// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
-constexpr double clusters_per_part = 50;
+constexpr double clusters_per_part = 80;
 /// And in all, which takes a twentieth of a second.
 constexpr double min_clusters = 20'000;
 /// Larger clusters save no time and leave longer seams.
-constexpr double max_cluster_weight = 100;
+constexpr double max_cluster_weight = 64;
 /// Smaller clusters save little against single faces.
 constexpr double min_cluster_weight = 8;
 /// Where a part would have fewer clusters than this, METIS gets every face.
