@@ -3,8 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/cut/clusters.h"
+#include "partition/cut/compact.h"
 #include "partition/cut/defects.h"
+#include "partition/cut/divide.h"
+#include "partition/cut/face_graph.h"
+#include "partition/cut/refine.h"
 #include "partition/cut/repair.h"
+#include "partition/cut/seams.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -34,7 +41,46 @@ std::vector<Index> checked_repair(const PolygonMesh& mesh, const Topology& topol
     return labels;
 }
 
+/// About k parts of clusters of a weight, each connected, before their seams are shortened.
+std::vector<Index> parts_of_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, Index k)
+{
+    const FaceClusters clusters = grow_clusters(mesh, topology, weight);
+    const FaceGraph graph = make_face_graph(mesh, topology, clusters, ArcMeasure::Count);
+    std::vector<Index> part = divide(graph, graph_components(graph), k, Afterwards::Refined);
+    refine(graph, *std::max_element(part.begin(), part.end()) + 1, part);
+    std::vector<Index> labels;
+    for (const Index cluster : clusters.cluster_of)
+        labels.push_back(part[at(cluster)]);
+    return labels;
+}
+
 }  // namespace
+
+TEST_CASE("what shortening seams leaves in doubt is all that there is to repair")
+{
+    RandomNumbers random(17);
+    Index n_repaired = 0;
+    Index n_in_doubt = 0;
+    Index n_parts = 0;
+    for (int round = 0; round < 300; ++round) {
+        const RandomMesh m = random_mesh(random);
+        CAPTURE(round);
+        CAPTURE(m.description);
+        const Topology topology = make_topology(m.mesh);
+        std::vector<Index> labels = parts_of_clusters(m.mesh, topology, 2 + random.below(8), 2 + random.below(12));
+        const Doubts doubts = shorten_seams(m.mesh, topology, compact_labels(labels), labels);
+        std::vector<Index> all = labels;
+        n_repaired += repair_where_doubtful(m.mesh, topology, doubts, labels);
+        repair_within_components(m.mesh, topology, all);
+        CHECK(labels == all);
+        CHECK_MESSAGE(!first_defect(m.mesh, topology, labels), first_defect(m.mesh, topology, labels).value_or(""));
+        n_in_doubt += static_cast<Index>(std::count(doubts.parts.begin(), doubts.parts.end(), true));
+        n_parts += static_cast<Index>(doubts.parts.size());
+    }
+    CHECK(n_repaired > 50);
+    CHECK(n_in_doubt > 0);
+    CHECK(n_in_doubt < n_parts / 2);
+}
 
 TEST_CASE("repair mends random labels on every mesh")
 {

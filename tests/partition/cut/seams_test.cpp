@@ -109,7 +109,14 @@ TEST_CASE("a part that is too heavy gives faces to its neighbours until it is no
     for (Index f = 0; f < m.mesh.n_faces(); ++f)
         labels[at(f)] = f < m.mesh.n_faces() * 55 / 100 ? 0 : 1;
     const Index before = cut_edges(m, labels);
-    shorten_seams(m.mesh, m.topology, 2, labels);
+    const Doubts doubts = shorten_seams(m.mesh, m.topology, 2, labels);
+    // However far the seam has moved, what is there now is in doubt.
+    std::vector<bool> in_doubt(at(m.mesh.n_vertices()), false);
+    for (const Index f : doubts.faces)
+        for (const Index v : m.mesh.face(f))
+            in_doubt[at(v)] = true;
+    for (const Index v : mixed_vertices(m.topology, labels))
+        CHECK(in_doubt[at(v)]);
     for (const double weight : weights(m.mesh, labels, 2))
         CHECK(weight <= 0.5 * m.mesh.n_faces() * (1.0 + balance_tolerance));
     CHECK(cut_edges(m, labels) < before * 5 / 4);
