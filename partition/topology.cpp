@@ -100,14 +100,14 @@ Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index sta
     }
 }
 
-/// Whether a walk around an inner vertex comes by all of its faces.
-bool is_one_fan(const PolygonMesh& mesh, const Topology& topology, Index v)
+/// Whether a walk around a vertex comes by all of its faces and back to the first.
+bool is_closed_fan(const PolygonMesh& mesh, const Topology& topology, Index v)
 {
     const auto corners = topology.corners_at(v);
     std::size_t met = 1;
-    walk(
+    const Index last = walk(
         mesh, topology, v, corners.front(), corners.front(), [](Index) { return true; }, [&](Index) { ++met; });
-    return met == corners.size();
+    return met == corners.size() && topology.twin[at(last)] >= 0;
 }
 
 VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
@@ -115,15 +115,13 @@ VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
     const auto corners = topology.corners_at(v);
     if (corners.empty())
         return VertexKind::Isolated;
+    if (is_closed_fan(mesh, topology, v))
+        return VertexKind::Interior;
     Index lowest = 0;
     for (const Index corner : corners)
         for (const Index spoke : spokes_of(mesh, topology, corner))
             lowest = std::min(lowest, topology.twin[at(spoke)]);
-    if (lowest == non_manifold_edge)
-        return VertexKind::NonManifold;
-    if (lowest < 0)
-        return VertexKind::Boundary;
-    return is_one_fan(mesh, topology, v) ? VertexKind::Interior : VertexKind::NonManifold;
+    return lowest == -1 ? VertexKind::Boundary : VertexKind::NonManifold;
 }
 
 /// The number of corners of all faces; 0 where they differ, or where there are none.
