@@ -43,7 +43,7 @@ DriftEstimate::DriftEstimate(const Decomposition& decomposition, const PolygonMe
     , laplacian_(options.laplacian)
     , time_step_(options.time_step)
     , has_copies_(is_classical(options.conditions))
-    , equation_(decomposition, mesh, topology, options.laplacian)
+    , equation_(decomposition, mesh, topology, options.laplacian, run_in_parallel)
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);

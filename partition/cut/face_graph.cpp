@@ -147,7 +147,8 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
             }
     };
     IndexLists neighbours;
-    auto& [offsets, targets] = neighbours;
+    auto& offsets = neighbours.offsets;
+    auto& targets = neighbours.values;
     // Every node's beginning moves on to its end, which is where the next one begins.
     offsets.assign(at(clusters.size()) + 2, 0);
     for_each_pair([&](Index node, Index) { ++offsets[at(node) + 2]; });

@@ -1,7 +1,6 @@
 #include "partition/cut/umbrellas.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "partition/index.h"
 
@@ -10,7 +9,6 @@ namespace seamflow {
 UmbrellaWalker::UmbrellaWalker(const PolygonMesh& mesh, const Topology& topology)
     : mesh_(&mesh)
     , topology_(&topology)
-    , met_in_call_(at(mesh.n_faces()), -1)
 {
 }
 
@@ -48,12 +46,13 @@ UmbrellaWalker::Step UmbrellaWalker::start(Index corner) const
 /// Appends the faces of an umbrella. @returns whether it is closed.
 bool UmbrellaWalker::append_umbrella(Index v, Index corner)
 {
+    const auto corners = topology_->corners_at(v);
     const Step first = start(corner);
     Step here = first;
     do {
-        const Index f = topology_->face_of[at(here.corner)];
-        met_in_call_[at(f)] = call_;
-        faces_.push_back(f);
+        const auto place = std::lower_bound(corners.begin(), corners.end(), here.corner) - corners.begin();
+        met_[static_cast<std::size_t>(place)] = true;
+        faces_.push_back(topology_->face_of[at(here.corner)]);
         here = across(v, here.spoke);
     } while (here.corner >= 0 && here.corner != first.corner);
     return here.corner >= 0;
@@ -62,18 +61,15 @@ bool UmbrellaWalker::append_umbrella(Index v, Index corner)
 std::span<const Umbrella> UmbrellaWalker::at_vertex(Index v)
 {
     const auto corners = topology_->corners_at(v);
-    if (call_++ == std::numeric_limits<Index>::max() - 1) {
-        std::fill(met_in_call_.begin(), met_in_call_.end(), -1);
-        call_ = 0;
-    }
+    met_.assign(corners.size(), false);
     faces_.clear();
     faces_.reserve(corners.size());  // so that the spans below stay valid
     umbrellas_.clear();
-    for (const Index corner : corners) {
-        if (met_in_call_[at(topology_->face_of[at(corner)])] == call_)
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (met_[i])
             continue;
         const std::size_t begin = faces_.size();
-        const bool closed = append_umbrella(v, corner);
+        const bool closed = append_umbrella(v, corners[i]);
         umbrellas_.push_back({std::span<const Index>(faces_).subspan(begin), closed});
         if (faces_.size() == corners.size())
             break;

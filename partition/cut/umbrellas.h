@@ -37,9 +37,8 @@ class UmbrellaWalker {
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
-    /// #F: the number of the call that last met the face.
-    std::vector<Index> met_in_call_;
-    Index call_ = 0;
+    /// Of the vertex in hand, per corner: whether its face has been met.
+    std::vector<bool> met_;
     std::vector<Index> faces_;
     std::vector<Umbrella> umbrellas_;
 };

@@ -38,13 +38,13 @@ void for_each_in_blocks(const Loop& loop, Index n, Body&& body)
 }  // namespace
 
 IndicatorEquation::IndicatorEquation(const Decomposition& decomposition, const PolygonMesh& mesh,
-                                     const Topology& topology, Laplacian laplacian)
+                                     const Topology& topology, Laplacian laplacian, const Loop& loop)
     : decomposition_(&decomposition)
     , laplacian_(laplacian)
 {
     std::vector<Index> kinds(topology.fixed.size());
-    std::transform(topology.fixed.begin(), topology.fixed.end(), kinds.begin(),
-                   [](std::uint8_t fixed) { return fixed == 0 ? off_interface : held_fixed; });
+    for_each(loop, static_cast<Index>(kinds.size()),
+             [&](Index v) { kinds[at(v)] = topology.moves(v) ? off_interface : held_fixed; });
     for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
         const auto& vertices = sub_mesh.interface.vertices;
         for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -55,7 +55,7 @@ IndicatorEquation::IndicatorEquation(const Decomposition& decomposition, const P
             }
         first_.push_back(static_cast<Index>(local_vertex_.size()));
     }
-    list_neighbours(kinds);
+    list_neighbours(kinds, loop);
     couplings_.resize(neighbours_.values.size());
     for (auto* array : {&mass_, &diagonal_, &row_sum_, &yielded_})
         array->resize(local_vertex_.size());
@@ -67,16 +67,23 @@ IndicatorEquation::IndicatorEquation(const Decomposition& decomposition, const P
 }
 
 /// @param kinds #V: the number of a vertex of Γ, or see off_interface.
-void IndicatorEquation::list_neighbours(std::span<const Index> kinds)
+void IndicatorEquation::list_neighbours(std::span<const Index> kinds, const Loop& loop)
 {
-    for (std::size_t s = 0; s < decomposition_->sub_meshes.size(); ++s) {
-        const SubMesh& sub_mesh = decomposition_->sub_meshes[s];
-        for (Index i = first_[s]; i < first_[s + 1]; ++i) {
+    const auto& sub_meshes = decomposition_->sub_meshes;
+    auto& [offsets, values] = neighbours_;
+    for (std::size_t s = 0; s < sub_meshes.size(); ++s)
+        for (Index i = first_[s]; i < first_[s + 1]; ++i)
+            offsets.push_back(offsets.back() +
+                              static_cast<Index>(sub_meshes[s].seam.neighbours[index_in_owner_[at(i)]].size()));
+    values.resize(at(offsets.back()));
+    for_each(loop, static_cast<Index>(sub_meshes.size()), [&](Index s) {
+        const SubMesh& sub_mesh = sub_meshes[at(s)];
+        for (Index i = first_[at(s)]; i < first_[at(s) + 1]; ++i) {
+            Index place = neighbours_.offsets[at(i)];
             for (const Index neighbour : sub_mesh.seam.neighbours[index_in_owner_[at(i)]])
-                neighbours_.values.push_back(kinds[at(sub_mesh.local_to_global[at(neighbour)])]);
-            neighbours_.close();
+                neighbours_.values[at(place++)] = kinds[at(sub_mesh.local_to_global[at(neighbour)])];
         }
-    }
+    });
 }
 
 void IndicatorEquation::make_whole_rows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds)

@@ -20,7 +20,7 @@ class IndicatorEquation {
   public:
     /// @param decomposition must outlive this; its sub-meshes do not overlap.
     IndicatorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                      Laplacian laplacian);
+                      Laplacian laplacian, const Loop& loop = run_serially);
 
     /// Number of vertices on Γ, numbered sub-mesh by sub-mesh, each by the one that owns it.
     [[nodiscard]] Index size() const { return static_cast<Index>(diagonal_.size()); }
@@ -60,7 +60,7 @@ class IndicatorEquation {
     [[nodiscard]] const Points& error() const { return error_; }
 
   private:
-    void list_neighbours(std::span<const Index> kinds);
+    void list_neighbours(std::span<const Index> kinds, const Loop& loop);
     void make_whole_rows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds);
     void stiffen(const Loop& loop);
     template <class Value>
