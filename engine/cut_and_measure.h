@@ -18,7 +18,8 @@ struct Measured {
     std::optional<DisplacementMeter> meter;
 };
 
-/// Cuts, and chooses whether to converge. METIS has one thread: the others measure in the meantime.
+/// Cuts, and chooses whether to converge. METIS has one thread: the others measure in the meantime; where it
+/// has nothing to do measuring comes afterwards.
 /// @param options with the tolerance that was chosen, if any.
 Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
                     FlowOptions& options, Measured& measured, const Progress& progress);

@@ -27,7 +27,7 @@ DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& to
 {
 }
 
-/// No vertex has moved.
+/// Makes the sums of a mesh of which no vertex has moved.
 void DisplacementMeter::begin(const Points& positions)
 {
     const auto n = static_cast<std::size_t>(positions.rows());

@@ -22,7 +22,7 @@ class DisplacementMeter {
     /// Of all steps so far.
     [[nodiscard]] TotalDisplacement total() const;
 
-    /// The sums that the next step adds to; and goes on from there.
+    /// The sums that the next step adds to, empty before the first; and goes on from where there were some.
     /// @param now #V by 3, the positions then.
     /// @throws InputError if they do not fit.
     [[nodiscard]] DisplacementSums sums() const;

@@ -1,6 +1,7 @@
 #include "partition/cut/clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -56,7 +57,8 @@ class ClusterGrower {
     {
     }
 
-    [[nodiscard]] const Grown& grown() const { return grown_; }
+    /// What has been grown, once and for all.
+    Grown take() { return std::move(grown_); }
 
     /// Takes all that hangs together with face f of the chunk, unless it has a cluster.
     void grow_around(Index f)
@@ -157,11 +159,10 @@ class ClusterGrower {
     std::vector<Index> outer_;
 };
 
-/// The chunks of all faces: a single one where too many edges would lead from one to another.
-std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index size)
+/// What part of the edges leads from one chunk of `size` faces to another, of a sample.
+double part_across(const PolygonMesh& mesh, const Topology& topology, Index size)
 {
     constexpr Index sampled = 64;
-    constexpr double most_edges_across = 0.1;
     Index inner = 0;
     Index across = 0;
     for (Index f = 0; f < mesh.n_faces(); f += std::min(sampled, mesh.n_faces() - f))
@@ -170,8 +171,18 @@ std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, 
                 ++inner;
                 across += topology.face_of[at(twin)] / size != f / size ? 1 : 0;
             }
-    if (across > most_edges_across * inner)
-        return {{0, mesh.n_faces()}};
+    return inner > 0 ? static_cast<double>(across) / inner : 0.0;
+}
+
+/// The chunks of all faces: larger ones, up to a single one, where too many clusters would touch several.
+/// @param size that of the smallest chunks.
+std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index weight, Index size)
+{
+    // A cluster is about as wide as the square root of its weight. With this, a tenth of all clusters is grown again.
+    constexpr double most_edges_across = 0.025;
+    const double width = std::sqrt(weight);
+    while (size < mesh.n_faces() && width * part_across(mesh, topology, size) > most_edges_across)
+        size = size <= mesh.n_faces() / 2 ? 2 * size : mesh.n_faces();
     std::vector<Chunk> chunks;
     for (Index begin = 0; begin < mesh.n_faces(); begin = chunks.back().end)
         chunks.push_back({begin, begin + std::min(size, mesh.n_faces() - begin)});
@@ -197,13 +208,19 @@ struct InnerClusters {
     std::vector<Index> left_over;
 };
 
-/// @param grown chunk by chunk. @param faces #F, those of the clusters; all of `cluster_of` is written anew.
-InnerClusters keep_inner(const std::vector<Grown>& grown, const std::vector<Index>& faces,
-                         std::vector<Index> cluster_of, const Loop& loop)
+/// @param grown chunk by chunk, and numbered from 0 in each. @param faces #F, those of the clusters.
+InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> faces, std::vector<Index> cluster_of,
+                         const Loop& loop)
 {
     InnerClusters inner;
     FaceClusters& clusters = inner.clusters;
     clusters.cluster_of = std::move(cluster_of);
+    if (grown.size() == 1) {
+        auto& offsets = clusters.faces.offsets;
+        offsets.insert(offsets.end(), grown[0].ends.begin(), grown[0].ends.end());
+        clusters.faces.values = std::move(faces);
+        return inner;
+    }
     clusters.faces.values.resize(faces.size());
     std::vector<Index> first_of_chunk;
     for (const Grown& chunk : grown) {
@@ -248,23 +265,23 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
         else
             faces.resize(at(mesh.n_faces()));
     });
-    const std::vector<Chunk> chunks = chunks_of(mesh, topology, chunk);
+    const std::vector<Chunk> chunks = chunks_of(mesh, topology, weight, chunk);
     std::vector<Grown> grown(chunks.size());
     for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
         const Chunk& own = chunks[at(i)];
         ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, cluster_of, faces);
         for (Index f = own.begin; f < own.end; ++f)
             grower.grow_around(f);
-        grown[at(i)] = grower.grown();
+        grown[at(i)] = grower.take();
     });
 
-    auto [clusters, left_over] = keep_inner(grown, faces, std::move(cluster_of), loop);
+    auto [clusters, left_over] = keep_inner(grown, std::move(faces), std::move(cluster_of), loop);
     const Chunk all{0, mesh.n_faces()};
     ClusterGrower grower(mesh, topology, weight, all, clusters.size(), clusters.faces.offsets.back(),
                          clusters.cluster_of, clusters.faces.values);
     for (const Index f : left_over)
         grower.grow_around(f);
-    const auto& ends = grower.grown().ends;
+    const std::vector<Index> ends = grower.take().ends;
     clusters.faces.offsets.insert(clusters.faces.offsets.end(), ends.begin(), ends.end());
     return std::move(clusters);
 }

@@ -26,13 +26,13 @@ inline Index face_weight(const PolygonMesh& mesh, Index f)
     return static_cast<Index>(mesh.face(f).size()) - 2;
 }
 
-/// So many faces are a chunk (see grow_clusters).
+/// So many faces are a chunk at least (see grow_clusters).
 inline constexpr Index faces_per_chunk = 1 << 18;
 
 /// Grows clusters breadth first, one beside the other, each until its faces weigh `weight` or nothing is left around
 /// it. Linear in the size of the mesh. Large meshes whose faces are for the most part near the ones that come before
-/// and after them are done in chunks of so many faces, several at a time; clusters at the ends of chunks are then
-/// dissolved and grown again across them.
+/// and after them are done in chunks of so many faces or more, several at a time; clusters at the ends of chunks are
+/// then dissolved and grown again across them.
 /// @param weight at least 1, which makes every face f the cluster f.
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight,
                            const Loop& loop = run_serially, Index chunk = faces_per_chunk);

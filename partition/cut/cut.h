@@ -31,6 +31,7 @@ inline constexpr Index min_faces_per_part = 12;
 /// that does both at once.
 using Alongside = std::function<void(const std::function<void()>& serial)>;
 
+/// The serial part in the thread of the caller.
 inline void run_alone(const std::function<void()>& serial)
 {
     serial();

@@ -75,7 +75,7 @@ struct BlockOfArcs {
     std::vector<Index> counts;
 };
 
-/// Calls append(node, arcs), which appends the arcs of a node with repetitions, for all nodes.
+/// Calls append(node, arcs), which appends the arcs of a node, ascending, each once, for all nodes.
 template <class Append>
 std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Loop& loop, Append&& append)
 {
@@ -85,7 +85,6 @@ std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Loop& loop, Append&& app
         for (Index node = begin; node < end; ++node) {
             const auto before = std::ssize(block.arcs);
             append(node, block.arcs);
-            add_up(before, block.arcs);
             block.counts.push_back(static_cast<Index>(std::ssize(block.arcs) - before));
         }
     });
@@ -96,6 +95,7 @@ std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topo
                                              const FaceClusters& clusters, const Loop& loop)
 {
     return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
+        const auto begin = std::ssize(arcs);
         for (const Index f : clusters.faces[cluster])
             for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
                 const Index twin = topology.twin[at(h)];
@@ -103,6 +103,7 @@ std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topo
                 if (target != cluster)
                     arcs.push_back({target, edge_length(mesh, topology, h)});
             }
+        add_up(begin, arcs);
     });
 }
 

@@ -54,7 +54,7 @@ class VertexQueue {
 struct Suspects {
     /// See join_loose_pieces.
     std::vector<bool> parts;
-    /// All that may be pinched, ascending.
+    /// All that are pinched, and perhaps others, ascending.
     std::vector<Index> vertices;
 };
 

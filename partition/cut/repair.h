@@ -24,8 +24,8 @@ Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Inde
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
                                const Loop& loop = run_serially);
 
-/// The same for a cut that is known to have no defects elsewhere than where there are doubts.
-/// @param labels #F, from 0 to n_parts - 1 without gaps.
+/// The same for such a cut that is known to have no defects elsewhere than where there are doubts.
+/// @param labels #F, from 0 to n_parts - 1 without gaps, as many as doubts.parts has entries.
 Index repair_where_doubtful(const PolygonMesh& mesh, const Topology& topology, const Doubts& doubts,
                             std::vector<Index>& labels, const Loop& loop = run_serially);
 

@@ -22,7 +22,7 @@ std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<In
 /// exchanges faces with its neighbours even where one edge more is cut. Parts may come out pinched or in pieces (see
 /// repair).
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
-/// @returns where defects may be now if all parts were connected.
+/// @returns where defects may be now if all parts were connected before.
 Doubts shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
                      const Loop& loop = run_serially);
 

@@ -51,10 +51,8 @@ void IndexSet::fill_slots(std::span<const Index> values)
     ascending_.assign(values.begin(), values.end());
     std::sort(ascending_.begin(), ascending_.end());
     ascending_.erase(std::unique(ascending_.begin(), ascending_.end()), ascending_.end());
+    // Two values at least are that far apart: the shift is not by all bits of the product.
     slots_.assign(std::bit_ceil(2 * ascending_.size()), Slot{-1, -1});
-    // A shift by all bits of the product would be none.
-    if (slots_.size() < 2)
-        slots_.resize(2, Slot{-1, -1});
     shift_ = 64 - std::countr_zero(slots_.size());
     for (std::size_t i = 0; i < ascending_.size(); ++i)
         slots_[slot_of(ascending_[i])] = {ascending_[i], static_cast<Index>(i)};

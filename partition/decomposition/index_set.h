@@ -17,6 +17,7 @@ class IndexSet {
     /// @param values at least 0, in any order; repetitions are welcome.
     explicit IndexSet(std::span<const Index> values);
 
+    /// Each value once.
     [[nodiscard]] const std::vector<Index>& ascending() const { return ascending_; }
 
     /// Where a value stands, or -1.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct SubMeshDraft {
     [[nodiscard]] Index local(Index v) const
     {
         const Index own = vertices[v];
+        assert((own >= 0 || halo[v] >= 0) && "the sub-mesh or its halo has the vertex");
         return own >= 0 ? own : sub_mesh.n_vertices + halo[v];
     }
 };

@@ -51,15 +51,53 @@ Index lowest_but(Index s, std::span<const Index> sharing)
     return sharing[0] == s ? sharing[1] : sharing[0];
 }
 
+/// Faces beyond Γ with many corners, each of which would look at all others. Those at which the same sub-meshes meet
+/// see the same.
+class LargeFaces {
+  public:
+    explicit LargeFaces(const SubMeshInterface& interface)
+        : interface_(interface)
+    {
+    }
+
+    /// Whether a vertex of Γ at which the same sub-meshes meet has asked for the face; never of a small one.
+    bool has_been_seen_from_like(Index face, Index vertex)
+    {
+        constexpr std::size_t many = 32;
+        if (interface_.halo_faces[face].size() <= many)
+            return false;
+        const auto sharing = interface_.sharing[vertex];
+        const auto is_alike = [&](const Seen& seen) {
+            return seen.face == face && std::ranges::equal(interface_.sharing[seen.vertex], sharing);
+        };
+        if (std::ranges::any_of(seen_, is_alike))
+            return true;
+        seen_.push_back({face, vertex});
+        return false;
+    }
+
+  private:
+    struct Seen {
+        Index face;
+        Index vertex;
+    };
+
+    const SubMeshInterface& interface_;
+    std::vector<Seen> seen_;
+};
+
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
     const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
     const auto& interface = sub_mesh.interface;
     std::vector<TransferRow> senders(at(sub_mesh.n_halo), {-1, -1, -1});
+    LargeFaces large_faces(interface);
     for (Index i = 0; i < interface.size(); ++i) {
         if (plan.roles[at(s)][at(i)] == InterfaceRole::Follows)
             continue;
-        for (const Index f : interface.complement_faces[i])
+        for (const Index f : interface.complement_faces[i]) {
+            if (large_faces.has_been_seen_from_like(f, i))
+                continue;
             for (const Index v : interface.halo_faces[f]) {
                 if (v < sub_mesh.n_vertices)
                     continue;
@@ -71,6 +109,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
                     sender.from < 0 || (found.from >= 0 && found.from < sender.from))
                     sender = found;
             }
+        }
     }
     std::erase_if(senders, [](const TransferRow& row) { return row.from < 0; });
     plan.predictions[at(s)] = transfers_to(s, senders);

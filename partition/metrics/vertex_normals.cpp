@@ -8,12 +8,16 @@ namespace {
 
 bool is_oriented(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
 {
-    return select(loop, mesh.n_corners(),
-                  [&](Index h) {
-                      const Index twin = topology.twin[at(h)];
-                      return twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)];
-                  })
-        .empty();
+    const auto is_turned = [&](Index h) {
+        const Index twin = topology.twin[at(h)];
+        return twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)];
+    };
+    std::vector<std::uint8_t> has_turned(at(mesh.n_corners() / block_size) + 1, 0);
+    for_each_block(loop, mesh.n_corners(), [&](Index block, Index begin, Index end) {
+        for (Index h = begin; h < end && has_turned[at(block)] == 0; ++h)
+            has_turned[at(block)] = is_turned(h) ? 1 : 0;
+    });
+    return std::ranges::find(has_turned, 1) == has_turned.end();
 }
 
 /// Turns the faces of a fan alike. Its corners come in order around the vertex: a face that goes round it the same way

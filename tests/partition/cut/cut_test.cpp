@@ -94,6 +94,27 @@ TEST_CASE("large meshes, divided by clusters, are cut soundly too, however loops
           cut_into(m.mesh, m.topology, 90).labels);
 }
 
+TEST_CASE("what takes but one thread is handed out once, if there is any, and changes nothing but who does it")
+{
+    const NamedMesh m = named(triangle_torus(40, 40));
+    for (const Index k : {1, 2, 90}) {
+        int n_calls = 0;
+        const Cut cut = cut_into(m.mesh, m.topology, k, run_serially, [&](const std::function<void()>& serial) {
+            ++n_calls;
+            serial();
+        });
+        CHECK(n_calls == (k > 1 ? 1 : 0));
+        CHECK(cut.labels == cut_into(m.mesh, m.topology, k).labels);
+    }
+    struct Stopped {};
+    CHECK_THROWS_AS(cut_into(m.mesh, m.topology, 4, run_serially,
+                             [](const std::function<void()>& serial) {
+                                 serial();
+                                 throw Stopped();
+                             }),
+                    Stopped);
+}
+
 TEST_CASE("one part is the whole mesh, with all its components")
 {
     const NamedMesh m = named(side_by_side({quad_grid(3, 3), quad_torus(4, 4)}));

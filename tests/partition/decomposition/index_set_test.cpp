@@ -17,11 +17,13 @@ void check_set(const IndexSet& set, std::vector<Index> values, Index beyond)
     values.erase(std::unique(values.begin(), values.end()), values.end());
     CHECK(set.ascending() == values);
     std::size_t position = 0;
+    Index n_wrong = 0;
     for (Index value = values.empty() ? 0 : std::max(values.front() - 100, 0); value < beyond; ++value) {
         const bool is_in = position < values.size() && values[position] == value;
-        REQUIRE(set[value] == (is_in ? static_cast<Index>(position) : -1));
+        n_wrong += set[value] != (is_in ? static_cast<Index>(position) : -1) ? 1 : 0;
         position += is_in ? 1 : 0;
     }
+    CHECK(n_wrong == 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "partition/cut/coloring.h"
 #include "partition/decomposition/sweep_plan.h"
 #include "tests/support/cut_meshes.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -25,11 +26,27 @@ std::vector<std::vector<Index>> ranks_for(const Decomposition& decomposition)
     return {by_color, backwards, one_by_one};
 }
 
+/// A tube that ends in one face of n corners, cut in quarters around it: that face belongs to none of them alone.
+CutMesh tube_with_large_face(Index n)
+{
+    PolygonMesh mesh = cylinder(n, 3);
+    std::vector<Index> end(at(n));
+    std::iota(end.rbegin(), end.rend(), 0);
+    mesh.add_face(end);
+    return cut_by_place("tube with a large face", std::move(mesh), [](const Point& c) {
+        if (c.z() < 0.25)
+            return Index{4};
+        return static_cast<Index>((c.x() > 0.0 ? 2 : 0) + (c.y() > 0.0 ? 1 : 0));
+    });
+}
+
 /// Calls `check` for every cut mesh and several orders of its sub-meshes.
 template <class Check>
 void for_each_plan(Check&& check)
 {
-    for (const CutMesh& cut : cut_meshes()) {
+    std::vector<CutMesh> cuts = cut_meshes();
+    cuts.push_back(tube_with_large_face(80));
+    for (const CutMesh& cut : cuts) {
         CAPTURE(cut.name);
         const Decomposition decomposition = test::decompose(cut);
         for (const auto& rank : ranks_for(decomposition)) {
@@ -38,6 +55,24 @@ void for_each_plan(Check&& check)
             check(decomposition, plan);
         }
     }
+}
+
+/// Who predicts the vertices of a sub-mesh's halo, found by asking for all of them at each vertex of Γ where it leads.
+std::vector<Index> senders_of_predictions(const Decomposition& decomposition, Index s, const SweepPlan& plan)
+{
+    const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+    const auto& interface = sub_mesh.interface;
+    std::vector<Index> sender(at(sub_mesh.n_vertices + sub_mesh.n_halo), -1);
+    for (Index i = 0; i < interface.size(); ++i)
+        for (const Index f : interface.complement_faces[i])
+            for (const Index v : interface.halo_faces[f])
+                for (const Index t : interface.sharing[i]) {
+                    Index& lowest = sender[at(v)];
+                    if (plan.roles[at(s)][at(i)] == InterfaceRole::Leads && v >= sub_mesh.n_vertices && t != s &&
+                        local_index(decomposition.sub_meshes[at(t)], sub_mesh.local_to_global[at(v)]) >= 0)
+                        lowest = lowest < 0 ? t : std::min(lowest, t);
+                }
+    return sender;
 }
 
 /// The sub-mesh of the lowest rank among those at the i-th vertex of Γ of a sub-mesh.
@@ -101,6 +136,26 @@ TEST_CASE("traces bring each following vertex its position from the leader, and 
                 found = -1;
             }
             CHECK(std::all_of(sender.begin(), sender.end(), [](Index from) { return from == -1; }));
+        }
+    });
+}
+
+TEST_CASE("predictions bring each vertex beyond a led one from the lowest sub-mesh that has it, and nothing else")
+{
+    for_each_plan([](const Decomposition& decomposition, const SweepPlan& plan) {
+        for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
+            const SubMesh& to = decomposition.sub_meshes[at(s)];
+            std::vector<Index> sender(at(to.n_vertices + to.n_halo), -1);
+            for (const Transfer& prediction : plan.predictions[at(s)]) {
+                const SubMesh& from = decomposition.sub_meshes[at(prediction.from)];
+                for (std::size_t k = 0; k < prediction.source.size(); ++k) {
+                    CHECK(from.local_to_global[at(prediction.source[k])] ==
+                          to.local_to_global[at(prediction.target[k])]);
+                    CHECK(sender[at(prediction.target[k])] == -1);
+                    sender[at(prediction.target[k])] = prediction.from;
+                }
+            }
+            CHECK(sender == senders_of_predictions(decomposition, s, plan));
         }
     });
 }
