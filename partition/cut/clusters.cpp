@@ -57,7 +57,7 @@ class ClusterGrower {
     {
     }
 
-    /// What has been grown, once and for all.
+    /// What has been grown; nothing can be grown after this.
     Grown take() { return std::move(grown_); }
 
     /// Takes all that hangs together with face f of the chunk, unless it has a cluster.
@@ -178,7 +178,7 @@ double part_across(const PolygonMesh& mesh, const Topology& topology, Index size
 /// @param size that of the smallest chunks.
 std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, Index weight, Index size)
 {
-    // A cluster is about as wide as the square root of its weight. With this, a tenth of all clusters is grown again.
+    // A cluster is about as wide as the square root of its weight. About a tenth of all is grown again at most.
     constexpr double most_edges_across = 0.025;
     const double width = std::sqrt(weight);
     while (size < mesh.n_faces() && width * part_across(mesh, topology, size) > most_edges_across)
@@ -204,7 +204,7 @@ FaceClusters one_face_each(const PolygonMesh& mesh)
 /// Clusters without those that end where a chunk does.
 struct InnerClusters {
     FaceClusters clusters;
-    /// The faces that are left over, whose cluster is -1, in no order that the number of threads has a say in.
+    /// The faces that are left over, whose cluster is -1, chunk by chunk.
     std::vector<Index> left_over;
 };
 
