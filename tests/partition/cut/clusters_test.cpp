@@ -76,6 +76,7 @@ TEST_CASE("large meshes are done in chunks, in any order, whose ends are no ends
     constexpr Index weight = 40;
     const FaceClusters whole = grow_clusters(mesh, make_topology(mesh), weight, run_serially, mesh.n_faces());
     const FaceClusters clusters = grow_clusters(mesh, make_topology(mesh), weight, run_serially, chunk);
+    CHECK(whole.size() < 1.2 * weight_of(mesh, whole.faces.values) / weight);
     CHECK(clusters.cluster_of != whole.cluster_of);
     CHECK(clusters.size() < 1.05 * whole.size());
     CHECK(n_light(mesh, clusters, weight / 4) < 0.02 * clusters.size());
