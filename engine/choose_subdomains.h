@@ -8,14 +8,15 @@ namespace seamflow {
 
 /// What sub-meshes have to be like for a kind of step.
 struct SubdomainNeeds {
-    /// Factorising and solving costs least per vertex in sub-meshes of about this size.
+    /// Setup and steps cost little per vertex in sub-meshes of about this size, and a million vertices make enough of
+    /// them to keep 64 threads busy.
     Index vertices;
     /// In √dt: below that the flow drifts away from the undecomposed one, or converged steps take more and more
     /// iterations.
     double width;
 };
 
-inline constexpr SubdomainNeeds needs_of_sweeps{2'000, 10.0};
+inline constexpr SubdomainNeeds needs_of_sweeps{2'500, 10.0};
 inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
 /// Converged steps of Laplacians without symmetry, whose sub-meshes overlap.
 inline constexpr SubdomainNeeds needs_of_krylov_steps{1'000, 2.0};

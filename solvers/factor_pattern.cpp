@@ -25,15 +25,10 @@ SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>
     return make_pattern(pattern.n(), entries);
 }
 
-/// The elimination tree: of each column of L the first row below the diagonal, or -1, and the number of such rows.
-struct Tree {
-    std::vector<Index> parent;
-    std::vector<Index> count;
-};
-
-Tree make_tree(const SparsePattern& upper)
+/// Without entries that stay zero.
+EliminationTree make_tree(const SparsePattern& upper)
 {
-    Tree tree{std::vector<Index>(at(upper.n()), -1), std::vector<Index>(at(upper.n()), 0)};
+    EliminationTree tree{std::vector<Index>(at(upper.n()), -1), std::vector<Index>(at(upper.n()), 0)};
     std::vector<Index> visited(at(upper.n()), -1);
     for (Index row = 0; row < upper.n(); ++row) {
         visited[at(row)] = row;
@@ -49,13 +44,13 @@ Tree make_tree(const SparsePattern& upper)
 }
 
 /// Whether two consecutive columns have the same rows but for the second one itself.
-bool belong_together(const Tree& tree, Index column)
+bool belong_together(const EliminationTree& tree, Index column)
 {
     return tree.parent[at(column)] == column + 1 && tree.count[at(column)] == tree.count[at(column) + 1] + 1;
 }
 
 /// The last of the columns that have the same rows as the first one but for each other; the last n_last are one block.
-Index end_of_block(const Tree& tree, Index first, Index n_last)
+Index end_of_block(const EliminationTree& tree, Index first, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
     Index last = first == n - n_last ? n - 1 : first;
@@ -77,7 +72,7 @@ bool is_worth(double zeros, Index width, Index n_rows)
 
 /// The furthest end of a block without zeros that is worth it and to which parents lead from all columns before it in
 /// the block: none of those has a row outside that the last one does not have.
-Index end_of_relaxed_block(const Tree& tree, Index first, Index last, Index n_last)
+Index end_of_relaxed_block(const EliminationTree& tree, Index first, Index last, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
     double entries_before = 0.0;
@@ -110,11 +105,10 @@ enum class Zeros {
 /// `place` is where the row stands among those of the block. Calls on_entry(slot, place) for each entry of the matrix
 /// in order; there `place` is where its column stands among the rows of the block of its row.
 template <class OnRow, class OnEntry>
-void list_blocks(const SparsePattern& upper, Zeros zeros, Index n_last, FactorPattern& factor, OnRow on_row,
-                 OnEntry on_entry)
+void list_blocks(const SparsePattern& upper, const EliminationTree& tree, Zeros zeros, Index n_last,
+                 FactorPattern& factor, OnRow on_row, OnEntry on_entry)
 {
     const Index n = upper.n();
-    const Tree tree = make_tree(upper);
     std::vector<Index> block_of(at(n));
     std::vector<Index> parent;
     for (Index first = 0, last = 0; first < n; first = ++last) {
@@ -164,8 +158,9 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern)
         factor.position[at(order[at(i)])] = i;
 
     factor.update_offsets.assign(at(n) + 1, 0);
+    const SparsePattern upper = symmetrised(pattern, factor.position);
     list_blocks(
-        symmetrised(pattern, factor.position), Zeros::None, 0, factor,
+        upper, make_tree(upper), Zeros::None, 0, factor,
         [&](Index row, Index block, Index place) {
             factor.updates.push_back({block, place});
             ++factor.update_offsets[at(row) + 1];
@@ -175,12 +170,13 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern)
     return factor;
 }
 
-FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, std::vector<Index>& places)
+FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
+                                            std::vector<Index>& places)
 {
     FactorPattern factor;
     places.resize(upper.rows.size());
     list_blocks(
-        upper, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
+        upper, tree.parent.empty() ? make_tree(upper) : tree, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
         [&](Index entry, Index place) { places[at(entry)] = place; });
     return factor;
 }

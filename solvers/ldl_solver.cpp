@@ -27,9 +27,9 @@ std::vector<Index> blocks_of_unknowns(const FactorPattern& pattern)
 
 }  // namespace
 
-LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last)
+LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last, const EliminationTree& tree)
     : n_last_(n_last)
-    , pattern_(make_symmetric_factor_pattern(upper, n_last, places_))
+    , pattern_(make_symmetric_factor_pattern(upper, n_last, tree, places_))
 {
     panels_.reserve(pattern_.first.size());
     for (Index b = 0; b < pattern_.n_blocks(); ++b) {

@@ -13,10 +13,10 @@ constexpr Index most_unknowns_for_ldl = 500'000;
 
 }  // namespace
 
-SymmetricSolver::SymmetricSolver(SparsePattern upper, SolverWorkspace& workspace)
+SymmetricSolver::SymmetricSolver(SparsePattern upper, SolverWorkspace& workspace, const EliminationTree& tree)
 {
     if (upper.n() <= most_unknowns_for_ldl) {
-        ldl_ = std::make_unique<LdlSolver>(upper);
+        ldl_ = std::make_unique<LdlSolver>(upper, 0, tree);
         return;
     }
     upper_ = std::move(upper);

@@ -16,8 +16,9 @@ namespace seamflow {
 class SymmetricSolver {
   public:
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
+    /// @param tree where it is known already; otherwise empty.
     /// @throws ComputationError if the analysis fails (memory).
-    SymmetricSolver(SparsePattern upper, SolverWorkspace& workspace);
+    SymmetricSolver(SparsePattern upper, SolverWorkspace& workspace, const EliminationTree& tree = {});
 
     /// What a factor takes, in bytes. CHOLMOD's are in its own memory, of which this is most.
     [[nodiscard]] std::size_t factor_bytes() const;

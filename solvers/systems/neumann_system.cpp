@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "partition/errors.h"
 #include "solvers/elimination_order.h"
@@ -66,7 +67,6 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
 /// @returns the pattern of the upper triangle.
 SparsePattern NeumannSystem::number_unknowns()
 {
-    const std::vector<VertexPair> pairs = laplacian_->pairs();
     std::vector<bool> on_interface(at(sub_mesh_->n_vertices), false);
     for (const Index v : sub_mesh_->interface.vertices)
         on_interface[at(v)] = true;
@@ -79,16 +79,18 @@ SparsePattern NeumannSystem::number_unknowns()
             vertices.push_back(v);
             is_last.push_back(on_interface[at(v)]);
         }
-    const auto n = static_cast<Index>(vertices.size());
-    const auto order = elimination_order(upper_pattern(pairs, unknown_of, n).pattern, is_last);
-    vertex_of_.reserve(at(n));
+    const PairsOfUnknowns pairs_of =
+        pairs_of_unknowns(laplacian_->pairs(), unknown_of, static_cast<Index>(vertices.size()));
+    std::vector<Index> order(vertices.size());
+    std::iota(order.begin(), order.end(), 0);
+    order = elimination_order(upper_pattern(pairs_of, order).pattern, is_last);
+    std::erase_if(order, [&](Index u) { return is_last[at(u)]; });
+    for (const Index v : sub_mesh_->interface.vertices)
+        order.push_back(unknown_of[at(v)]);
+    vertex_of_.reserve(order.size());
     for (const Index u : order)
-        if (!is_last[at(u)])
-            vertex_of_.push_back(vertices[at(u)]);
-    vertex_of_.insert(vertex_of_.end(), sub_mesh_->interface.vertices.begin(), sub_mesh_->interface.vertices.end());
-    for (Index u = 0; u < n; ++u)
-        unknown_of[at(vertex_of_[at(u)])] = u;
-    auto [pattern, slots] = upper_pattern(pairs, unknown_of, n);
+        vertex_of_.push_back(vertices[at(u)]);
+    auto [pattern, slots] = upper_pattern(pairs_of, order);
     slots_ = std::move(slots);
     return std::move(pattern);
 }

@@ -22,13 +22,14 @@ SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, S
     std::vector<Index> unknown_of;
     number_unknowns(rows, unknown_of);
     const std::vector<VertexPair> pairs = laplacian_->pairs();
-    SparsePattern upper = list_entries(pairs, unknown_of);
+    EliminationTree tree;
+    SparsePattern upper = list_entries(pairs, unknown_of, tree);
     column_offsets_ = upper.column_offsets;
     list_couplings(pairs, unknown_of);
     if (rows == SymmetricRows::Yielding)
         list_interface(upper, unknown_of);
     mass_.resize(vertex_of_.size());
-    solver_ = std::make_unique<SymmetricSolver>(std::move(upper), workspace);
+    solver_ = std::make_unique<SymmetricSolver>(std::move(upper), workspace, tree);
 }
 
 /// In the order of the vertices.
@@ -50,18 +51,22 @@ void SymmetricSystem::number_unknowns(SymmetricRows rows, std::vector<Index>& un
 }
 
 /// Renumbers the unknowns in the order of elimination.
-SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of)
+SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
+                                            EliminationTree& tree)
 {
     const auto n = static_cast<Index>(vertex_of_.size());
-    const std::vector<Index> order = elimination_order(upper_pattern(pairs, unknown_of, n).pattern);
+    const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, n);
+    Elimination elimination = eliminate(neighbours_of(pairs_of));
+    tree = std::move(elimination.tree);
+    const std::vector<Index>& order = elimination.order;
     std::vector<Index> vertex_of(at(n));
     std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return vertex_of_[at(u)]; });
     vertex_of_ = std::move(vertex_of);
     for (Index u = 0; u < n; ++u)
         unknown_of[at(vertex_of_[at(u)])] = u;
-    auto [pattern, slots] = upper_pattern(pairs, unknown_of, n);
-    slots_ = std::move(slots);
-    return std::move(pattern);
+    UpperPattern upper = upper_pattern(pairs_of, order);
+    slots_ = std::move(upper.slots);
+    return std::move(upper.pattern);
 }
 
 /// What is no entry of the matrix; what is beyond Γ by the vertices of Γ.

@@ -58,7 +58,8 @@ class SymmetricSystem final : public SubMeshSystem {
     };
 
     void number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of);
-    SparsePattern list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of);
+    SparsePattern list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
+                               EliminationTree& tree);
     void list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of);
     void list_interface(const SparsePattern& upper, const std::vector<Index>& unknown_of);
     void hold(std::size_t i, std::span<double> values);

@@ -1,8 +1,8 @@
 #include "solvers/systems/upper_pattern.h"
 
-#include <algorithm>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "partition/errors.h"
@@ -11,70 +11,100 @@ namespace seamflow {
 
 namespace {
 
-/// A pair as an entry above the diagonal.
-struct PairEntry {
-    Index row;
-    Index column;
-    Index pair;
-};
-
-/// The pairs of unknowns.
-std::vector<PairEntry> entries_of(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
+void require_countable(std::size_t n_entries, Index n)
 {
-    const auto n_own = static_cast<Index>(unknown_of.size());
-    const auto unknown = [&](Index v) { return v < n_own ? unknown_of[at(v)] : -1; };
-    std::vector<PairEntry> entries;
-    entries.reserve(pairs.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const Index a = unknown(pairs[i].first);
-        const Index b = unknown(pairs[i].second);
-        if (a >= 0 && b >= 0)
-            entries.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(i)});
-    }
-    return entries;
-}
-
-/// Sorts by one of the members, which is below n; stable, and in linear time.
-void sort_by(Index PairEntry::*key, Index n, std::vector<PairEntry>& entries)
-{
-    std::vector<Index> next(at(n) + 1, 0);
-    for (const PairEntry& entry : entries)
-        ++next[at(entry.*key) + 1];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    std::vector<PairEntry> sorted(entries.size());
-    for (const PairEntry& entry : entries)
-        sorted[at(next[at(entry.*key)]++)] = entry;
-    entries = std::move(sorted);
+    if (n_entries > at(std::numeric_limits<Index>::max()))
+        throw ComputationError("a system of " + std::to_string(n) +
+                               " unknowns has too many entries: cut the mesh into more sub-meshes");
 }
 
 }  // namespace
 
-UpperPattern upper_pattern(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n)
+PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n)
 {
-    if (pairs.size() > at(std::numeric_limits<Index>::max() - n))
-        throw ComputationError("a system of " + std::to_string(n) +
-                               " unknowns has too many entries: cut the mesh into more sub-meshes");
-    std::vector<PairEntry> entries = entries_of(pairs, unknown_of);
-    sort_by(&PairEntry::row, n, entries);
-    sort_by(&PairEntry::column, n, entries);
+    require_countable(2 * pairs.size() + at(n), n);
+    const auto n_own = static_cast<Index>(unknown_of.size());
+    const auto unknown = [&](Index v) { return v < n_own ? unknown_of[at(v)] : -1; };
+    const auto for_each_entry = [&](auto&& action) {
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const Index a = unknown(pairs[i].first);
+            const Index b = unknown(pairs[i].second);
+            if (a >= 0 && b >= 0) {
+                action(a, b, i);
+                action(b, a, i);
+            }
+        }
+    };
+    PairsOfUnknowns of;
+    of.n_pairs = pairs.size();
+    // Where those of each begin stands one further, and moves on to where they end.
+    of.offsets.assign(at(n) + 2, 0);
+    for_each_entry([&](Index u, Index, std::size_t) { ++of.offsets[at(u) + 2]; });
+    std::partial_sum(of.offsets.begin(), of.offsets.end(), of.offsets.begin());
+    of.entries.resize(at(of.offsets.back()));
+    for_each_entry([&](Index u, Index other, std::size_t pair) {
+        of.entries[at(of.offsets[at(u) + 1]++)] = {other, static_cast<Index>(pair)};
+    });
+    of.offsets.pop_back();
+    return of;
+}
 
+SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
+{
+    SparsePattern neighbours;
+    neighbours.column_offsets.reserve(pairs.offsets.size());
+    neighbours.rows.resize(pairs.entries.size());
+    std::vector<Index> seen_in(at(pairs.n()), -1);
+    Index end = 0;
+    for (Index u = 0; u < pairs.n(); ++u) {
+        for (Index k = pairs.offsets[at(u)]; k < pairs.offsets[at(u) + 1]; ++k) {
+            const Index other = pairs.entries[at(k)].other;
+            neighbours.rows[at(end)] = other;
+            end += std::exchange(seen_in[at(other)], u) != u ? 1 : 0;
+        }
+        neighbours.column_offsets.push_back(end);
+    }
+    neighbours.rows.resize(at(end));
+    return neighbours;
+}
+
+/// Row by row: those of each column come in ascending order.
+UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order)
+{
+    const Index n = pairs.n();
+    std::vector<Index> number_of(at(n));
+    for (Index u = 0; u < n; ++u)
+        number_of[at(order[at(u)])] = u;
+    const auto for_each_entry_above_diagonal = [&](auto&& action) {
+        std::vector<Index> last_row_of(at(n), -1);
+        for (Index row = 0; row < n; ++row)
+            for (Index k = pairs.offsets[at(order[at(row)])]; k < pairs.offsets[at(order[at(row)]) + 1]; ++k) {
+                const auto& entry = pairs.entries[at(k)];
+                const Index column = number_of[at(entry.other)];
+                if (column > row)
+                    action(row, column, entry.pair, std::exchange(last_row_of[at(column)], row) != row);
+            }
+    };
     // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
     UpperPattern upper;
-    upper.slots.assign(pairs.size(), -1);
+    upper.slots.assign(pairs.n_pairs, -1);
     auto& [offsets, rows] = upper.pattern;
-    offsets.reserve(at(n) + 1);
-    rows.reserve(entries.size() + at(n));
-    auto entry = entries.begin();
-    for (Index column = 0; column < n; ++column) {
-        for (; entry != entries.end() && entry->column == column; ++entry) {
-            if (static_cast<Index>(rows.size()) == offsets.back() || rows.back() != entry->row)
-                rows.push_back(entry->row);
-            upper.slots[at(entry->pair)] = static_cast<Index>(rows.size()) - 1;
-        }
-        rows.push_back(column);
-        offsets.push_back(static_cast<Index>(rows.size()));
-    }
-    rows.shrink_to_fit();
+    // Where columns begin stands one further, and moves on to where they end.
+    offsets.assign(at(n) + 2, 1);
+    offsets[0] = offsets[1] = 0;
+    for_each_entry_above_diagonal(
+        [&](Index, Index column, Index, bool is_new) { offsets[at(column) + 2] += is_new ? 1 : 0; });
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    rows.resize(at(offsets.back()));
+    for_each_entry_above_diagonal([&](Index row, Index column, Index pair, bool is_new) {
+        Index& end = offsets[at(column) + 1];
+        end += is_new ? 1 : 0;
+        rows[at(end) - 1] = row;
+        upper.slots[at(pair)] = end - 1;
+    });
+    for (Index u = 0; u < n; ++u)
+        rows[at(offsets[at(u) + 1]++)] = u;
+    offsets.pop_back();
     return upper;
 }
 

@@ -19,7 +19,7 @@ TEST_CASE("sub-meshes get a few thousand vertices each, but are no narrower than
 {
     const PolygonMesh mesh = make_quads(50000);
     const SubdomainChoice by_cost = choose_subdomains(mesh, 1e-8, needs_of_sweeps);
-    CHECK(by_cost.count == mesh.n_vertices() / 2000);
+    CHECK(by_cost.count == mesh.n_vertices() / needs_of_sweeps.vertices);
     const SubdomainChoice by_width = choose_subdomains(mesh, 1e-3, needs_of_sweeps);
     CHECK(by_width.count > 1);
     CHECK(by_width.count < by_cost.count);
@@ -31,8 +31,10 @@ TEST_CASE("sub-meshes get a few thousand vertices each, but are no narrower than
 TEST_CASE("sub-meshes of converged steps may be narrower, and without symmetry are smaller")
 {
     const PolygonMesh mesh = make_quads(50000);
-    CHECK(choose_subdomains(mesh, 1e-8, needs_of_converged_steps).count == mesh.n_vertices() / 2000);
-    CHECK(choose_subdomains(mesh, 1e-8, needs_of_krylov_steps).count == mesh.n_vertices() / 1000);
+    CHECK(choose_subdomains(mesh, 1e-8, needs_of_converged_steps).count ==
+          mesh.n_vertices() / needs_of_converged_steps.vertices);
+    CHECK(choose_subdomains(mesh, 1e-8, needs_of_krylov_steps).count ==
+          mesh.n_vertices() / needs_of_krylov_steps.vertices);
     const Index count = choose_subdomains(mesh, 2e-2, needs_of_converged_steps).count;
     CHECK(width_in_diffusion_lengths(mesh, count, 2e-2) >= needs_of_converged_steps.width);
     CHECK(width_in_diffusion_lengths(mesh, count + 1, 2e-2) < needs_of_converged_steps.width);
@@ -42,7 +44,7 @@ TEST_CASE("the choice and its reason are in the report, and so is a warning of n
 {
     FlowOptions options;
     options.time_step = 1e-6;
-    PolygonMesh mesh = make_quads(6000);
+    PolygonMesh mesh = make_quads(8000);
     const FlowReport chosen = mean_curvature_flow(mesh, options);
     CHECK(chosen.subdomains == 3);
     REQUIRE(chosen.remarks.size() == 1);

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "solvers/elimination_order.h"
+#include "tests/support/random_graphs.h"
 #include "tests/support/symmetric_matrices.h"
 
 using namespace seamflow;
@@ -52,4 +53,58 @@ TEST_CASE("a single unknown that is asked to be last is the first as well")
     const SparsePattern one = make_pattern(1, {{0, 0}});
     for (int i = 0; i < 100; ++i)
         CHECK(elimination_order(one, {true}) == std::vector<Index>{0});
+}
+
+TEST_CASE("the tree that comes with an order has the rows of the columns that end blocks, and leads past none of them")
+{
+    RandomNumbers random(5);
+    for (const SparsePattern& neighbours :
+         {random_neighbours(1, 0, random), random_neighbours(2, 3, random), random_neighbours(100, 150, random),
+          random_neighbours(200, 600, random), triangle_neighbours(10, random), triangle_neighbours(25, random)}) {
+        const Index n = neighbours.n();
+        const auto [order, tree] = eliminate(neighbours);
+        std::vector<Index> sorted = order;
+        std::sort(sorted.begin(), sorted.end());
+        for (Index u = 0; u < n; ++u)
+            CHECK(sorted[at(u)] == u);
+
+        const SparsePattern upper = upper_in(neighbours, order);
+        std::vector<std::vector<bool>> filled(at(n), std::vector<bool>(at(n), false));
+        for (Index column = 0; column < n; ++column)
+            for (Index k = upper.column_offsets[at(column)]; k < upper.column_offsets[at(column) + 1]; ++k)
+                filled[at(upper.rows[at(k)])][at(column)] = true;
+        int n_ends = 0;
+        for (Index column = 0; column < n; ++column) {
+            std::vector<Index> rows;
+            for (Index row = column + 1; row < n; ++row)
+                if (filled[at(column)][at(row)])
+                    rows.push_back(row);
+            for (const Index a : rows)
+                for (const Index b : rows)
+                    filled[at(a)][at(b)] = true;
+            const Index parent = tree.parent[at(column)];
+            const auto count = static_cast<Index>(rows.size());
+            CHECK((parent < 0) == rows.empty());
+            CHECK(tree.count[at(column)] >= count);
+            if (parent < 0 || parent != column + 1 || tree.count[at(parent)] + 1 != tree.count[at(column)]) {
+                ++n_ends;
+                CHECK(tree.count[at(column)] == count);
+            }
+            for (const Index row : rows)
+                CHECK(row >= parent);
+        }
+        CHECK(n_ends > n / 4);
+    }
+}
+
+TEST_CASE("unknowns with very many neighbours are last, and the tree is not known")
+{
+    std::vector<MatrixEntry> entries;
+    for (Index u = 1; u < 300; ++u)
+        entries.insert(entries.end(), {{0, u}, {u, 0}});
+    const auto [order, tree] = eliminate(make_pattern(300, entries));
+    CHECK(order.back() == 0);
+    CHECK(tree.parent.empty());
+    CHECK(tree.count.empty());
+    CHECK(eliminate(SparsePattern{}).order.empty());
 }

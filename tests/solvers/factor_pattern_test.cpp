@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -6,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "solvers/factor_pattern.h"
+#include "tests/support/random_graphs.h"
 #include "tests/support/random_matrices.h"
 
 using namespace seamflow;
@@ -113,7 +115,7 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
         }
         const SparsePattern upper = make_pattern(30, entries);
         std::vector<Index> places;
-        const FactorPattern factor = make_symmetric_factor_pattern(upper, n_last, places);
+        const FactorPattern factor = make_symmetric_factor_pattern(upper, n_last, {}, places);
         std::vector<Index> as_they_are(30);
         std::iota(as_they_are.begin(), as_they_are.end(), 0);
         Eigen::MatrixXi expected = eliminated(upper, as_they_are);
@@ -124,6 +126,29 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
         if (n_last > 0)
             CHECK(factor.width(factor.n_blocks() - 1) == n_last);
         CHECK(factor.updates.empty());
+        check_places(upper, factor, places);
+    }
+}
+
+TEST_CASE("with the tree that comes with an order of elimination, blocks have the entries that are filled in, and few "
+          "more")
+{
+    RandomNumbers random(4);
+    for (const SparsePattern& neighbours : {random_neighbours(1, 0, random), random_neighbours(40, 0, random),
+                                            random_neighbours(60, 60, random), random_neighbours(200, 350, random)}) {
+        const Elimination elimination = eliminate(neighbours);
+        const SparsePattern upper = upper_in(neighbours, elimination.order);
+        REQUIRE(elimination.tree.parent.size() == at(neighbours.n()));
+        std::vector<Index> places;
+        const FactorPattern factor = make_symmetric_factor_pattern(upper, 0, elimination.tree, places);
+        std::vector<Index> as_they_are(at(upper.n()));
+        std::iota(as_they_are.begin(), as_they_are.end(), 0);
+        const Eigen::MatrixXi expected = eliminated(upper, as_they_are);
+        const Eigen::MatrixXi found = from_blocks(factor);
+        CHECK((found.array() >= expected.array()).all());
+        CHECK(found.sum() <= 1.5 * expected.sum());
+        for (Index b = 0; b < factor.n_blocks(); ++b)
+            CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end(), std::less_equal<>()));
         check_places(upper, factor, places);
     }
 }
@@ -146,14 +171,14 @@ TEST_CASE("subtrees of the elimination tree are made one block where that takes 
                                                  {5, 4},
                                                  {5, 5}});
     std::vector<Index> places;
-    const FactorPattern factor = make_symmetric_factor_pattern(upper, 0, places);
+    const FactorPattern factor = make_symmetric_factor_pattern(upper, 0, {}, places);
     CHECK(factor.first == std::vector<Index>{0, 6});
     check_places(upper, factor, places);
 
     // What leads to the third is not together: column 1 has nothing to do with it.
     const SparsePattern apart = make_pattern(
         7, {{0, 0}, {1, 1}, {2, 2}, {3, 0}, {3, 2}, {3, 3}, {4, 3}, {4, 4}, {5, 3}, {5, 4}, {5, 5}, {6, 1}, {6, 6}});
-    const FactorPattern blocks = make_symmetric_factor_pattern(apart, 0, places);
+    const FactorPattern blocks = make_symmetric_factor_pattern(apart, 0, {}, places);
     CHECK(blocks.first == std::vector<Index>{0, 1, 2, 6, 7});
     check_places(apart, blocks, places);
 }
@@ -167,7 +192,7 @@ TEST_CASE("subtrees remain apart where one block of them would have many zeros, 
                 if (row == column || row >= begin)
                     entries.push_back({column, row});
         const SparsePattern upper = make_pattern(n, entries);
-        FactorPattern factor = make_symmetric_factor_pattern(upper, 0, places);
+        FactorPattern factor = make_symmetric_factor_pattern(upper, 0, {}, places);
         check_places(upper, factor, places);
         return factor.first;
     };
