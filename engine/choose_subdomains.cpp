@@ -3,26 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/parallel_loop.h"
-#include "partition/loop.h"
-#include "solvers/geometry.h"
-
 namespace seamflow {
 
-namespace {
-
-double total_area(const PolygonMesh& mesh)
-{
-    return sum(run_in_parallel, mesh.n_faces(), [&](Index f) { return area(mesh.face(f), mesh.vertices); });
-}
-
-}  // namespace
-
-SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step, const SubdomainNeeds& needs)
+SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs)
 {
     const double width = needs.width * std::sqrt(time_step);
-    const double most_by_width = std::floor(total_area(mesh) / (width * width));
-    const double most_by_cost = std::floor(mesh.n_vertices() / static_cast<double>(needs.vertices));
+    const double most_by_width = std::floor(size.area / (width * width));
+    const double most_by_cost = std::floor(size.vertices / static_cast<double>(needs.vertices));
     SubdomainChoice choice;
     choice.count = static_cast<Index>(std::max(1.0, std::min(most_by_width, most_by_cost)));
     choice.reason = std::to_string(choice.count) + (choice.count == 1 ? " sub-mesh" : " sub-meshes") + " chosen: ";
@@ -35,9 +22,9 @@ SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step, con
     return choice;
 }
 
-double width_in_diffusion_lengths(const PolygonMesh& mesh, Index k, double time_step)
+double width_in_diffusion_lengths(double area, Index k, double time_step)
 {
-    return std::sqrt(total_area(mesh) / k / time_step);
+    return std::sqrt(area / k / time_step);
 }
 
 }  // namespace seamflow

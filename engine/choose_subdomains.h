@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "partition/polygon_mesh.h"
+#include "engine/mesh_size.h"
 
 namespace seamflow {
 
@@ -28,9 +28,9 @@ struct SubdomainChoice {
 };
 
 /// Sub-meshes of the size that costs least, but on average no narrower than they need to be.
-SubdomainChoice choose_subdomains(const PolygonMesh& mesh, double time_step, const SubdomainNeeds& needs);
+SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs);
 
-/// Average width of k sub-meshes, the square root of their average area, in √dt.
-double width_in_diffusion_lengths(const PolygonMesh& mesh, Index k, double time_step);
+/// Average width of k sub-meshes of a mesh of this area, the square root of their average area, in √dt.
+double width_in_diffusion_lengths(double area, Index k, double time_step);
 
 }  // namespace seamflow

@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "engine/choose_subdomains.h"
-#include "engine/parallel_loop.h"
-#include "partition/metrics/vertex_distance.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {
@@ -43,7 +41,8 @@ bool has_polygons(const PolygonMesh& mesh)
 
 }  // namespace
 
-ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options, bool boundary_moves)
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
+                                 bool boundary_moves)
 {
     if (options.tolerance)
         return {options.tolerance, ""};
@@ -52,11 +51,10 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& opt
     if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
         mesh.n_faces() == 0)
         return {};
-    const double edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel);
-    if (options.time_step > longest_step_of_sweeps * edge * edge)
+    if (options.time_step > longest_step_of_sweeps * size.mean_edge * size.mean_edge)
         return {loose_tolerance, "steps as long as these would stray in single sweeps"};
     if (options.subdomains > 0 &&
-        width_in_diffusion_lengths(mesh, options.subdomains, options.time_step) < needs_of_sweeps.width)
+        width_in_diffusion_lengths(size.area, options.subdomains, options.time_step) < needs_of_sweeps.width)
         return {loose_tolerance, "in sub-meshes as narrow as these single sweeps would stray"};
     if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
         return {loose_tolerance, "on polygons it costs no more than single sweeps"};

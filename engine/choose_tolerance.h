@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/flow_options.h"
+#include "engine/mesh_size.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -20,6 +21,7 @@ struct ToleranceChoice {
 /// sweeps, steps are also converged, loosely, where a sweep would stray from the undecomposed step or cost more, and
 /// where the boundary moves, which sub-meshes can only share in converged steps.
 /// @param boundary_moves whether any boundary vertex does.
-ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const FlowOptions& options, bool boundary_moves = false);
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
+                                 bool boundary_moves = false);
 
 }  // namespace seamflow

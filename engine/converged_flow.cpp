@@ -22,8 +22,9 @@ constexpr double width_without_coarse_space = 8.0;
 
 Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step)
 {
-    return width_in_diffusion_lengths(mesh, n_parts, time_step) < width_without_coarse_space ? Balancing::Coarse
-                                                                                             : Balancing::None;
+    return width_in_diffusion_lengths(total_area(mesh), n_parts, time_step) < width_without_coarse_space
+               ? Balancing::Coarse
+               : Balancing::None;
 }
 
 }  // namespace

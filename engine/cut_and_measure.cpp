@@ -18,8 +18,8 @@ const SubdomainNeeds& needs_of(const FlowOptions& options)
     return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
 }
 
-Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, const Loop& loop,
-             const Alongside& alongside)
+Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
+             const Loop& loop, const Alongside& alongside)
 {
     if (options.scheme == Scheme::ExplicitEuler)
         return cut_into(mesh, topology, 1, loop);
@@ -27,7 +27,7 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
         return cut_by_labels(mesh, topology, options.labels, loop);
     if (options.subdomains > 0)
         return cut_into(mesh, topology, options.subdomains, loop, alongside);
-    const SubdomainChoice choice = choose_subdomains(mesh, options.time_step, needs_of(options));
+    const SubdomainChoice choice = choose_subdomains(size, options.time_step, needs_of(options));
     Cut cut = cut_into(mesh, topology, choice.count, loop, alongside);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
@@ -35,14 +35,14 @@ Cut make_cut(const PolygonMesh& mesh, const Topology& topology, const FlowOption
 
 }  // namespace
 
-Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
-                    FlowOptions& options, Measured& measured, const Progress& progress)
+Cut cut_and_measure(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology,
+                    const ToleranceChoice& choice, FlowOptions& options, Measured& measured, const Progress& progress)
 {
     const auto measure = [&] {
         measured.curvature = measure_curvature(mesh, topology, mesh.vertices, options.laplacian);
         measured.meter.emplace(mesh, topology);
     };
-    Cut cut = make_cut(mesh, topology, options, progress.loop(),
+    Cut cut = make_cut(mesh, size, topology, options, progress.loop(),
                        [&](const std::function<void()>& serial) { run_both(serial, measure); });
     if (!measured.meter)
         measure();

@@ -6,6 +6,7 @@
 #include "engine/choose_tolerance.h"
 #include "engine/displacement_meter.h"
 #include "engine/flow_options.h"
+#include "engine/mesh_size.h"
 #include "engine/progress.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
@@ -21,7 +22,7 @@ struct Measured {
 /// Cuts, and chooses whether to converge. METIS has one thread: the others measure in the meantime; where it
 /// has nothing to do measuring comes afterwards.
 /// @param options with the tolerance that was chosen, if any.
-Cut cut_and_measure(const PolygonMesh& mesh, const Topology& topology, const ToleranceChoice& choice,
-                    FlowOptions& options, Measured& measured, const Progress& progress);
+Cut cut_and_measure(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology,
+                    const ToleranceChoice& choice, FlowOptions& options, Measured& measured, const Progress& progress);
 
 }  // namespace seamflow

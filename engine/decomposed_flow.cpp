@@ -27,12 +27,22 @@ namespace {
     return std::ranges::any_of(plan.traces[at(s)], [&](const Transfer& trace) { return trace.from == leader; });
 }
 
+/// New memory is slow to come by: all threads take of it.
+Points copied(const Points& positions)
+{
+    Points copy(positions.rows(), 3);
+    run_in_parallel(static_cast<Index>(positions.rows()), [&](Index begin, Index end) {
+        copy.middleRows(begin, end - begin) = positions.middleRows(begin, end - begin);
+    });
+    return copy;
+}
+
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                                  std::span<const Index> rank, int layers)
 {
     const Overlap overlap{cut.labels, rank, layers};
-    auto faces = faces_by_label(cut.labels, cut.n_parts);
+    auto faces = faces_by_label(cut.labels, cut.n_parts, run_in_parallel);
     std::vector<SubMesh> sub_meshes(faces.size());
     for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
         sub_meshes[at(s)] = make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[at(s)]));
@@ -47,7 +57,7 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
     , recorder_(options.record_schedule ? std::make_unique<ScheduleRecorder>() : nullptr)
     , graph_(recorder_.get(), &progress)
-    , positions_(mesh.vertices)
+    , positions_(copied(mesh.vertices))
     , has_copies_(is_classical(options.conditions) || options.conditions == Conditions::Schwarz)
 {
     const auto rank = rank_sub_meshes(decomposition_, options.coloring, curvature);
@@ -57,11 +67,16 @@ DecomposedFlow::DecomposedFlow(const PolygonMesh& mesh, const Topology& topology
     if (is_classical(options.conditions))
         copies_.emplace(mesh, decomposition_, options.keep_gaps);
     make_states(mesh, options, progress);
-    if (options.conditions != Conditions::Schwarz && has_indicator_row(options.laplacian))
-        drift_.emplace(decomposition_, mesh, topology, options);
-    plans_.push_back(make_plan(decomposition_, options, rank));
-    if (alternates(options, states_.size()))
-        plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
+    run_both(
+        [&] {
+            if (options.conditions != Conditions::Schwarz && has_indicator_row(options.laplacian))
+                drift_.emplace(decomposition_, mesh, topology, options);
+        },
+        [&] {
+            plans_.push_back(make_plan(decomposition_, options, rank));
+            if (alternates(options, states_.size()))
+                plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
+        });
     limit_factors(options);
     for (const SweepPlan& plan : plans_)
         roots_.push_back(add_sweep(plan, options));

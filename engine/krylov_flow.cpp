@@ -45,7 +45,7 @@ void KrylovFlow::cut_out(const Topology& topology, const Cut& cut)
     // Everyone grows into everyone.
     const std::vector<Index> rank(at(cut.n_parts), 0);
     const Overlap overlap{cut.labels, rank, overlap_layers};
-    auto faces = faces_by_label(cut.labels, cut.n_parts);
+    auto faces = faces_by_label(cut.labels, cut.n_parts, run_in_parallel);
     parts_.resize(faces.size());
     for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
         parts_[at(s)] = make_grown_part(*mesh_, topology, overlap, SchwarzBlock::reach, s, std::move(faces[at(s)]));

@@ -17,6 +17,7 @@
 #include "engine/flow_remarks.h"
 #include "engine/flow_state.h"
 #include "engine/krylov_flow.h"
+#include "engine/mesh_size.h"
 #include "engine/near_origin.h"
 #include "engine/parallel_loop.h"
 #include "engine/progress.h"
@@ -36,8 +37,8 @@ namespace seamflow {
 
 namespace {
 
-void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
-                    FlowReport& report)
+void describe_input(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const Cut& cut,
+                    const FlowOptions& options, FlowReport& report)
 {
     report.vertices = mesh.n_vertices();
     report.faces = mesh.n_faces();
@@ -51,7 +52,7 @@ void describe_input(const PolygonMesh& mesh, const Topology& topology, const Cut
                                  " vertices are held fixed because the mesh is not manifold there.");
     report.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
     if (cut.n_parts > 1 && options.steps > 0 && !options.tolerance) {
-        const double width = width_in_diffusion_lengths(mesh, cut.n_parts, options.time_step);
+        const double width = width_in_diffusion_lengths(size.area, cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
             report.remarks.push_back("The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
                                      " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
@@ -281,23 +282,29 @@ void flow_with(const Workers& workers, PolygonMesh& mesh, FlowOptions options, c
     progress.expect(8.0);
     const FlowIdentity identity = require_sound(mesh, options, static_cast<bool>(on_step), resume, progress);
     std::vector<std::string> remarks;
-    Topology topology = make_constrained_topology(mesh, options, progress.loop(), remarks);
-    const RepeatedFacesLeftOut left_out(mesh, topology, options);
-    if (left_out.count() > 0) {
+    Topology topology;
+    MeshSize size;
+    // Part of the topology is made by one thread.
+    const auto examine = [&] {
         remarks.clear();
-        topology = make_constrained_topology(mesh, options, progress.loop(), remarks);
-    }
+        run_both([&] { topology = make_constrained_topology(mesh, options, progress.loop(), remarks); },
+                 [&] { size = size_of(mesh); });
+    };
+    examine();
+    const RepeatedFacesLeftOut left_out(mesh, topology, options);
+    if (left_out.count() > 0)
+        examine();
     progress.count();
-    const ToleranceChoice choice = choose_tolerance(mesh, options, boundary_moves(mesh, topology));
+    const ToleranceChoice choice = choose_tolerance(mesh, size, options, boundary_moves(mesh, topology));
     options.tolerance = choice.tolerance;
     progress.count();
     Measured measured;
-    Cut cut = cut_and_measure(mesh, topology, choice, options, measured, progress);
+    Cut cut = cut_and_measure(mesh, size, topology, choice, options, measured, progress);
     cut.remarks.insert(cut.remarks.end(), remarks.begin(), remarks.end());
     if (!options.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(mesh, topology, cut);
     report.tolerance = options.tolerance;
-    describe_input(mesh, topology, cut, options, report);
+    describe_input(mesh, size, topology, cut, options, report);
     report.threads = workers.threads();
     report.seconds.cut = watch.lap();
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options.reference ? 0.8 * setup : setup);

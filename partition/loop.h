@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "partition/index.h"
@@ -78,6 +80,42 @@ double sum(const Loop& loop, Index n, Value&& value)
     for (const double part : of_block)
         total += part;
     return total;
+}
+
+/// A part of the indices below some number.
+struct IndexRange {
+    Index begin = 0;
+    Index end = 0;
+};
+
+/// 0 … n - 1 in a few long ranges that depend on n alone, for what takes memory or time in each.
+inline std::vector<IndexRange> long_ranges(Index n)
+{
+    constexpr Index most = 16;
+    constexpr Index shortest = 1 << 16;
+    const Index length = std::max(shortest, n / most + 1);
+    std::vector<IndexRange> ranges;
+    for (Index begin = 0; begin < n; begin = ranges.back().end)
+        ranges.push_back({begin, begin + std::min(length, n - begin)});
+    return ranges;
+}
+
+/// For each of the values 0 … n_values - 1 the sum of weight(i) over the indices i below n that have it.
+template <class ValueOf, class Weight>
+std::vector<std::int64_t> sums_by_value(const Loop& loop, Index n, Index n_values, ValueOf&& value_of, Weight&& weight)
+{
+    const std::vector<IndexRange> ranges = long_ranges(n);
+    std::vector<std::vector<std::int64_t>> of_range(ranges.size());
+    for_each(loop, static_cast<Index>(ranges.size()), [&](Index r) {
+        std::vector<std::int64_t> sums(at(n_values), 0);
+        for (Index i = ranges[at(r)].begin; i < ranges[at(r)].end; ++i)
+            sums[at(value_of(i))] += weight(i);
+        of_range[at(r)] = std::move(sums);
+    });
+    std::vector<std::int64_t> sums(at(n_values), 0);
+    for (const auto& part : of_range)
+        std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
+    return sums;
 }
 
 }  // namespace seamflow

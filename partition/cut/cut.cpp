@@ -1,6 +1,7 @@
 #include "partition/cut/cut.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "partition/cut/clusters.h"
 #include "partition/cut/compact.h"
@@ -108,7 +109,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
         return uncut(mesh);
     const Index n_parts = sensible(mesh, k);
     const Index weight = cluster_weight(mesh, n_parts);
-    const FaceClusters clusters = grow_clusters(mesh, topology, weight, loop);
+    FaceClusters clusters = grow_clusters(mesh, topology, weight, loop);
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
     const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
     const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
@@ -121,10 +122,12 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
             refine(graph, count_parts(part), part);
     });
 
-    Cut cut = uncut(mesh);
-    for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(clusters.cluster_of[at(f)])]; });
+    const Index n_labels = compact_labels(part);
+    Cut cut;
+    cut.labels = std::move(clusters.cluster_of);
+    for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(cut.labels[at(f)])]; });
     if (weight > 1) {
-        const Doubts doubts = shorten_seams(mesh, topology, compact_labels(cut.labels), cut.labels, loop);
+        const Doubts doubts = shorten_seams(mesh, topology, n_labels, cut.labels, loop);
         cut.repaired_faces = repair_where_doubtful(mesh, topology, doubts, cut.labels, loop);
     } else {
         cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);

@@ -30,6 +30,7 @@ void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_la
     std::iota(parent.begin(), parent.end(), 0);
     for (bool merged = true; merged;) {
         merged = false;
+        mender.count_faces();
         std::erase_if(vertices, [&](Index v) { return !is_mixed(topology, labels, v); });
         for (const Index v : vertices) {
             if (mender.pinches_at(v) == 0)
@@ -41,7 +42,6 @@ void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_la
         }
         for (Index& label : labels)
             label = merged_into(parent, label);
-        mender.count_faces();
     }
 }
 

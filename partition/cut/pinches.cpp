@@ -39,14 +39,13 @@ PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std:
     , n_faces_(at(n_labels))
     , met_in_count_(at(n_labels), 0)
 {
-    count_faces();
 }
 
-void PinchMender::count_faces()
+void PinchMender::count_faces(const Loop& loop)
 {
-    std::fill(n_faces_.begin(), n_faces_.end(), 0);
-    for (const Index label : labels_)
-        ++n_faces_[at(label)];
+    n_faces_ = sums_by_value(
+        loop, mesh_.n_faces(), static_cast<Index>(n_faces_.size()), [&](Index f) { return labels_[at(f)]; },
+        [](Index) { return 1; });
 }
 
 void PinchMender::find_runs(const Umbrella& umbrella)

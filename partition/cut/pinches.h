@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,8 +21,9 @@ class PinchMender {
     /// Mesh, topology and labels must outlive the object. @param n_labels all labels are below it.
     PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels);
 
-    /// To be called after others have changed labels: counts the faces of the parts anew.
-    void count_faces();
+    /// To be called before faces are moved or parts compared, and after others have changed labels: counts the faces of
+    /// the parts.
+    void count_faces(const Loop& loop = run_serially);
 
     /// How many fans too many there are at v.
     Index pinches_at(Index v);
@@ -71,7 +73,7 @@ class PinchMender {
     std::vector<Index>& labels_;
     UmbrellaWalker walker_;
     /// One entry per label.
-    std::vector<Index> n_faces_;
+    std::vector<std::int64_t> n_faces_;
     std::vector<std::size_t> met_in_count_;
     std::size_t count_ = 0;
     /// The runs of the umbrella looked at last, in order, and the label that occurs in several.

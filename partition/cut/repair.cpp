@@ -1,6 +1,9 @@
 #include "partition/cut/repair.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "partition/cut/compact.h"
@@ -70,15 +73,14 @@ Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_
 Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Doubts& doubts,
                      const std::vector<Index>& labels, const Loop& loop)
 {
-    VertexQueue corners(mesh.n_vertices(), {});
-    corners.add_corners_of(mesh, doubts.faces);
-    const std::vector<Index> vertices = corners.take();
-    Suspects suspects{.parts = doubts.parts, .vertices = {}};
-    for (const Index i : select(loop, static_cast<Index>(vertices.size()),
-                                [&](Index k) { return may_be_pinched(mesh, topology, labels, vertices[at(k)]); }))
-        suspects.vertices.push_back(vertices[at(i)]);
-    std::ranges::sort(suspects.vertices);
-    return suspects;
+    std::vector<std::uint8_t> is_corner(at(mesh.n_vertices()), 0);
+    for_each(loop, static_cast<Index>(doubts.faces.size()), [&](Index i) {
+        for (const Index v : mesh.face(doubts.faces[at(i)]))
+            std::atomic_ref(is_corner[at(v)]).store(1, std::memory_order_relaxed);
+    });
+    return {.parts = doubts.parts, .vertices = select(loop, mesh.n_vertices(), [&](Index v) {
+                                       return is_corner[at(v)] != 0 && may_be_pinched(mesh, topology, labels, v);
+                                   })};
 }
 
 /// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
@@ -96,7 +98,7 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
         queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));
         if (round == max_rounds)
             return false;
-        mender.count_faces();
+        mender.count_faces(loop);
         std::vector<Index> moved;
         std::vector<Index> robbed;
         for (const Index v : queue.take())
@@ -110,18 +112,39 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
     }
 }
 
+/// The labels of all faces as they are at some time.
+class Snapshot {
+  public:
+    Snapshot(const std::vector<Index>& labels, const Loop& loop)
+        : labels_(std::make_unique_for_overwrite<Index[]>(labels.size()))
+    {
+        for_each(loop, static_cast<Index>(labels.size()), [&](Index f) { labels_[at(f)] = labels[at(f)]; });
+    }
+
+    /// Of how many faces they are others now.
+    [[nodiscard]] Index count_changes(const std::vector<Index>& labels, const Loop& loop) const
+    {
+        return static_cast<Index>(sum(loop, static_cast<Index>(labels.size()),
+                                      [&](Index f) { return labels[at(f)] != labels_[at(f)] ? 1.0 : 0.0; }));
+    }
+
+  private:
+    std::unique_ptr<Index[]> labels_;
+};
+
 /// @param suspects their parts are those of all labels, each within one component.
 /// @returns the number of faces whose labels differ from `before`.
-Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const std::vector<Index>& before,
+Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Snapshot& before,
            std::vector<Index>& labels, const Loop& loop)
 {
     const auto n_labels = static_cast<Index>(suspects.parts.size());
     if (!mend_in_rounds(mesh, topology, std::move(suspects), labels, loop))
         merge_pinched(mesh, topology, n_labels, labels);
-    Index n_moved = 0;
-    for (std::size_t f = 0; f < labels.size(); ++f)
-        n_moved += labels[f] != before[f] ? 1 : 0;
-    compact_labels(labels);
+    const Index n_moved = before.count_changes(labels, loop);
+    const auto n_faces = sums_by_value(
+        loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[at(f)]; }, [](Index) { return 1; });
+    if (std::ranges::find(n_faces, 0) != n_faces.end())
+        compact_labels(labels);
     return n_moved;
 }
 
@@ -130,7 +153,7 @@ Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects,
 Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, const Loop& loop)
 {
     Index n_labels = compact_labels(labels);
-    const std::vector<Index> before = labels;
+    const Snapshot before(labels, loop);
     n_labels = split_by_component(mesh, topology, n_labels, labels);
     return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
 }
@@ -139,14 +162,14 @@ Index repair_within_components(const PolygonMesh& mesh, const Topology& topology
                                const Loop& loop)
 {
     const Index n_labels = compact_labels(labels);
-    const std::vector<Index> before = labels;
+    const Snapshot before(labels, loop);
     return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
 }
 
 Index repair_where_doubtful(const PolygonMesh& mesh, const Topology& topology, const Doubts& doubts,
                             std::vector<Index>& labels, const Loop& loop)
 {
-    const std::vector<Index> before = labels;
+    const Snapshot before(labels, loop);
     return mend(mesh, topology, suspects_of(mesh, topology, doubts, labels, loop), before, labels, loop);
 }
 

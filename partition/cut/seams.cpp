@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "partition/cut/clusters.h"
@@ -26,19 +27,18 @@ void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index
 
 class SeamShortener {
   public:
-    SeamShortener(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
+    SeamShortener(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
+                  const Loop& loop)
         : mesh_(mesh)
         , topology_(topology)
         , labels_(labels)
-        , weight_(at(n_labels), 0)
+        , weight_(sums_by_value(
+              loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[at(f)]; },
+              [&](Index f) { return face_weight(mesh, f); }))
         , shared_(at(n_labels), 0)
         , may_be_in_pieces_(at(n_labels), false)
     {
-        std::int64_t total = 0;
-        for (Index f = 0; f < mesh.n_faces(); ++f) {
-            weight_[at(labels[at(f)])] += face_weight(mesh, f);
-            total += face_weight(mesh, f);
-        }
+        const std::int64_t total = std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0});
         const double mean = static_cast<double>(total) / n_labels;
         heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
         lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
@@ -154,7 +154,7 @@ Doubts shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_
 {
     if (n_labels < 2)
         return {.parts = std::vector<bool>(at(n_labels), false), .faces = {}};
-    SeamShortener shortener(mesh, topology, n_labels, labels);
+    SeamShortener shortener(mesh, topology, n_labels, labels, loop);
     auto faces = select(loop, mesh.n_faces(), [&](Index f) { return shortener.is_beside_seam(f); });
     std::vector<Index> doubtful = faces;
     for (int round = 0; round < max_rounds && !faces.empty(); ++round) {

@@ -1,6 +1,7 @@
 #include "partition/decomposition/decomposition.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "partition/decomposition/local_mesh.h"
 
@@ -34,9 +35,9 @@ class Copies {
 };
 
 Copies::Copies(const std::vector<SubMesh>& sub_meshes, Index n_vertices, const Loop& loop)
-    : number_(at(n_vertices), -1)
-    , owned_index_(at(n_vertices), -1)
 {
+    for_each(loop, 2,
+             [&](Index one_of_both) { (one_of_both == 0 ? number_ : owned_index_).assign(at(n_vertices), -1); });
     for_each(loop, static_cast<Index>(sub_meshes.size()), [&](Index s) {
         const SubMesh& sub_mesh = sub_meshes[at(s)];
         for (Index i = 0; i < sub_mesh.n_vertices; ++i)
@@ -117,18 +118,40 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<co
     return transfers_to(s, rows);
 }
 
+/// The faces of a range by their labels, in ascending order for each.
+IndexLists sorted_by_label(std::span<const Index> labels, Index n_parts, IndexRange range)
+{
+    IndexLists faces;
+    auto& [offsets, values] = faces;
+    // Where those of each label begin stands one further, and moves on to where they end.
+    offsets.assign(at(n_parts) + 2, 0);
+    for (Index f = range.begin; f < range.end; ++f)
+        ++offsets[at(labels[at(f)]) + 2];
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    values.resize(at(offsets.back()));
+    for (Index f = range.begin; f < range.end; ++f)
+        values[at(offsets[at(labels[at(f)]) + 1]++)] = f;
+    offsets.pop_back();
+    return faces;
+}
+
 }  // namespace
 
-std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts)
+std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts, const Loop& loop)
 {
-    std::vector<std::size_t> counts(at(n_parts), 0);
-    for (const Index label : labels)
-        ++counts[at(label)];
+    const std::vector<IndexRange> ranges = long_ranges(static_cast<Index>(labels.size()));
+    std::vector<IndexLists> of_range(ranges.size());
+    for_each(loop, static_cast<Index>(ranges.size()),
+             [&](Index r) { of_range[at(r)] = sorted_by_label(labels, n_parts, ranges[at(r)]); });
     std::vector<std::vector<Index>> faces(at(n_parts));
-    for (std::size_t s = 0; s < faces.size(); ++s)
-        faces[s].reserve(counts[s]);
-    for (std::size_t f = 0; f < labels.size(); ++f)
-        faces[at(labels[f])].push_back(static_cast<Index>(f));
+    for_each(loop, n_parts, [&](Index s) {
+        std::size_t count = 0;
+        for (const IndexLists& lists : of_range)
+            count += lists[s].size();
+        faces[at(s)].reserve(count);
+        for (const IndexLists& lists : of_range)
+            faces[at(s)].insert(faces[at(s)].end(), lists[s].begin(), lists[s].end());
+    });
     return faces;
 }
 
@@ -152,7 +175,7 @@ Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
 Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
                         const Loop& loop)
 {
-    auto faces = faces_by_label(labels, n_parts);
+    auto faces = faces_by_label(labels, n_parts, loop);
     std::vector<SubMesh> sub_meshes(faces.size());
     for_each(loop, n_parts,
              [&](Index s) { sub_meshes[at(s)] = make_sub_mesh(mesh, topology, labels, std::move(faces[at(s)])); });

@@ -26,7 +26,8 @@ struct Decomposition {
 
 /// The faces of every sub-mesh, in ascending order.
 /// @param labels #F, each in 0 to n_parts - 1.
-std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts);
+std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts,
+                                               const Loop& loop = run_serially);
 
 /// Joins sub-meshes made by make_sub_mesh: who shares which vertex of Γ, and what fills the halos.
 Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels,

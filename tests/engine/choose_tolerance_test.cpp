@@ -25,8 +25,8 @@ TEST_CASE("a tolerance that is asked for is kept, whatever the mesh")
     const PolygonMesh mesh = make_triangles(500);
     FlowOptions options = options_for(mesh, Laplacian::Fujiwara, 1.0);
     options.tolerance = 1e-5;
-    CHECK(choose_tolerance(mesh, options).tolerance == 1e-5);
-    CHECK(choose_tolerance(mesh, options).reason.empty());
+    CHECK(choose_tolerance(mesh, size_of(mesh), options).tolerance == 1e-5);
+    CHECK(choose_tolerance(mesh, size_of(mesh), options).reason.empty());
 }
 
 TEST_CASE("steps are converged where they are long, sub-meshes narrow, or polygons have Δ_A")
@@ -34,7 +34,7 @@ TEST_CASE("steps are converged where they are long, sub-meshes narrow, or polygo
     const PolygonMesh triangles = make_triangles(10000);
     const PolygonMesh quads = make_quads(10000);
     const auto converges = [](const PolygonMesh& mesh, const FlowOptions& options) {
-        const ToleranceChoice choice = choose_tolerance(mesh, options);
+        const ToleranceChoice choice = choose_tolerance(mesh, size_of(mesh), options);
         CHECK(choice.tolerance.has_value() == !choice.reason.empty());
         return choice.tolerance.has_value();
     };
@@ -60,11 +60,11 @@ TEST_CASE("options that speak of sweeps get sweeps")
 {
     const PolygonMesh mesh = make_triangles(10000);
     const FlowOptions long_steps = options_for(mesh, Laplacian::Fujiwara, 50.0);
-    REQUIRE(choose_tolerance(mesh, long_steps).tolerance);
+    REQUIRE(choose_tolerance(mesh, size_of(mesh), long_steps).tolerance);
     const auto sweeps_with = [&](auto change) {
         FlowOptions options = long_steps;
         change(options);
-        return !choose_tolerance(mesh, options).tolerance;
+        return !choose_tolerance(mesh, size_of(mesh), options).tolerance;
     };
     CHECK(sweeps_with([](FlowOptions& o) { o.approach = Approach::Sweep; }));
     CHECK(sweeps_with([](FlowOptions& o) { o.conditions = Conditions::Schwarz; }));
@@ -76,7 +76,7 @@ TEST_CASE("options that speak of sweeps get sweeps")
     CHECK_FALSE(sweeps_with([](FlowOptions& o) { o.memory_limit = 1'000'000'000; }));
     FlowOptions plain = FlowOptions::plain();
     plain.time_step = long_steps.time_step;
-    CHECK_FALSE(choose_tolerance(mesh, plain).tolerance);
+    CHECK_FALSE(choose_tolerance(mesh, size_of(mesh), plain).tolerance);
 }
 
 TEST_CASE("the report has the tolerance that was chosen, and says why")

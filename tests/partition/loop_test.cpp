@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -44,4 +46,33 @@ TEST_CASE("what is selected is in order, and sums have the same bits, however th
     CHECK(select(run_backwards, n, third) == selected);
     CHECK(sum(run_backwards, n, value) == sum(run_serially, n, value));
     CHECK(sum(run_serially, 100, [](Index i) { return double(i); }) == 4950.0);
+}
+
+TEST_CASE("long ranges have every index once, are few, and none short but the last")
+{
+    for (const Index n : {0, 1, 65536, 65537, 1'000'000, 16 * 65536, 50'000'000, 2'147'483'647}) {
+        const std::vector<IndexRange> ranges = long_ranges(n);
+        Index end = 0;
+        for (const IndexRange& range : ranges) {
+            CHECK(range.begin == end);
+            end = range.end;
+            CHECK((range.end - range.begin >= 65536 || range.end == n));
+        }
+        CHECK(end == n);
+        CHECK(ranges.size() <= 16);
+        CHECK(ranges.size() >= std::min<std::size_t>(at(n) / 65536, 15));
+    }
+}
+
+TEST_CASE("weights are added up by value, however the loop is run")
+{
+    const Index n = 200'000;
+    const auto value = [](Index i) { return i % 7; };
+    const auto weight = [](Index i) { return i; };
+    std::vector<std::int64_t> expected(9, 0);
+    for (Index i = 0; i < n; ++i)
+        expected[at(value(i))] += i;
+    CHECK(sums_by_value(run_serially, n, 9, value, weight) == expected);
+    CHECK(sums_by_value(run_backwards, n, 9, value, weight) == expected);
+    CHECK(sums_by_value(run_serially, 0, 2, value, weight) == std::vector<std::int64_t>{0, 0});
 }

@@ -6,6 +6,7 @@
 #include "partition/cut/coloring.h"
 #include "partition/decomposition/decomposition.h"
 #include "tests/support/cut_meshes.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -141,4 +142,16 @@ TEST_CASE("faces are listed by label, in ascending order")
     CHECK(faces_by_label(std::vector<Index>{2, 0, 2, 0, 0}, 4) ==
           std::vector<std::vector<Index>>{{1, 3, 4}, {}, {0, 2}, {}});
     CHECK(faces_by_label({}, 0).empty());
+
+    const Index n_faces = 200'000;
+    const Index n_parts = 11;
+    const std::vector<Index> labels = random_labels(n_faces, n_parts - 1, 3);
+    std::vector<std::vector<Index>> expected(at(n_parts));
+    for (Index f = 0; f < n_faces; ++f)
+        expected[at(labels[at(f)])].push_back(f);
+    CHECK(faces_by_label(labels, n_parts) == expected);
+    CHECK(faces_by_label(labels, n_parts, [](Index n, const LoopBody& body) {
+              for (Index i = n; i > 0; --i)
+                  body(i - 1, i);
+          }) == expected);
 }
