@@ -88,7 +88,8 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
     // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
     UpperPattern upper;
     upper.slots.assign(pairs.n_pairs, -1);
-    auto& [offsets, rows] = upper.pattern;
+    std::vector<Index>& offsets = upper.pattern.column_offsets;
+    std::vector<Index>& rows = upper.pattern.rows;
     // Where columns begin stands one further, and moves on to where they end.
     offsets.assign(at(n) + 2, 1);
     offsets[0] = offsets[1] = 0;
