@@ -27,7 +27,7 @@ struct SubdomainChoice {
     std::string reason;
 };
 
-/// Sub-meshes of the size that costs least, but on average no narrower than they need to be.
+/// Sub-meshes of the size that costs little, but on average no narrower than they need to be.
 SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs);
 
 /// Average width of k sub-meshes of a mesh of this area, the square root of their average area, in √dt.

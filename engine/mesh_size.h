@@ -7,13 +7,16 @@ namespace seamflow {
 /// What sub-meshes and time steps are measured by.
 struct MeshSize {
     Index vertices = 0;
-    /// Of all faces, and of an edge on average; 0 without faces.
+    /// Of all faces, length².
     double area = 0.0;
+    /// Average length of the edges, those between two faces counting twice (see mean_edge_length); 0 without faces.
     double mean_edge = 0.0;
 };
 
+/// Of all faces (length²), whichever way they are oriented.
 double total_area(const PolygonMesh& mesh);
 
+/// @pre the mesh is valid (see require_valid).
 MeshSize size_of(const PolygonMesh& mesh);
 
 }  // namespace seamflow

@@ -88,12 +88,15 @@ struct IndexRange {
     Index end = 0;
 };
 
-/// 0 … n - 1 in a few long ranges that depend on n alone, for what takes memory or time in each.
-inline std::vector<IndexRange> long_ranges(Index n)
+/// 0 … n - 1 in a few long ranges that depend on n and n_values alone, for what makes a table of so many values in
+/// each: all tables together are no larger than a fraction of n.
+inline std::vector<IndexRange> long_ranges(Index n, Index n_values)
 {
     constexpr Index most = 16;
     constexpr Index shortest = 1 << 16;
-    const Index length = std::max(shortest, n / most + 1);
+    constexpr Index shortest_per_value = 16;
+    const Index length =
+        std::max({shortest, n / most + 1, n_values <= n / shortest_per_value ? shortest_per_value * n_values : n});
     std::vector<IndexRange> ranges;
     for (Index begin = 0; begin < n; begin = ranges.back().end)
         ranges.push_back({begin, begin + std::min(length, n - begin)});
@@ -104,7 +107,7 @@ inline std::vector<IndexRange> long_ranges(Index n)
 template <class ValueOf, class Weight>
 std::vector<std::int64_t> sums_by_value(const Loop& loop, Index n, Index n_values, ValueOf&& value_of, Weight&& weight)
 {
-    const std::vector<IndexRange> ranges = long_ranges(n);
+    const std::vector<IndexRange> ranges = long_ranges(n, n_values);
     std::vector<std::vector<std::int64_t>> of_range(ranges.size());
     for_each(loop, static_cast<Index>(ranges.size()), [&](Index r) {
         std::vector<std::int64_t> sums(at(n_values), 0);

@@ -12,15 +12,20 @@ namespace seamflow {
 
 namespace {
 
+[[noreturn]] void fail_for_memory()
+{
+    throw ComputationError("out of memory in the analysis of the system: use more sub-meshes");
+}
+
 void require_ok(int status, int ok)
 {
     if (status < ok)
-        throw ComputationError("out of memory in the analysis of the system: use more sub-meshes");
+        fail_for_memory();
 }
 
 /// What AMD says of unknowns that are eliminated together: they are named by one of them, their principal.
 struct AmdResult {
-    explicit AmdResult(const SparsePattern& neighbours);
+    explicit AmdResult(SparsePattern neighbours);
 
     /// Per unknown: its place in the order, and the unknown at each place.
     std::vector<Index> position;
@@ -35,16 +40,17 @@ struct AmdResult {
     std::vector<Index> parent;
 };
 
-AmdResult::AmdResult(const SparsePattern& neighbours)
+/// By AMD's inner routine, which says more than the outer one but destroys what it is given, and does not check it.
+AmdResult::AmdResult(SparsePattern neighbours)
 {
     const auto n = static_cast<std::size_t>(neighbours.n());
     const std::size_t n_entries = neighbours.rows.size();
     // AMD's own measure of the room to work in.
     const std::size_t room = n_entries + n_entries / 5 + n;
-    require_ok(room <= std::numeric_limits<Index>::max() ? AMD_OK : AMD_OUT_OF_MEMORY, AMD_OK);
-    std::vector<Index> lists;
-    lists.reserve(room);
-    lists = neighbours.rows;
+    if (room > at(std::numeric_limits<Index>::max()))
+        fail_for_memory();
+    const Index end = neighbours.n_entries();
+    std::vector<Index>& lists = neighbours.rows;
     lists.resize(room);
     std::vector<Index> length(n);
     for (std::size_t i = 0; i < n; ++i)
@@ -55,7 +61,7 @@ AmdResult::AmdResult(const SparsePattern& neighbours)
     std::vector<Index> head(n);
     std::vector<Index> degree(n);
     std::vector<Index> marks(n);
-    amd_2(neighbours.n(), parent.data(), lists.data(), length.data(), static_cast<Index>(room), neighbours.n_entries(),
+    amd_2(static_cast<Index>(n), parent.data(), lists.data(), length.data(), static_cast<Index>(room), end,
           width.data(), position.data(), order.data(), head.data(), front.data(), degree.data(), marks.data(), nullptr,
           nullptr);
 }
@@ -85,11 +91,11 @@ EliminationTree tree_of(const AmdResult& amd)
 
 }  // namespace
 
-Elimination eliminate(const SparsePattern& neighbours)
+Elimination eliminate(SparsePattern neighbours)
 {
     if (neighbours.n() == 0)
         return {};
-    AmdResult amd(neighbours);
+    AmdResult amd(std::move(neighbours));
     EliminationTree tree = tree_of(amd);
     return {std::move(amd.order), std::move(tree)};
 }

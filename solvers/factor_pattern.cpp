@@ -1,6 +1,7 @@
 #include "solvers/factor_pattern.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "solvers/elimination_order.h"
@@ -143,6 +144,8 @@ void list_blocks(const SparsePattern& upper, const EliminationTree& tree, Zeros 
                      block == own ? row - factor.first[at(own)] : next[at(block)] - 1 - factor.rows.offsets[at(block)]);
         }
     }
+    assert(std::equal(next.begin(), next.end(), factor.rows.offsets.begin() + 1) &&
+           "blocks have as many rows as the tree says");
 }
 
 }  // namespace
@@ -173,10 +176,12 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern)
 FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
                                             std::vector<Index>& places)
 {
+    assert((tree.parent.empty() || n_last == 0) && "the tree knows of no last unknowns");
+    const EliminationTree own_tree = tree.parent.empty() ? make_tree(upper) : EliminationTree{};
     FactorPattern factor;
     places.resize(upper.rows.size());
     list_blocks(
-        upper, tree.parent.empty() ? make_tree(upper) : tree, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
+        upper, tree.parent.empty() ? own_tree : tree, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
         [&](Index entry, Index place) { places[at(entry)] = place; });
     return factor;
 }

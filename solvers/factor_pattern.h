@@ -43,7 +43,7 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern);
 /// entries that stay zero are taken in for wider blocks.
 /// @param upper the entries on and above the diagonal, the whole diagonal among them.
 /// @param n_last the last unknowns, which are made one block in any case.
-/// @param tree where it is known already; otherwise empty.
+/// @param tree where it is known already, as `eliminate` has made it, which knows of no `n_last`; otherwise empty.
 /// @param places receives, per entry of the matrix, where its column stands among the rows of its row's block.
 FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
                                             std::vector<Index>& places);

@@ -26,7 +26,7 @@ class LdlSolver {
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
     /// @param n_last number of unknowns that are kept together at the end.
-    /// @param tree where it is known already; otherwise empty.
+    /// @param tree where it is known already, if no unknowns are kept together; otherwise empty.
     /// @throws ComputationError if the factor would have 2³¹ entries or more.
     explicit LdlSolver(const SparsePattern& upper, Index n_last = 0, const EliminationTree& tree = {});
 

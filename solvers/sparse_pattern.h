@@ -18,7 +18,7 @@ struct MatrixEntry {
 struct SparsePattern {
     /// n + 1.
     std::vector<Index> column_offsets{0};
-    /// The rows of each column's entries, ascending.
+    /// The rows of each column's entries, ascending unless something else is said.
     std::vector<Index> rows;
 
     [[nodiscard]] Index n() const { return static_cast<Index>(column_offsets.size()) - 1; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "partition/cut/umbrellas.h"
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 

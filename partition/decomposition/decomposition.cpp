@@ -139,7 +139,7 @@ IndexLists sorted_by_label(std::span<const Index> labels, Index n_parts, IndexRa
 
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts, const Loop& loop)
 {
-    const std::vector<IndexRange> ranges = long_ranges(static_cast<Index>(labels.size()));
+    const std::vector<IndexRange> ranges = long_ranges(static_cast<Index>(labels.size()), n_parts);
     std::vector<IndexLists> of_range(ranges.size());
     for_each(loop, static_cast<Index>(ranges.size()),
              [&](Index r) { of_range[at(r)] = sorted_by_label(labels, n_parts, ranges[at(r)]); });

@@ -33,7 +33,7 @@ struct PairsOfUnknowns {
 
 /// @param unknown_of per vertex, or -1; vertices beyond its end are not unknown.
 /// @param n number of unknowns.
-/// @throws ComputationError if there are 2³¹ entries or more.
+/// @throws ComputationError if there are 2³¹ numbers to be kept or more, two for each pair and one for each unknown.
 PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of, Index n);
 
 /// All entries off the diagonal of the symmetric matrix, each once; rows in any order.

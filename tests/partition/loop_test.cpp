@@ -51,7 +51,7 @@ TEST_CASE("what is selected is in order, and sums have the same bits, however th
 TEST_CASE("long ranges have every index once, are few, and none short but the last")
 {
     for (const Index n : {0, 1, 65536, 65537, 1'000'000, 16 * 65536, 50'000'000, 2'147'483'647}) {
-        const std::vector<IndexRange> ranges = long_ranges(n);
+        const std::vector<IndexRange> ranges = long_ranges(n, 100);
         Index end = 0;
         for (const IndexRange& range : ranges) {
             CHECK(range.begin == end);
@@ -62,6 +62,9 @@ TEST_CASE("long ranges have every index once, are few, and none short but the la
         CHECK(ranges.size() <= 16);
         CHECK(ranges.size() >= std::min<std::size_t>(at(n) / 65536, 15));
     }
+    CHECK(long_ranges(10'000'000, 100'000).size() == 7);
+    CHECK(long_ranges(10'000'000, 1'000'000).size() == 1);
+    CHECK(long_ranges(10'000'000, 2'147'483'647).size() == 1);
 }
 
 TEST_CASE("weights are added up by value, however the loop is run")

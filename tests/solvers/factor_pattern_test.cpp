@@ -134,8 +134,10 @@ TEST_CASE("with the tree that comes with an order of elimination, blocks have th
           "more")
 {
     RandomNumbers random(4);
-    for (const SparsePattern& neighbours : {random_neighbours(1, 0, random), random_neighbours(40, 0, random),
-                                            random_neighbours(60, 60, random), random_neighbours(200, 350, random)}) {
+    for (const SparsePattern& neighbours :
+         {random_neighbours(1, 0, random), random_neighbours(40, 0, random), random_neighbours(60, 60, random),
+          random_neighbours(200, 350, random), triangle_neighbours(15, random), star_neighbours(60, 5, random),
+          star_neighbours(200, 12, random), tree_neighbours(150, random)}) {
         const Elimination elimination = eliminate(neighbours);
         const SparsePattern upper = upper_in(neighbours, elimination.order);
         REQUIRE(elimination.tree.parent.size() == at(neighbours.n()));
@@ -146,7 +148,7 @@ TEST_CASE("with the tree that comes with an order of elimination, blocks have th
         const Eigen::MatrixXi expected = eliminated(upper, as_they_are);
         const Eigen::MatrixXi found = from_blocks(factor);
         CHECK((found.array() >= expected.array()).all());
-        CHECK(found.sum() <= 1.5 * expected.sum());
+        CHECK(found.sum() <= 2.5 * expected.sum());
         for (Index b = 0; b < factor.n_blocks(); ++b)
             CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end(), std::less_equal<>()));
         check_places(upper, factor, places);

@@ -33,7 +33,8 @@ TEST_CASE("unknowns have each neighbour once, however often they make a pair")
 TEST_CASE("the upper triangle has its rows in ascending order, in any order of the unknowns, and all pairs their slots")
 {
     const PairsOfUnknowns of = pairs_of_unknowns(pairs, unknown_of, 4);
-    for (std::vector<Index> order{0, 1, 2, 3}; std::next_permutation(order.begin(), order.end());) {
+    std::vector<Index> order{0, 1, 2, 3};
+    do {
         const auto [pattern, slots] = upper_pattern(of, order);
         CHECK(pattern.n() == 4);
         CHECK(pattern.n_entries() == 7);
@@ -53,5 +54,5 @@ TEST_CASE("the upper triangle has its rows in ascending order, in any order of t
         }
         for (const std::size_t i : {2U, 4U, 7U})
             CHECK(slots[i] == -1);
-    }
+    } while (std::next_permutation(order.begin(), order.end()));
 }

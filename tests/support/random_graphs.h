@@ -41,6 +41,29 @@ inline SparsePattern triangle_neighbours(Index side, RandomNumbers& random)
     return make_pattern(side * side, entries);
 }
 
+/// Every vertex but the first few has one to three of these as neighbours, and no others.
+inline SparsePattern star_neighbours(Index n, Index n_hubs, RandomNumbers& random)
+{
+    std::vector<MatrixEntry> entries;
+    for (Index v = n_hubs; v < n; ++v)
+        for (Index i = random.below(3); i >= 0; --i) {
+            const Index hub = random.below(n_hubs);
+            entries.insert(entries.end(), {{v, hub}, {hub, v}});
+        }
+    return make_pattern(n, entries);
+}
+
+/// Each vertex but the first has one before it as its neighbour.
+inline SparsePattern tree_neighbours(Index n, RandomNumbers& random)
+{
+    std::vector<MatrixEntry> entries;
+    for (Index v = 1; v < n; ++v) {
+        const Index other = random.below(v);
+        entries.insert(entries.end(), {{v, other}, {other, v}});
+    }
+    return make_pattern(n, entries);
+}
+
 /// On and above the diagonal of the matrix with these entries off the diagonal, its unknowns in the order given.
 inline SparsePattern upper_in(const SparsePattern& neighbours, const std::vector<Index>& order)
 {
