@@ -17,6 +17,8 @@ struct SubdomainNeeds {
 };
 
 inline constexpr SubdomainNeeds needs_of_sweeps{2'500, 10.0};
+/// Those of Laplacians without symmetry, whose factors grow faster with sub-meshes.
+inline constexpr SubdomainNeeds needs_of_unsymmetric_sweeps{1'000, 10.0};
 inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
 /// Converged steps of Laplacians without symmetry, whose sub-meshes overlap.
 inline constexpr SubdomainNeeds needs_of_krylov_steps{1'000, 2.0};

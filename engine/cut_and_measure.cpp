@@ -13,9 +13,9 @@ namespace {
 
 const SubdomainNeeds& needs_of(const FlowOptions& options)
 {
-    if (!options.tolerance)
-        return needs_of_sweeps;
-    return is_symmetric(options.laplacian) ? needs_of_converged_steps : needs_of_krylov_steps;
+    if (is_symmetric(options.laplacian))
+        return options.tolerance ? needs_of_converged_steps : needs_of_sweeps;
+    return options.tolerance ? needs_of_krylov_steps : needs_of_unsymmetric_sweeps;
 }
 
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,

@@ -28,6 +28,16 @@ TEST_CASE("sub-meshes get a few thousand vertices each, but are no narrower than
     CHECK(by_width.reason != by_cost.reason);
 }
 
+TEST_CASE("without symmetry a sweep has smaller sub-meshes")
+{
+    FlowOptions options;
+    options.time_step = 1e-6;
+    PolygonMesh mesh = make_quads(8000);
+    CHECK(mean_curvature_flow(mesh, options).subdomains == 3);
+    options.laplacian = Laplacian::PtackovaVelho;
+    CHECK(mean_curvature_flow(mesh, options).subdomains == mesh.n_vertices() / 1000);
+}
+
 TEST_CASE("sub-meshes of converged steps may be narrower, and without symmetry are smaller")
 {
     const PolygonMesh mesh = make_quads(50000);
