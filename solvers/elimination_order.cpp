@@ -70,7 +70,10 @@ AmdResult::AmdResult(SparsePattern neighbours)
 EliminationTree tree_of(const AmdResult& amd)
 {
     const std::size_t n = amd.order.size();
-    EliminationTree tree{std::vector<Index>(n), std::vector<Index>(n)};
+    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    EliminationTree tree;
+    tree.parent.resize(n);
+    tree.count.resize(n);
     const auto first_of = [&](Index principal) { return amd.position[at(principal)] - amd.width[at(principal)] + 1; };
     for (std::size_t principal = 0; principal < n; ++principal) {
         const Index parent = amd.parent[principal];

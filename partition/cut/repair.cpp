@@ -78,9 +78,13 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Do
         for (const Index v : mesh.face(doubts.faces[at(i)]))
             std::atomic_ref(is_corner[at(v)]).store(1, std::memory_order_relaxed);
     });
-    return {.parts = doubts.parts, .vertices = select(loop, mesh.n_vertices(), [&](Index v) {
-                                       return is_corner[at(v)] != 0 && may_be_pinched(mesh, topology, labels, v);
-                                   })};
+    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    Suspects suspects;
+    suspects.parts = doubts.parts;
+    suspects.vertices = select(loop, mesh.n_vertices(), [&](Index v) {
+        return is_corner[at(v)] != 0 && may_be_pinched(mesh, topology, labels, v);
+    });
+    return suspects;
 }
 
 /// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
