@@ -152,12 +152,12 @@ const kinds = {
             { name: "largest", values: column(steps, "tangential_max"), colour: 2, dash: [5, 4] },
         ],
     }),
-    times: (steps) => ({
+    times: (steps, { subdomains }) => ({
         title: "Time of each step",
         unit: "wall clock",
         format: seconds,
         curves: [
-            { name: "decomposed", values: column(steps, "seconds"), colour: 1 },
+            { name: subdomains > 1 ? "decomposed" : "this flow, undecomposed", values: column(steps, "seconds"), colour: 1 },
             { name: "undecomposed", values: column(steps, "reference_seconds"), colour: 4 },
         ],
     }),
@@ -198,7 +198,7 @@ export class Plots {
     show(report) {
         this.#plots.forEach((plot) => plot.destroy());
         this.#plots = Object.entries(kinds).map(
-            ([name, kind]) => new Plot(document.getElementById(name), kind(report.steps), this.#places),
+            ([name, kind]) => new Plot(document.getElementById(name), kind(report.steps, report), this.#places),
         );
         showPhases(document.getElementById("phases"), report);
     }
