@@ -52,7 +52,8 @@ class Plot {
      * @param places step() is the one shown; choose(step) shows another.
      */
     constructor(section, { title, unit, curves, logarithmic, format }, places) {
-        const shown = curves.filter((curve) => curve.values.some((value) => value !== null && value !== undefined));
+        const drawable = (value) => value !== null && value !== undefined && (!logarithmic || value > 0);
+        const shown = curves.filter((curve) => curve.values.some(drawable));
         section.hidden = shown.length === 0;
         if (section.hidden)
             return;
@@ -157,8 +158,8 @@ const kinds = {
         unit: "wall clock",
         format: seconds,
         curves: [
-            { name: subdomains > 1 ? "decomposed" : "this flow, undecomposed", values: column(steps, "seconds"), colour: 1 },
-            { name: "undecomposed", values: column(steps, "reference_seconds"), colour: 4 },
+            { name: subdomains > 1 ? "decomposed" : "undecomposed", values: column(steps, "seconds"), colour: 1 },
+            { name: "undecomposed, to compare", values: column(steps, "reference_seconds"), colour: 4 },
         ],
     }),
 };
