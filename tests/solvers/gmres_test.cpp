@@ -169,16 +169,15 @@ TEST_CASE("the residual that ends the iteration is the true one, however much al
 {
     RandomNumbers random(5);
     constexpr Index n = 150;
-    const Eigen::MatrixXd U = random_system(n, random).matrix.householderQr().householderQ();
-    const Eigen::MatrixXd V = random_system(n, random).matrix.householderQr().householderQ();
+    const Eigen::MatrixXd left_factor = random_system(n, random).matrix.householderQr().householderQ();
+    const Eigen::MatrixXd right_factor = random_system(n, random).matrix.householderQr().householderQ();
     for (const double decay : {0.9, 0.8})
         for (const Index n_columns : {1, 3}) {
             CAPTURE(decay);
             CAPTURE(n_columns);
-            System system{
-                U * Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index i) { return std::pow(decay, i); }).asDiagonal() *
-                    V.transpose(),
-                random_points(n, random)};
+            const auto power = [decay](Eigen::Index i) { return std::pow(decay, i); };
+            const auto values = Eigen::VectorXd::NullaryExpr(n, power);
+            System system{left_factor * values.asDiagonal() * right_factor.transpose(), random_points(n, random)};
             system.matrix.diagonal().array() += 0.01;
             system.right.rightCols(3 - n_columns).setZero();
             Points x = Points::Zero(n, 3);
@@ -232,13 +231,13 @@ TEST_CASE("a plateau of two cycles is crossed")
         std::uint32_t seed;
     };
     // Found by trying.
-    for (const auto& [n, shift, iterations_in_cycle, seed] : {Plateau{6, 2.0, 1, 19}, Plateau{20, 3.0, 2, 11}}) {
-        CAPTURE(n);
-        RandomNumbers random(seed);
-        System system = random_system(n, random);
-        system.matrix.diagonal().array() += shift;
+    for (const Plateau& plateau : {Plateau{6, 2.0, 1, 19}, Plateau{20, 3.0, 2, 11}}) {
+        CAPTURE(plateau.n);
+        RandomNumbers random(plateau.seed);
+        System system = random_system(plateau.n, random);
+        system.matrix.diagonal().array() += plateau.shift;
         system.right.rightCols(2).setZero();
-        const Restarted restarted = solve(system, {1e-8, 200, iterations_in_cycle});
+        const Restarted restarted = solve(system, {1e-8, 200, plateau.iterations_in_cycle});
         CHECK(restarted.longest_plateau() == 2);
         CHECK(restarted.result.residual <= 1e-8);
         CHECK_FALSE(restarted.result.stagnated);
