@@ -1,8 +1,13 @@
 #include "engine/near_origin.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
+
+#include "engine/mesh_size.h"
+#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -11,16 +16,28 @@ namespace {
 /// From this distance on, in extents, a mesh lies far away.
 constexpr double far = 16.0;
 
+bool has_sound_corners(const PolygonMesh& mesh)
+{
+    return std::ranges::all_of(mesh.face_vertices, [&](Index v) { return v >= 0 && v < mesh.n_vertices(); });
+}
+
+std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
+{
+    std::vector<std::uint8_t> has_face(at(mesh.n_vertices()), 0);
+    for (const Index v : mesh.face_vertices)
+        has_face[at(v)] = 1;
+    return select(run_serially, mesh.n_vertices(), [&](Index v) { return has_face[at(v)] == 0; });
+}
+
 }  // namespace
 
-Point offset_of(const Points& positions)
+Point offset_of(const PolygonMesh& mesh)
 {
-    if (positions.rows() == 0)
+    if (!has_sound_corners(mesh) || !mesh.vertices.allFinite())
         return Point::Zero();
-    const Point low = positions.colwise().minCoeff();
-    const Point high = positions.colwise().maxCoeff();
+    const auto [low, high] = box_of_faces(mesh);
     const double extent = (high - low).maxCoeff();
-    if (!(positions.allFinite() && std::isnormal(extent)))
+    if (!std::isnormal(extent))
         return Point::Zero();
     // Multiples of the grid have few bits: what is left of a coordinate beside one has no more than it had itself.
     const double grid = std::exp2(std::ilogb(extent) + 1);
@@ -36,18 +53,28 @@ Point offset_of(const Points& positions)
 NearOrigin::NearOrigin(PolygonMesh& mesh, const Point& offset)
     : mesh_(&mesh)
     , offset_(offset)
+    , isolated_(vertices_without_faces(mesh))
+    , of_isolated_(mesh.vertices(isolated_, Eigen::all))
 {
     mesh_->vertices.rowwise() -= offset_;
 }
 
 NearOrigin::~NearOrigin()
 {
-    mesh_->vertices.rowwise() += offset_;
+    bring_back(mesh_->vertices);
+}
+
+/// @param positions #V by 3, and any number of further rows.
+void NearOrigin::bring_back(Points& positions) const
+{
+    positions.rowwise() += offset_;
+    for (std::size_t i = 0; i < isolated_.size(); ++i)
+        positions.row(isolated_[i]) = of_isolated_.row(static_cast<Eigen::Index>(i));
 }
 
 PolygonMesh NearOrigin::brought_back(PolygonMesh mesh) const
 {
-    mesh.vertices.rowwise() += offset_;
+    bring_back(mesh.vertices);
     return mesh;
 }
 
@@ -56,10 +83,11 @@ StepObserver NearOrigin::observing(const StepObserver& inner) const
     if (!inner)
         return {};
     return [this, inner](const StepState& state) {
-        const Points positions = state.positions.rowwise() + offset_;
+        Points positions = state.positions;
+        bring_back(positions);
         std::optional<Points> reference;
         if (state.reference_positions != nullptr)
-            reference = state.reference_positions->rowwise() + offset_;
+            bring_back(reference.emplace(*state.reference_positions));
         std::optional<PolygonMesh> pieces;
         if (state.pieces != nullptr)
             pieces = brought_back(*state.pieces);

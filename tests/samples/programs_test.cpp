@@ -116,6 +116,7 @@ TEST_CASE("a missed tolerance ends with 4 and the last state, fewer iterations o
     const std::string flow = " --time-step-edges 2 --subdomains 12 --steps 2 --report report.json --converge ";
     REQUIRE(w.smooth("mesh.obj exact.obj" + flow + "1e-9") == 0);
     const Json report = w.json("report.json");
+    CHECK(report["steps_short_of_tolerance"] == 0);
     for (const auto& step : report["steps"]) {
         CHECK(step["residual"].get<double>() <= 1e-9);
         CHECK(step["estimated_v_max"].get<double>() < 1e-6);
@@ -124,9 +125,12 @@ TEST_CASE("a missed tolerance ends with 4 and the last state, fewer iterations o
     CHECK(w.said().find("the tolerance 1e-100 was missed in 2 steps; missed.obj has the last state") !=
           std::string::npos);
     CHECK(w.has("missed.obj"));
+    CHECK(w.json("report.json")["steps_short_of_tolerance"] == 2);
+    CHECK(w.json("report.json")["steps_stagnated"] == 2);
     CHECK(w.smooth("mesh.obj missed.obj" + flow + "1e-100 --converge-iterations 900") == 4);
     REQUIRE(w.smooth("mesh.obj early.obj" + flow + "1e-9 --converge-iterations 2") == 0);
     CHECK(w.json("report.json")["steps"][1]["iterations"] == 2);
+    CHECK(w.json("report.json")["steps_stagnated"] == 0);
     CHECK(w.said().find("not reached in 2 steps") != std::string::npos);
 }
 
