@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -21,6 +22,28 @@ bool has_sound_corners(const PolygonMesh& mesh)
     return std::ranges::all_of(mesh.face_vertices, [&](Index v) { return v >= 0 && v < mesh.n_vertices(); });
 }
 
+/// False where a few corners already show that the surface does not lie far away, which is nearly always. Every vertex
+/// of one that does is further than `far` - ½ extents from the origin in some coordinate, and extents of a few are
+/// smaller.
+bool may_lie_far(const PolygonMesh& mesh)
+{
+    constexpr std::size_t few = 1024;
+    const std::size_t stride = std::max(mesh.face_vertices.size() / few, std::size_t{1});
+    Point low = Point::Constant(std::numeric_limits<double>::infinity());
+    Point high = -low;
+    Point nearest = low;
+    for (std::size_t corner = 0; corner < mesh.face_vertices.size(); corner += stride) {
+        const Index v = mesh.face_vertices[corner];
+        if (v < 0 || v >= mesh.n_vertices())
+            return false;
+        const Point position = mesh.vertices.row(v);
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+        nearest = nearest.cwiseMin(position.cwiseAbs());
+    }
+    return nearest.maxCoeff() >= (far - 0.5) * (high - low).maxCoeff();
+}
+
 std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
 {
     std::vector<std::uint8_t> has_face(at(mesh.n_vertices()), 0);
@@ -33,7 +56,7 @@ std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
 
 Point offset_of(const PolygonMesh& mesh)
 {
-    if (!has_sound_corners(mesh) || !mesh.vertices.allFinite())
+    if (!may_lie_far(mesh) || !has_sound_corners(mesh) || !mesh.vertices.allFinite())
         return Point::Zero();
     const auto [low, high] = box_of_faces(mesh);
     const double extent = (high - low).maxCoeff();
