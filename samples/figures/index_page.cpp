@@ -54,6 +54,15 @@ there. Figures 3, 4 and 6 explain terms and are left out. The texture is the hei
 go with the vertices when they slide along the surface.</p>
 )";
 
+constexpr std::string_view legend =
+    R"(<p class="quiet">Tables: V_ and H_ are distances to the undecomposed flow by the same
+Laplacian after the last step, in mean edge lengths, and drift is how far the texture slid along the surface; Γ is the length of
+the interface, in lengths of the same edges of the undecomposed flow; roughness is the angle between neighbouring triangles,
+root mean square and 95th percentile. dt is in length², p in 1/length, q has no unit. Each command, run in the folder of this
+page, repeats its flow bit for bit; it ends with status 4 where vertices are thrown further than the mesh is wide, which is
+shown here.</p>
+)";
+
 std::string escaped(std::string_view text)
 {
     std::string result;
@@ -213,13 +222,8 @@ std::string index_html(const std::vector<FigureResult>& results, const std::vect
         const std::string number = std::to_string(result.experiment->figure);
         text += "<a href=\"#figure-" + number + "\">Figure " + number + "</a>";
     }
-    text += "</nav>\n<p class=\"quiet\">Tables: V_ and H_ are distances to the undecomposed flow by the same Laplacian "
-            "after "
-            "the last step, in mean edge lengths, and drift is how far the texture slid along the surface; Γ is the "
-            "length of "
-            "the interface, in lengths of the same edges of the undecomposed flow; roughness is the angle between "
-            "neighbouring triangles, root mean square and 95th percentile. dt is in length², p in 1/length, q has no "
-            "unit.</p>\n";
+    text += "</nav>\n";
+    text += legend;
     for (const FigureResult& result : results)
         text += figure_section(result, with_pages);
     if (!many.empty())

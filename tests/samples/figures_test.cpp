@@ -326,6 +326,10 @@ TEST_CASE("the authors' parameters are for their own mesh")
     CHECK(options.coloring == Coloring::Label);
     CHECK(options.correction == Correction::None);
     CHECK(options.sweep == Sweep::Fixed);
+    CHECK(
+        command_of(teaser, halves, mesh) ==
+        "smooth teaser-input.ply out.ply --laplacian ptackova-velho --time-step 0.05 --steps 5 --labels teaser-cut.txt "
+        "--plain --p 6.2993055940947205 --coloring label --no-correction");
     // Only there is Γ not corrected.
     const Experiment hexagons = small("hexagons");
     mesh.authors = hexagons.source.authors;
