@@ -6,6 +6,7 @@
 
 #include "samples/figures/curves.h"
 #include "samples/figures/measured.h"
+#include "samples/page/page_html.h"
 
 namespace seamflow {
 
@@ -63,24 +64,6 @@ page, repeats its flow bit for bit; it ends with status 4 where vertices are thr
 shown here.</p>
 )";
 
-std::string escaped(std::string_view text)
-{
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result;
-}
-
 /// A number with three digits, a dash if it is none.
 std::string short_number(double value)
 {
@@ -93,7 +76,7 @@ std::string short_number(double value)
 
 std::string text_cell(std::string_view text)
 {
-    return "<td>" + escaped(text) + "</td>";
+    return "<td>" + escaped_for_html(std::string(text)) + "</td>";
 }
 
 std::string number_cell(const std::string& text)
@@ -115,8 +98,8 @@ std::string picture(const FigureResult& result, const std::string& title)
         if (title_of(variant) == title)
             caption = words_of(variant);
     const std::string file = result.table.figure + "-" + title + ".png";
-    return "<figure><img src=\"" + file + "\" alt=\"" + escaped(caption) + "\"><figcaption>" + escaped(caption) +
-           "</figcaption></figure>\n";
+    return "<figure><img src=\"" + file + "\" alt=\"" + escaped_for_html(caption) + "\"><figcaption>" +
+           escaped_for_html(caption) + "</figcaption></figure>\n";
 }
 
 /// Whether there are numbers of the authors for this mesh.
@@ -148,7 +131,7 @@ std::string flow_rows(const FigureResult& result, const Row& row)
     text += number_cell(compared ? short_number(row.h.mean) + " / " + short_number(row.h.max) : "");
     text += number_cell(short_number(row.drift)) + number_cell(short_number(row.interface_length));
     text += number_cell(short_number(row.roughness.rms) + "° / " + short_number(row.roughness.percentile_95) + "°");
-    return text + "</tr>\n<tr class=\"command\"><td colspan=\"12\"><code>" + escaped(row.command) +
+    return text + "</tr>\n<tr class=\"command\"><td colspan=\"12\"><code>" + escaped_for_html(row.command) +
            "</code></td></tr>\n";
 }
 
@@ -177,7 +160,7 @@ std::string claims_table(const std::vector<Claim>& claims)
         text += "<tr>" + text_cell(claim.text) + text_cell(claim.measured);
         text += claim.holds ? "<td class=\"yes\">holds</td></tr>\n" : "<td class=\"no\">does not hold</td></tr>\n";
         if (!claim.holds && !claim.why.empty())
-            text += "<tr><td colspan=\"3\" class=\"quiet\">" + escaped(claim.why) + "</td></tr>\n";
+            text += "<tr><td colspan=\"3\" class=\"quiet\">" + escaped_for_html(claim.why) + "</td></tr>\n";
     }
     return text + "</table></div>\n";
 }
@@ -187,11 +170,12 @@ std::string figure_section(const FigureResult& result, bool with_pages)
     const Experiment& experiment = *result.experiment;
     const Table& table = result.table;
     const std::string number = std::to_string(experiment.figure);
-    std::string text =
-        "<h2 id=\"figure-" + number + "\">Figure " + number + ". " + escaped(experiment.heading) + "</h2>\n";
-    text += "<p>" + escaped(experiment.text) + "</p>\n<p class=\"quiet\">" + escaped(table.mesh) + ", " +
-            std::to_string(table.vertices) + " vertices; dt " + short_number(table.time_step) + ", " +
-            std::to_string(table.steps) + (table.steps == 1 ? " step; " : " steps; ");
+    std::string text = "<h2 id=\"figure-" + number + "\">Figure " + number + ". " +
+                       escaped_for_html(std::string(experiment.heading)) + "</h2>\n";
+    text += "<p>" + escaped_for_html(std::string(experiment.text)) + "</p>\n<p class=\"quiet\">" +
+            escaped_for_html(table.mesh) + ", " + std::to_string(table.vertices) + " vertices; dt " +
+            short_number(table.time_step) + ", " + std::to_string(table.steps) +
+            (table.steps == 1 ? " step; " : " steps; ");
     text += "<a href=\"" + table.figure + ".csv\">all steps</a>";
     if (with_pages)
         text += "; <a href=\"" + table.figure + ".html\">step by step, in three dimensions</a>";
@@ -206,9 +190,9 @@ std::string figure_section(const FigureResult& result, bool with_pages)
         text += "<div class=\"curves\"><img src=\"" + table.figure + "-curves.svg\" alt=\"Distances by step\"></div>\n";
     text += table_of(result);
     if (table.is_theirs && !experiment.difference.empty())
-        text += "<p class=\"quiet\">" + escaped(experiment.difference) + "</p>\n";
+        text += "<p class=\"quiet\">" + escaped_for_html(std::string(experiment.difference)) + "</p>\n";
     for (const std::string& remark : table.remarks)
-        text += "<p class=\"quiet\">" + escaped(remark) + "</p>\n";
+        text += "<p class=\"quiet\">" + escaped_for_html(remark) + "</p>\n";
     return text + claims_table(result.claims);
 }
 

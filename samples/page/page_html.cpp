@@ -46,14 +46,6 @@ void replace_all(std::string& text, std::string_view old, std::string_view now)
         text.replace(place, old.size(), now);
 }
 
-std::string escaped_for_html(std::string text)
-{
-    replace_all(text, "&", "&amp;");
-    replace_all(text, "<", "&lt;");
-    replace_all(text, ">", "&gt;");
-    return text;
-}
-
 /// JSON in which nothing looks like the end of a script: "<" occurs in strings alone.
 std::string escaped_for_script(const Json& json)
 {
@@ -121,6 +113,15 @@ Json mesh_json(const PageMesh& page, Blocks& blocks)
 }
 
 }  // namespace
+
+std::string escaped_for_html(std::string text)
+{
+    replace_all(text, "&", "&amp;");
+    replace_all(text, "<", "&lt;");
+    replace_all(text, ">", "&gt;");
+    replace_all(text, "\"", "&quot;");
+    return text;
+}
 
 std::string page_html(const std::string& title, std::span<const PageFlow> flows)
 {

@@ -21,4 +21,7 @@ void require_page();
 /// @throws OutputError for a mesh of more faces than a browser can show.
 void require_showable(const PolygonMesh& mesh, const std::filesystem::path& path);
 
+/// A text as it stands in HTML, between tags or in quotation marks.
+std::string escaped_for_html(std::string text);
+
 }  // namespace seamflow
