@@ -242,7 +242,7 @@ TEST_CASE("the authors' numbers are claimed of their own mesh alone, to the digi
     table.rows[3].v.max = 0.296;
     REQUIRE(claims_of(table).size() == without + 1);
     CHECK(claims_of(table).back().holds);
-    for (const std::size_t k : {1, 3}) {
+    for (const auto k : {std::size_t{1}, std::size_t{3}}) {
         Table other = table;
         other.rows[k].v.mean += 0.001;
         CHECK_FALSE(claims_of(other).back().holds);
