@@ -25,17 +25,22 @@ std::vector<std::string> all_names()
 std::string listed_names()
 {
     std::string text;
-    for (const std::string& name : all_names())
-        text += (text.empty() ? "" : ", ") + name;
-    return text;
+    for (const Experiment& experiment : experiments())
+        text += std::string(experiment.name) + " (" + std::to_string(experiment.figure) + "), ";
+    return text.append(many_sub_meshes);
 }
 
-void require_known(const std::vector<std::string>& figures)
+/// The name of a figure that may be called by its number in the paper.
+/// @throws OptionError for one that there is not.
+std::string name_of_figure(const std::string& text)
 {
+    for (const Experiment& experiment : experiments())
+        if (text == std::to_string(experiment.figure))
+            return std::string(experiment.name);
     const std::vector<std::string> known = all_names();
-    for (const std::string& figure : figures)
-        if (std::find(known.begin(), known.end(), figure) == known.end())
-            throw OptionError("no figure is called \"" + figure + "\"; there are " + listed_names());
+    if (std::find(known.begin(), known.end(), text) == known.end())
+        throw OptionError("no figure is called \"" + text + "\"; there are " + listed_names());
+    return text;
 }
 
 void require_folders(const FiguresCommand& command)
@@ -59,7 +64,8 @@ bool FiguresCommand::wants(std::string_view figure) const
 std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCommand& command)
 {
     CLI::App app("Repeats the experiments of the paper and tells which of its claims hold.", "figures");
-    app.add_option("FIGURE", command.figures, "any of " + listed_names() + " [all]")->type_name("");
+    app.add_option("FIGURE", command.figures, "by name or by number in the paper: " + listed_names() + " [all]")
+        ->type_name("");
     app.add_option("--meshes", command.meshes, "folder with the authors' own meshes [all are generated]")
         ->type_name("DIR");
     app.add_option("--out", command.out, "folder for tables, meshes and claims")->required()->type_name("DIR");
@@ -69,7 +75,8 @@ std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCo
         return end;
     if (command.html)
         require_page();
-    require_known(command.figures);
+    for (std::string& figure : command.figures)
+        figure = name_of_figure(figure);
     require_folders(command);
     return std::nullopt;
 }

@@ -497,11 +497,16 @@ TEST_CASE("the command line names figures that there are")
     CHECK(command.wants("teaser"));
     CHECK_FALSE(command.wants("texture"));
     CHECK(FiguresCommand{}.wants("texture"));
+    FiguresCommand by_number;
+    CHECK_FALSE(parse({"--out", out, "9"}, by_number));
+    CHECK(by_number.wants("wavy-cylinder"));
+    CHECK_FALSE(by_number.wants("texture"));
     const auto refused = [](const std::vector<std::string>& words) {
         FiguresCommand ignored;
         parse(words, ignored);
     };
     CHECK_THROWS_AS(refused({"--out", out, "figure-1"}), OptionError);
+    CHECK_THROWS_AS(refused({"--out", out, "3"}), OptionError);
     CHECK_THROWS_AS(refused({"--out", out, "--meshes", folder / "none"}), InputError);
     CHECK_THROWS_AS(refused({"--out", folder.with("file", "") / "below"}), OutputError);
 }
