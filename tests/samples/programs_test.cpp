@@ -372,7 +372,7 @@ TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
     }
     CHECK(shown == 12);
     CHECK(w.run(FIGURES " --out results figure-1") == 2);
-    CHECK(w.said().find("there are teaser, ") != std::string::npos);
+    CHECK(w.said().find("there are teaser (1), ") != std::string::npos);
     CHECK(w.run(FIGURES " texture") == 2);
     CHECK(w.run(FIGURES " --out results --meshes none texture") == 3);
 }
