@@ -7,6 +7,7 @@
 #include "partition/cut/components.h"
 #include "partition/cut/defects.h"
 #include "partition/cut/refine.h"
+#include "partition/cut/repair.h"
 #include "partition/cut/seams.h"
 #include "tests/support/test_meshes.h"
 
@@ -141,4 +142,17 @@ TEST_CASE("mixed vertices are those whose faces differ")
     const NamedMesh m = named(quad_grid(2, 1));
     CHECK(mixed_vertices(m.topology, std::vector<Index>{0, 1}) == std::vector<Index>{1, 4});
     CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
+}
+
+TEST_CASE("parts that have come to pieces are in doubt")
+{
+    for (const PolygonMesh& mesh : {quad_torus(40, 40), hexagon_sheet(30, 30), triangle_torus(30, 30)})
+        for (const Index weight : {6, 12, 20, 40, 100}) {
+            const NamedMesh m = named(mesh);
+            const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
+            std::vector<Index> labels = clusters.cluster_of;
+            const Doubts doubts = shorten_seams(m.mesh, m.topology, clusters.size(), labels);
+            repair_where_doubtful(m.mesh, m.topology, doubts, labels);
+            CHECK_FALSE(first_defect(m.mesh, m.topology, labels));
+        }
 }
