@@ -262,9 +262,9 @@ TEST_CASE("the Ventcell parameter may be 0, which leaves Robin's conditions")
 
 TEST_CASE("a converged step of a mesh at rest asks for no more than rounding leaves")
 {
-    PolygonMesh mesh = make_quads(900);
+    PolygonMesh mesh = make_mixed_polygons(900);
     mesh.vertices.col(2).setZero();
-    for (const Laplacian laplacian : test::all_laplacians) {
+    for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho}) {
         FlowOptions options = options_for(5);
         options.laplacian = laplacian;
         options.tolerance = 1e-8;
