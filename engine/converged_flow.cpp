@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <string>
 
 #include "engine/choose_subdomains.h"
+#include "engine/flow_remarks.h"
 #include "engine/on_behalf_of.h"
 #include "engine/parallel_loop.h"
 #include "engine/release.h"
@@ -256,13 +256,7 @@ void ConvergedFlow::describe(FlowReport& report) const
     add_seconds(report.seconds);
     report.steps_short_of_tolerance = steps_short_of_tolerance_;
     report.steps_stagnated = steps_stagnated_;
-    if (steps_short_of_tolerance_ > 0)
-        report.remarks.push_back(
-            "The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
-            (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " + std::to_string(stop_.iterations) +
-            " iterations at most" +
-            (steps_stagnated_ > 0 ? "; in " + std::to_string(steps_stagnated_) + " of them more would not have helped."
-                                  : "."));
+    remark_on_missed_tolerance(stop_.iterations, {}, report);
     if (recorder_)
         report.schedule = recorder_->schedule();
 }

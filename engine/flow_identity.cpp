@@ -61,7 +61,7 @@ std::string text_of(const std::vector<Index>& indices)
 std::string text_of(const PolygonMesh& mesh)
 {
     Checksum checksum;
-    const Point offset = offset_of(mesh.vertices);
+    const Point offset = offset_of(mesh);
     const Points moved = offset.isZero(0.0) ? Points(0, 3) : Points(mesh.vertices.rowwise() - offset);
     const Points& near = offset.isZero(0.0) ? mesh.vertices : moved;
     checksum.add_numbers(std::span<const double>(near.data(), static_cast<std::size_t>(near.size())));

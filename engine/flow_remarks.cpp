@@ -32,6 +32,18 @@ void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowRe
                              ": the result may be wrong there; use a smaller time step, or another Laplacian.");
 }
 
+void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report)
+{
+    const auto steps = [](int n) { return std::to_string(n) + (n == 1 ? " step" : " steps"); };
+    if (report.steps_short_of_tolerance == 0)
+        return;
+    std::string remark = "The tolerance was not reached in " + steps(report.steps_short_of_tolerance) + " with " +
+                         std::to_string(iterations) + " iterations at most";
+    if (report.steps_stagnated > 0)
+        remark += "; in " + std::to_string(report.steps_stagnated) + " of them more would not have helped";
+    report.remarks.push_back(remark + (remedy.empty() ? "" : ": " + remedy) + ".");
+}
+
 double extent_of(const Points& positions)
 {
     return positions.rows() == 0 ? 0.0 : (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();

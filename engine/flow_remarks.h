@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "engine/flow_options.h"
 #include "engine/flow_report.h"
@@ -17,6 +18,11 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report);
 /// Adds a remark where equations were nearly singular.
 /// @param n_nearly_singular for every sub-mesh, how many of its factorisations.
 void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report);
+
+/// Adds a remark where steps have missed the tolerance, as the report says.
+/// @param iterations the most that a step may have.
+/// @param remedy what to do about it, after a colon; empty: nothing.
+void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report);
 
 /// Adds a remark where the flow has drawn the surface together to next to nothing, which is hardly what was wanted.
 /// @param extent_before see extent_of. @param after #V by 3.

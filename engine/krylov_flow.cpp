@@ -193,11 +193,7 @@ void KrylovFlow::describe(FlowReport& report) const
     remark_on_near_singularity(n_nearly_singular, report);
     report.steps_short_of_tolerance = steps_short_of_tolerance_;
     report.steps_stagnated = steps_stagnated_;
-    if (steps_short_of_tolerance_ > 0)
-        report.remarks.push_back("The tolerance was not reached in " + std::to_string(steps_short_of_tolerance_) +
-                                 (steps_short_of_tolerance_ == 1 ? " step" : " steps") + " with " +
-                                 std::to_string(stop_.iterations) +
-                                 " iterations at most: use fewer sub-meshes or a smaller time step.");
+    remark_on_missed_tolerance(stop_.iterations, "use fewer sub-meshes or a smaller time step", report);
     if (recorder_)
         report.schedule = recorder_->schedule();
 }

@@ -357,7 +357,7 @@ FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, co
     const auto flow = [&](const StepObserver& observer) {
         workers.execute([&] { flow_with(workers, mesh, options, observer, control, report); });
     };
-    const Point offset = offset_of(mesh.vertices);
+    const Point offset = offset_of(mesh);
     if (offset.isZero(0.0)) {
         flow(on_step);
         return report;

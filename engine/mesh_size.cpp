@@ -7,6 +7,20 @@
 
 namespace seamflow {
 
+BoundingBox box_of_faces(const PolygonMesh& mesh)
+{
+    if (mesh.face_vertices.empty())
+        return {};
+    const Point first = mesh.vertices.row(mesh.face_vertices.front());
+    BoundingBox box{first, first};
+    for (const Index v : mesh.face_vertices) {
+        const Point position = mesh.vertices.row(v);
+        box.low = box.low.cwiseMin(position);
+        box.high = box.high.cwiseMax(position);
+    }
+    return box;
+}
+
 double total_area(const PolygonMesh& mesh)
 {
     return sum(run_in_parallel, mesh.n_faces(), [&](Index f) { return area(mesh.face(f), mesh.vertices); });

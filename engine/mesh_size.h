@@ -1,6 +1,7 @@
 #pragma once
 
 #include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
@@ -12,6 +13,17 @@ struct MeshSize {
     /// Average length of the edges, those between two faces counting twice (see mean_edge_length); 0 without faces.
     double mean_edge = 0.0;
 };
+
+/// A box around positions, in units of length.
+struct BoundingBox {
+    Point low = Point::Zero();
+    Point high = Point::Zero();
+};
+
+/// The box around the vertices that have faces; others say nothing of where a surface lies, nor how large it is. A
+/// point where there are no faces.
+/// @pre no face names a vertex that is not there.
+BoundingBox box_of_faces(const PolygonMesh& mesh);
 
 /// Of all faces (length²), whichever way they are oriented.
 double total_area(const PolygonMesh& mesh);

@@ -1,17 +1,21 @@
 #pragma once
 
+#include <vector>
+
 #include "engine/flow_report.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
 
-/// What to subtract from positions that lie far from the origin against their own extent, so that the flow does not
-/// lose the precision that their distance takes: a point near their middle, on a grid so coarse that the difference is
-/// exact. Zero for positions that do not lie far away, for none, and where any is not finite.
-Point offset_of(const Points& positions);
+/// What to subtract from the positions of a surface that lies far from the origin against its own extent, so that the
+/// flow does not lose the precision that its distance takes: a point near its middle, on a grid so coarse that the
+/// difference is exact. Vertices without faces play no part in it. Zero for a surface that does not lie far away, for
+/// none, where any position is not finite, and where a face names a vertex that is not there.
+Point offset_of(const PolygonMesh& mesh);
 
-/// A mesh brought near the origin as long as this lives; the positions that it has then are brought back.
+/// A mesh brought near the origin as long as this lives; the positions that it has then are brought back. Vertices
+/// without faces, for which the difference may not be exact, are those of before then, bit for bit: nothing moves them.
 class NearOrigin {
   public:
     NearOrigin(PolygonMesh& mesh, const Point& offset);
@@ -26,8 +30,13 @@ class NearOrigin {
     [[nodiscard]] PolygonMesh brought_back(PolygonMesh mesh) const;
 
   private:
+    void bring_back(Points& positions) const;
+
     PolygonMesh* mesh_;
     Point offset_;
+    /// The vertices without faces, and where they are in truth.
+    std::vector<Index> isolated_;
+    Points of_isolated_;
 };
 
 }  // namespace seamflow

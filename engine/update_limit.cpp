@@ -7,27 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/mesh_size.h"
 #include "engine/parallel_loop.h"
 #include "partition/errors.h"
 
 namespace seamflow {
 
 namespace {
-
-/// Of the vertices that have faces; 0 if none has.
-double diagonal_of(const PolygonMesh& mesh)
-{
-    if (mesh.face_vertices.empty())
-        return 0.0;
-    Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Array3d high = -low;
-    for (const Index v : mesh.face_vertices) {
-        const Eigen::Array3d position = mesh.vertices.row(v).transpose();
-        low = low.min(position);
-        high = high.max(position);
-    }
-    return (high - low).matrix().stableNorm();
-}
 
 /// The first vertex whose position is not finite, or the one that moves furthest.
 /// @param unit about the size of the mesh, so that squares neither overflow nor vanish.
@@ -73,9 +59,10 @@ std::string number(double value)
 
 UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
     : mesh_(mesh)
-    , diagonal_(diagonal_of(mesh))
-    , largest_(diagonals * diagonal_)
 {
+    const BoundingBox box = box_of_faces(mesh);
+    diagonal_ = (box.high - box.low).stableNorm();
+    largest_ = diagonals * diagonal_;
 }
 
 void UpdateLimit::require(const Points& before, const Points& after, std::span<const Index> labels) const

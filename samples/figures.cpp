@@ -2,43 +2,49 @@
 //
 //     mesh ──► cut in two by rows ──► flows, decomposed and not ──► table ──► claims
 //     (the authors' own file,                                        │         │
-//     or one of the same kind)                                   FIGURE.csv  claims.csv
+//     or one of the same kind)                                   FIGURE.csv  claims.csv ──► index.html
 
 #include <iostream>
 
 #include "engine/stopwatch.h"
+#include "samples/common/output_files.h"
 #include "samples/figures/claims.h"
+#include "samples/figures/curves.h"
 #include "samples/figures/figures_command.h"
+#include "samples/figures/index_page.h"
 #include "samples/figures/runner.h"
 
 using namespace seamflow;
 
 namespace {
 
-/// Writes the table of one experiment, and adds its claims.
-void run_figure(const Experiment& experiment, const FiguresCommand& command, std::vector<Claim>& claims)
+/// Runs one experiment, and writes its table and curves.
+FigureResult run_figure(const Experiment& experiment, const FiguresCommand& command)
 {
-    Places places{.meshes = command.meshes, .pictures = command.out, .page = {}};
+    const std::string name(experiment.name);
+    Places places{.meshes = command.meshes, .out = command.out};
     if (command.html)
-        places.page = command.out / (std::string(experiment.name) + ".html");
-    const Table table = run_experiment(experiment, places, std::cout);
-    write_csv(command.out / (table.figure + ".csv"), {table});
-    for (const std::string& remark : table.remarks)
+        places.page = command.out / (name + ".html");
+    FigureResult result{
+        .experiment = &experiment, .table = run_experiment(experiment, places, std::cout), .claims = {}};
+    write_csv(command.out / (name + ".csv"), {result.table});
+    if (const std::string curves = curves_svg(result.table, experiment); !curves.empty())
+        write_text(command.out / (name + "-curves.svg"), curves);
+    for (const std::string& remark : result.table.remarks)
         std::cout << "  remark: " << remark << '\n';
-    const std::vector<Claim> found = claims_of(table);
-    claims.insert(claims.end(), found.begin(), found.end());
+    result.claims = claims_of(result.table);
+    return result;
 }
 
 /// Writes one table of all experiments with more and more sub-meshes, without meshes to look at.
-void run_many(const FiguresCommand& command, std::vector<Claim>& claims)
+std::vector<Claim> run_many(const FiguresCommand& command)
 {
     std::vector<Table> tables;
     for (const Experiment& experiment : experiments())
         if (const Experiment many = with_many_sub_meshes(experiment); many.variants.back().pieces == Pieces::Metis)
-            tables.push_back(run_experiment(many, {command.meshes, {}, {}}, std::cout));
+            tables.push_back(run_experiment(many, {.meshes = command.meshes, .out = {}}, std::cout));
     write_csv(command.out / (std::string(many_sub_meshes) + ".csv"), tables);
-    const std::vector<Claim> found = claims_of_many(tables);
-    claims.insert(claims.end(), found.begin(), found.end());
+    return claims_of_many(tables);
 }
 
 ExitStatus figures(int argc, char** argv)
@@ -47,15 +53,20 @@ ExitStatus figures(int argc, char** argv)
     if (const auto end = parse_figures_command(argc, argv, command))
         return *end;
     const Stopwatch watch;
+    std::vector<FigureResult> results;
     std::vector<Claim> claims;
     for (const Experiment& experiment : experiments())
-        if (command.wants(experiment.name))
-            run_figure(experiment, command, claims);
-    if (command.wants(many_sub_meshes))
-        run_many(command, claims);
+        if (command.wants(experiment.name)) {
+            results.push_back(run_figure(experiment, command));
+            claims.insert(claims.end(), results.back().claims.begin(), results.back().claims.end());
+        }
+    const std::vector<Claim> many = command.wants(many_sub_meshes) ? run_many(command) : std::vector<Claim>{};
+    claims.insert(claims.end(), many.begin(), many.end());
     write_claims(command.out / "claims.csv", claims);
+    write_text(command.out / "index.html", index_html(results, many, command.html));
     print_claims(std::cout, claims);
-    std::cout << command.out.string() << ": done in " << watch.seconds() << " s" << std::endl;
+    std::cout << (command.out / "index.html").string() << " shows it all; done in " << watch.seconds() << " s"
+              << std::endl;
     return ExitStatus::Success;
 }
 

@@ -25,6 +25,7 @@
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
+#include "samples/common/missed_tolerance.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -119,12 +120,11 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
     }
 }
 
-/// Where iterations end that the user has not limited, or more would not help, the results are not what was asked for.
-/// Of a tolerance that nobody asked for, the remark in the report says enough.
+/// Where steps have missed their tolerance, the results are not what was asked for.
 ExitStatus require_converged(const SmoothCommand& command, const FlowReport& report)
 {
-    const int missed = command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
-    if (missed == 0 || !command.options.tolerance)
+    const int missed = steps_failed(command, report);
+    if (missed == 0)
         return ExitStatus::Success;
     std::cerr << "smooth: the tolerance " << *command.options.tolerance << " was missed in " << missed
               << (missed == 1 ? " step; " : " steps; ") << command.output.string() << " has the last state\n";

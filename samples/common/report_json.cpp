@@ -136,8 +136,11 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
     json["radius"] =
         number(smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1))));
-    if (report.tolerance)
+    if (report.tolerance) {
         json["tolerance"] = number(*report.tolerance);
+        json["steps_short_of_tolerance"] = report.steps_short_of_tolerance;
+        json["steps_stagnated"] = report.steps_stagnated;
+    }
     json["threads"] = report.threads;
     json["p"] = numbers(report.p);
     json["live_factors"] = report.live_factors;

@@ -18,6 +18,8 @@ struct Claim {
     std::string measured;
     /// False also where a number is missing, because a flow ended before its time.
     bool holds = false;
+    /// Where it does not hold, why, as far as it is known; else empty.
+    std::string why = {};
 };
 
 /// What the paper's words are taken to mean where they leave it open. Lengths in mean edge lengths.
@@ -35,7 +37,9 @@ struct ClaimLimits {
     /// code gives 18 for Δ_F.
     double delays = 10.0;
     double delays_velho = 5.0;
-    /// "Spiky": degrees of roughness. On average the faces stand at this angle to each other then.
+    /// "Artifacts": the roughness is more than so many times that of the input; "performs well": it is not.
+    double artifacts = 2.0;
+    /// "Spiky": degrees of roughness. Neighbouring triangles stand at this angle to each other then.
     double spiky = 45.0;
 };
 
@@ -46,11 +50,11 @@ std::vector<Claim> claims_of(const Table& table, const ClaimLimits& limits = {})
 /// method.
 std::vector<Claim> claims_of_many(const std::vector<Table>& tables, const ClaimLimits& limits = {});
 
-/// Writes figure, claim, measured, holds (yes or no) as CSV.
+/// Writes figure, claim, measured, holds (yes or no), why as CSV.
 /// @throws OutputError naming the file.
 void write_claims(const std::filesystem::path& path, const std::vector<Claim>& claims);
 
-/// A line or two for each.
+/// Two lines for each, a third where it does not hold.
 void print_claims(std::ostream& out, const std::vector<Claim>& claims);
 
 }  // namespace seamflow

@@ -1,15 +1,26 @@
 #include "samples/figures/experiment.h"
 
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <limits>
 
+#include "samples/common/flow_choices.h"
+#include "samples/figures/measured.h"
 #include "samples/figures/surfaces.h"
 
 namespace seamflow {
 
 namespace {
 
-constexpr std::array all_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho};
+constexpr Laplacian fujiwara = Laplacian::Fujiwara;
+constexpr Laplacian alexa = Laplacian::AlexaWardetzky;
+constexpr Laplacian velho = Laplacian::PtackovaVelho;
+constexpr Conditions robin = Conditions::AdaptedRobin;
+constexpr Conditions ventcell = Conditions::AdaptedVentcell;
+constexpr Conditions schwarz = Conditions::Schwarz;
+constexpr std::array all_laplacians{fujiwara, alexa, velho};
+const double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A flow without decomposition for each Laplacian.
 std::vector<Variant> undecomposed(std::span<const Laplacian> laplacians)
@@ -30,59 +41,214 @@ std::vector<Variant> in_halves(std::span<const Laplacian> laplacians, std::initi
     return variants;
 }
 
-FigureSource teaser_source()
+std::string alone(Laplacian laplacian)
 {
-    return {.file = "quad_cili_7280_23_65.obj",
-            .authors = AuthorsRun{.faces = 7150, .first_part = 1430, .p = 6.2993055940947205},
-            .generate = bulging_two_level_cylinder,
-            .vertices = 7280,
-            .axis = 2};
+    return title_of({.laplacian = laplacian});
+}
+
+std::string halves(Laplacian laplacian, Conditions conditions = robin)
+{
+    return title_of({.laplacian = laplacian, .pieces = Pieces::Halves, .conditions = conditions});
+}
+
+const std::string input(picture_of::input);
+const std::string cut(picture_of::cut);
+const std::string part(picture_of::part);
+
+Experiment teaser()
+{
+    return {.name = "teaser",
+            .figure = 1,
+            .heading = "Two levels of detail",
+            .text = "The upper part of the mesh is twice as fine as the lower one, and the seam between them a curved "
+                    "line. The paper: all three Laplacians smooth it well with decomposition, and the decomposition "
+                    "prevents the tangential shifting that Δ_F shows without it.",
+            .source = {.file = "quad_cili_7280_23_65.obj",
+                       .authors = AuthorsRun{.first_part = 1430, .p = 6.2993055940947205, .uncorrected = true},
+                       .generate = bulging_two_level_cylinder,
+                       .vertices = 7280,
+                       .axis = 2},
+            .time_step = 0.05,
+            .steps = 5,
+            .variants = in_halves(all_laplacians, {robin}),
+            .pictures = {{input, halves(alexa), halves(velho), halves(fujiwara), alone(fujiwara)}},
+            .theirs = {{fujiwara, robin, 0.277, 3.66}, {alexa, robin, 0.024, 0.325}, {velho, robin, 0.030, 0.326}},
+            .difference = "They do not correct Γ in this figure, and neither is it corrected here on their mesh."};
+}
+
+Experiment polygons()
+{
+    return {.name = "polygons",
+            .figure = 2,
+            .heading = "Bumps on general polygons",
+            .text = "One step without decomposition. The paper: Δ_F shifts vertices along the surface and deforms the "
+                    "texture, Δ_A quickly develops artifacts, Δ_P does better.",
+            .source = {.file = "poly_F_tex_6558.obj", .authors = {}, .generate = polygons_with_bumps, .vertices = 6558},
+            .time_step = 0.01,
+            .steps = 1,
+            .variants = undecomposed(all_laplacians),
+            .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)}},
+            .theirs = {},
+            .difference = {}};
 }
 
 /// Cut as the authors' own two files of its sub-meshes are: the lower one has 1,609 faces, the upper one overlaps it.
-FigureSource schwarz_source()
+Experiment schwarz_on_polygons()
 {
-    return {.file = "poly_C1_scaled_6558.obj",
-            .authors = AuthorsRun{.faces = 3221, .first_part = 1609, .p = {}},
-            .generate = polygons_with_hill_and_hollow,
-            .vertices = 6558};
+    return {.name = "schwarz",
+            .figure = 5,
+            .heading = "Alternating Schwarz on general polygons",
+            .text = "Two sub-meshes that overlap by a layer of faces. The paper: where the interface has small "
+                    "curvature, the alternating Schwarz method has good outcomes.",
+            .source = {.file = "poly_C1_scaled_6558.obj",
+                       .authors = AuthorsRun{.first_part = 1609, .p = {}},
+                       .generate = polygons_with_hill_and_hollow,
+                       .vertices = 6558},
+            .time_step = 0.05,
+            .steps = 2,
+            .variants = in_halves(std::array{velho}, {schwarz}),
+            .pictures = {{input, cut}, {alone(velho), halves(velho, schwarz)}},
+            .theirs = {},
+            .difference = {}};
 }
 
-FigureSource source(std::string_view file, PolygonMesh (*generate)(Index), Index vertices, Eigen::Index axis = 1)
+Experiment hexagons()
 {
-    return {.file = file, .authors = {}, .generate = generate, .vertices = vertices, .axis = axis};
-}
-
-std::vector<Experiment> make_experiments()
-{
-    constexpr Conditions robin = Conditions::AdaptedRobin;
-    constexpr Conditions schwarz = Conditions::Schwarz;
-    constexpr std::array velho{Laplacian::PtackovaVelho};
-    constexpr std::array fujiwara_and_velho{Laplacian::Fujiwara, Laplacian::PtackovaVelho};
     return {
-        {"teaser", teaser_source(), 0.05, 5, in_halves(all_laplacians, {robin})},
-        {"polygons", source("poly_F_tex_6558.obj", polygons_with_bumps, 6558), 0.01, 1, undecomposed(all_laplacians)},
-        {"schwarz", schwarz_source(), 0.05, 2, in_halves(velho, {schwarz})},
-        {"hexagons", source("hex_F_tex_6118_102.obj", hexagons_with_bumps, 6118), 0.01, 10,
-         in_halves(all_laplacians, {robin})},
-        {"triangles", source("tri_Shrek_3721.obj", triangles_with_bumps, 3721), 0.05, 10,
-         in_halves(all_laplacians, {robin})},
-        {"wavy-cylinder", source("quad_cilinder_wavy_10200_120.obj", wavy_cylinder, 10'200, 2), 0.05, 5,
-         in_halves(fujiwara_and_velho, {robin, schwarz})},
-        {"texture", source("quad_F_tex_wavy_3721.obj", quads_with_bumps, 3721), 0.05, 1,
-         in_halves(all_laplacians, {robin})},
-    };
+        .name = "hexagons",
+        .figure = 7,
+        .heading = "A mesh of hexagons",
+        .text = "Distances between the decomposed and the undecomposed flow, step by step. The paper: they are small "
+                "but for Δ_A, which flows into a spiky mesh without decomposition, too, from step 5 on.",
+        .source = {.file = "hex_F_tex_6118_102.obj",
+                   .authors = AuthorsRun{.first_part = 1427, .p = 54.2606704480561},
+                   .generate = hexagons_with_bumps,
+                   .vertices = 6118},
+        .time_step = 0.01,
+        .steps = 10,
+        .variants = in_halves(all_laplacians, {robin}),
+        .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)},
+                     {cut, halves(fujiwara), halves(alexa), halves(velho)}},
+        .theirs = {{fujiwara, robin, 0.299, 1.93}, {alexa, robin, 1.82, 34.0}, {velho, robin, 0.67, 3.7}},
+        .difference = "Their correction of Γ takes other neighbours than edge neighbours on hexagons: from the second "
+                      "step on their flow is another."};
 }
 
-/// The options that stand for the paper's text on a mesh cut in two, or for what the authors did.
+Experiment triangles()
+{
+    return {.name = "triangles",
+            .figure = 8,
+            .heading = "A mesh of triangles",
+            .text =
+                "Distances between the decomposed and the undecomposed flow, step by step. The paper: they are small "
+                "for Δ_F and Δ_A; Δ_P flows into a spiky mesh without decomposition, too, from step 3 on.",
+            .source = {.file = "tri_Shrek_3721.obj",
+                       .authors = AuthorsRun{.first_part = 3600, .p = 17.270984261742612},
+                       .generate = triangles_with_bumps,
+                       .vertices = 3721},
+            .time_step = 0.05,
+            .steps = 10,
+            .variants = in_halves(all_laplacians, {robin}),
+            .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)},
+                         {cut, halves(fujiwara), halves(alexa), halves(velho)}},
+            .theirs = {{fujiwara, robin, 0.167, 0.55}, {alexa, robin, 0.111, 0.65}, {velho, robin, 0.85, 29.0}},
+            .difference = "Their correction of Γ takes other neighbours than edge neighbours on triangles: from the "
+                          "second step on their flow is another."};
+}
+
+Experiment wavy_tube()
+{
+    return {
+        .name = "wavy-cylinder",
+        .figure = 9,
+        .heading = "An interface on a peak",
+        .text = "The two sub-meshes meet where the tube is widest. The paper: with the alternating Schwarz method the "
+                "vertices on the interface move much slower than the others, with the adapted Robin conditions they "
+                "do not.",
+        .source = {.file = "quad_cilinder_wavy_10200_120.obj",
+                   .authors = AuthorsRun{.first_part = 5040, .p = 8.68135640790926},
+                   .generate = wavy_cylinder,
+                   .vertices = 10'200,
+                   .axis = 2},
+        .time_step = 0.05,
+        .steps = 5,
+        .variants = in_halves(std::array{fujiwara, velho}, {robin, schwarz}),
+        .pictures = {{input, halves(fujiwara), halves(velho), halves(fujiwara, schwarz), halves(velho, schwarz)}},
+        .theirs = {{fujiwara, robin, 0.011, 0.20},
+                   {velho, robin, 0.028, 0.30},
+                   {fujiwara, schwarz, 0.201, unknown},
+                   {velho, schwarz, 0.237, unknown}},
+        .difference = "Their Schwarz method uses values of the overlap from the step before, from the second step on."};
+}
+
+Experiment texture()
+{
+    std::vector<Variant> variants = in_halves(all_laplacians, {robin, ventcell});
+    return {.name = "texture",
+            .figure = 10,
+            .heading = "The texture, with and without decomposition",
+            .text =
+                "One step. The paper: with appropriate conditions on the interface it is hard to distinguish the "
+                "decomposed from the undecomposed flow. On meshes like grids, as here, the tangential derivative of "
+                "the Ventcell conditions (q > 0), which straightens the curve of the interface, can be used with Δ_F "
+                "without introducing artifacts.",
+            .source = {.file = "quad_F_tex_wavy_3721.obj",
+                       .authors = AuthorsRun{.first_part = 2520, .p = 29.777021258217662},
+                       .generate = quads_with_bumps,
+                       .vertices = 3721},
+            .time_step = 0.05,
+            .steps = 1,
+            .variants = std::move(variants),
+            .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)},
+                         {part, halves(fujiwara), halves(alexa), halves(velho)},
+                         {cut, halves(fujiwara, ventcell), halves(alexa, ventcell), halves(velho, ventcell)}},
+            .theirs = {},
+            .difference = {}};
+}
+
+/// What the authors did on their own mesh, and the cut.
 void cut_in_two(FlowOptions& options, const FigureMesh& mesh)
 {
     options.labels = mesh.labels;
-    if (!mesh.authors || !mesh.authors->p || options.conditions != Conditions::AdaptedRobin)
+    if (!mesh.authors || options.conditions == schwarz)
+        return;
+    options.p = mesh.authors->p;
+    if (!mesh.authors->uncorrected)
         return;
     options.coloring = Coloring::Label;
-    options.p = mesh.authors->p;
     options.correction = Correction::None;
+}
+
+/// As many digits as it takes to tell it from any other number.
+std::string exact(double value)
+{
+    for (int digits = 1; digits < 17; ++digits) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.*g", digits, value);
+        if (std::strtod(text, nullptr) == value)
+            return text;
+    }
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
+/// What says on a command line how a flow of the paper differs from --plain.
+std::string plain_arguments(const FlowOptions& options)
+{
+    std::string text = " --plain";
+    for (const auto& [name, conditions] : conditions_choices())
+        if (conditions == options.conditions && conditions != robin)
+            text += " --conditions " + name;
+    if (options.p)
+        text += " --p " + exact(*options.p);
+    if (options.q)
+        text += " --q " + exact(*options.q);
+    if (options.coloring == Coloring::Label)
+        text += " --coloring label";
+    if (options.correction == Correction::None)
+        text += " --no-correction";
+    return text;
 }
 
 }  // namespace
@@ -91,7 +257,10 @@ std::string conditions_of(const Variant& variant)
 {
     if (variant.pieces == Pieces::One)
         return "undecomposed";
-    return variant.conditions == Conditions::Schwarz ? "schwarz" : "adapted-robin";
+    for (const auto& [name, conditions] : conditions_choices())
+        if (conditions == variant.conditions)
+            return name;
+    return {};
 }
 
 std::string_view name_of(Settings settings)
@@ -99,27 +268,54 @@ std::string_view name_of(Settings settings)
     return settings == Settings::Plain ? "plain" : "default";
 }
 
+std::string title_of(const Variant& variant)
+{
+    std::string text(name_of(variant.laplacian));
+    text.append("-").append(conditions_of(variant));
+    if (variant.pieces == Pieces::Metis)
+        text.append("-").append(std::to_string(variant.subdomains)).append("-").append(name_of(variant.settings));
+    return text;
+}
+
+std::string words_of(const Variant& variant)
+{
+    if (variant.pieces == Pieces::One)
+        return symbol_of(variant.laplacian) + ", undecomposed";
+    const std::string parts = variant.pieces == Pieces::Halves ? "two" : std::to_string(variant.subdomains);
+    std::string conditions = "adapted Robin";
+    if (variant.conditions == schwarz)
+        conditions = "Schwarz";
+    if (variant.conditions == ventcell)
+        conditions = "adapted Ventcell";
+    if (variant.settings == Settings::Default)
+        conditions = "the library's defaults";
+    return symbol_of(variant.laplacian) + " in " + parts + " sub-meshes, " + conditions;
+}
+
 const std::vector<Experiment>& experiments()
 {
-    static const std::vector<Experiment> all = make_experiments();
+    static const std::vector<Experiment> all{teaser(),    polygons(), schwarz_on_polygons(), hexagons(), triangles(),
+                                             wavy_tube(), texture()};
     return all;
 }
 
 Experiment with_many_sub_meshes(const Experiment& experiment)
 {
     Experiment many = experiment;
+    many.pictures.clear();
     std::erase_if(many.variants, [](const Variant& variant) { return variant.pieces != Pieces::One; });
-    for (const Variant& variant : experiment.variants)
+    for (const Variant& variant : experiment.variants) {
+        if (variant.pieces != Pieces::Halves || variant.conditions == ventcell)
+            continue;
         for (const int subdomains : {2, 4, 8, 16, 32})
-            for (const Settings settings : {Settings::Plain, Settings::Default}) {
-                const bool robin = variant.conditions == Conditions::AdaptedRobin;
-                if (variant.pieces == Pieces::Halves && (settings == Settings::Plain || robin))
+            for (const Settings settings : {Settings::Plain, Settings::Default})
+                if (settings == Settings::Plain || variant.conditions == robin)
                     many.variants.push_back({.laplacian = variant.laplacian,
                                              .pieces = Pieces::Metis,
                                              .subdomains = subdomains,
                                              .conditions = variant.conditions,
                                              .settings = settings});
-            }
+    }
     return many;
 }
 
@@ -131,12 +327,29 @@ FlowOptions options_of(const Experiment& experiment, const Variant& variant, con
     options.steps = experiment.steps;
     // What the paper shows is shown, spikes included.
     options.largest_update = std::numeric_limits<double>::infinity();
-    if (variant.settings == Settings::Plain)
+    if (variant.settings == Settings::Plain && variant.pieces != Pieces::One) {
         options.conditions = variant.conditions;
+        if (variant.conditions == ventcell)
+            options.q = ventcell_q;
+    }
     options.subdomains = variant.pieces == Pieces::Metis ? variant.subdomains : 1;
     if (variant.pieces == Pieces::Halves)
         cut_in_two(options, mesh);
     return options;
+}
+
+std::string command_of(const Experiment& experiment, const Variant& variant, const FigureMesh& mesh)
+{
+    const FlowOptions options = options_of(experiment, variant, mesh);
+    const std::string name(experiment.name);
+    std::string text = "smooth " + name + "-input.ply out.ply --laplacian ";
+    text.append(name_of(options.laplacian)).append(" --time-step ").append(exact(options.time_step));
+    text.append(" --steps ").append(std::to_string(options.steps));
+    text += variant.pieces == Pieces::Halves ? " --labels " + name + "-cut.txt"
+                                             : " --subdomains " + std::to_string(options.subdomains);
+    if (variant.settings == Settings::Plain)
+        text += plain_arguments(options);
+    return text;
 }
 
 }  // namespace seamflow

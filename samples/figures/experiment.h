@@ -13,7 +13,7 @@ namespace seamflow {
 enum class Pieces {
     /// Into nothing: the reference.
     One,
-    /// Into two by rows, as in the paper (see FigureMesh::labels).
+    /// Into two, as in the paper (see FigureMesh::labels).
     Halves,
     /// By METIS.
     Metis,
@@ -37,19 +37,56 @@ struct Variant {
     Settings settings = Settings::Plain;
 };
 
-/// As in the tables: "undecomposed", "adapted-robin", "schwarz", and "plain", "default".
+/// As in the tables: "undecomposed", "adapted-robin", "adapted-ventcell", "schwarz", and "plain", "default".
 std::string conditions_of(const Variant& variant);
 std::string_view name_of(Settings settings);
+
+/// A flow in the names of files, "fujiwara-schwarz" or "fujiwara-adapted-robin-8-plain", and in words, "Δ_F in two
+/// sub-meshes, Schwarz".
+std::string title_of(const Variant& variant);
+std::string words_of(const Variant& variant);
+
+/// What the authors' own code gives after the last step on their own mesh, in mean edge lengths.
+struct AuthorsDistances {
+    Laplacian laplacian = Laplacian::Fujiwara;
+    Conditions conditions = Conditions::AdaptedRobin;
+    double v_mean = 0.0;
+    /// Not a number: not known.
+    double v_max = 0.0;
+};
+
+/// What stands in a row of pictures in place of the title of a flow.
+namespace picture_of {
+inline constexpr std::string_view input = "input";
+/// The input, a colour for each sub-mesh.
+inline constexpr std::string_view cut = "cut";
+/// The sub-mesh that solves first.
+inline constexpr std::string_view part = "part";
+}  // namespace picture_of
 
 /// An experiment of the paper, as data.
 struct Experiment {
     std::string_view name;
+    /// The number of its figure in the paper (arXiv 2602.16874).
+    int figure = 0;
+    /// What is shown, in a few words, and what the paper says of it.
+    std::string_view heading;
+    std::string_view text;
     FigureSource source;
     /// dt, in length².
     double time_step = 0.0;
     int steps = 1;
     std::vector<Variant> variants;
+    /// Rows of pictures, each a picture_of or the title of a flow, in the order of the paper.
+    std::vector<std::vector<std::string>> pictures;
+    std::vector<AuthorsDistances> theirs;
+    /// Why theirs differ from ours, where they do.
+    std::string_view difference;
 };
+
+/// q of the flows with adapted Ventcell conditions, for which the paper has no number: as much of the second derivative
+/// along the interface as the Laplacian itself has.
+inline constexpr double ventcell_q = 1.0;
 
 /// All of them, in the order of the paper.
 const std::vector<Experiment>& experiments();
@@ -64,5 +101,8 @@ Experiment with_many_sub_meshes(const Experiment& experiment);
 /// The options of one flow on the mesh of its figure. With Pieces::Halves the paper to the letter, except for what
 /// AuthorsRun says of the authors' own mesh.
 FlowOptions options_of(const Experiment& experiment, const Variant& variant, const FigureMesh& mesh);
+
+/// The command line by which `smooth` repeats a flow from the files that `figures` writes.
+std::string command_of(const Experiment& experiment, const Variant& variant, const FigureMesh& mesh);
 
 }  // namespace seamflow

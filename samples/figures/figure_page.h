@@ -19,11 +19,12 @@ class FigurePage {
     [[nodiscard]] PageFlow begin(const std::string& title, Laplacian laplacian, int steps, bool compared) const;
 
     /// A flow that has come to its end.
-    void add(PageFlow flow, const FlowReport& report, Laplacian laplacian);
+    /// @param command see command_of.
+    void add(PageFlow flow, const FlowReport& report, const std::string& command);
 
     /// Writes the page, unless there are no flows.
-    /// @param figure its name. @throws OutputError.
-    void write(const std::filesystem::path& path, const std::string& figure) const;
+    /// @throws OutputError.
+    void write(const std::filesystem::path& path, const Experiment& experiment) const;
 
   private:
     std::string mesh_name_;

@@ -23,11 +23,15 @@ fs::path find_file(std::string_view name, const fs::path& folder)
 
 FigureMesh read_file(const FigureSource& source, const fs::path& path)
 {
-    FigureMesh result{.name = path.filename().string(), .mesh = read_mesh(path).mesh, .labels = {}, .authors = {}};
-    if (source.authors && source.authors->faces == result.mesh.n_faces())
+    FigureMesh result;
+    result.name = path.filename().string();
+    result.mesh = read_mesh(path).mesh;
+    result.is_theirs = result.mesh.n_vertices() == source.vertices;
+    if (result.is_theirs)
         result.authors = source.authors;
     const Index first = result.authors ? result.authors->first_part : result.mesh.n_faces() / 2;
     result.labels = halves_by_number(result.mesh, first);
+    result.cut = "first " + std::to_string(first) + " faces" + (result.authors ? " (the authors')" : "");
     return result;
 }
 
@@ -37,8 +41,11 @@ FigureMesh load(const FigureSource& source, const fs::path& folder)
 {
     if (const fs::path path = find_file(source.file, folder); !path.empty())
         return read_file(source, path);
-    FigureMesh result{.name = "generated", .mesh = source.generate(source.vertices), .labels = {}, .authors = {}};
+    FigureMesh result;
+    result.name = "generated";
+    result.mesh = source.generate(source.vertices);
     result.labels = halves_by_rows(result.mesh, source.axis);
+    result.cut = source.axis == 1 ? "lower half in y" : "lower half in z";
     return result;
 }
 
@@ -61,6 +68,22 @@ std::vector<Index> halves_by_number(const PolygonMesh& mesh, Index first)
     std::vector<Index> labels(at(mesh.n_faces()), 1);
     std::fill_n(labels.begin(), std::clamp(first, Index{0}, mesh.n_faces()), 0);
     return labels;
+}
+
+std::vector<Index> with_overlap(const PolygonMesh& mesh, const std::vector<Index>& labels, Index leading)
+{
+    std::vector<bool> touched(at(mesh.n_vertices()), false);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (const Index v : mesh.face(f))
+            touched[at(v)] = touched[at(v)] || labels[at(f)] == leading;
+    std::vector<Index> grown = labels;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto face = mesh.face(f);
+        const bool touches = std::any_of(face.begin(), face.end(), [&](Index v) { return touched[at(v)]; });
+        if (touches && labels[at(f)] != leading)
+            grown[at(f)] = 2;
+    }
+    return grown;
 }
 
 }  // namespace seamflow

@@ -10,15 +10,15 @@
 
 namespace seamflow {
 
-/// How the authors of the paper ran a file of theirs. It takes the place of the rules of the paper where their mesh is
-/// cut in two for the adapted Robin conditions.
+/// How the authors of the paper ran a file of theirs that is cut in two.
 struct AuthorsRun {
-    /// Faces of the file; a file with another number of them is another mesh, for which this does not count.
-    Index faces = 0;
-    /// Sub-mesh A is the first so many faces.
+    /// The first so many faces are one sub-mesh, the others the second.
     Index first_part = 0;
-    /// Their Robin parameter, in 1/length; A solves first and Γ is not corrected then. Empty: the paper's rules.
+    /// Their Robin parameter, in 1/length. Empty: with the conditions of the figure there is none.
     std::optional<double> p;
+    /// Whether the first faces always solve first and Γ is not corrected, as in their first figure alone; else that
+    /// sub-mesh leads whose curvature is larger in sum, and Γ is corrected after every step.
+    bool uncorrected = false;
 };
 
 /// Where the mesh of a figure comes from.
@@ -28,6 +28,7 @@ struct FigureSource {
     std::optional<AuthorsRun> authors;
     /// Makes the stand-in with about so many vertices.
     PolygonMesh (*generate)(Index vertices) = nullptr;
+    /// Vertices of the authors' file. A file with another number of them is another mesh.
     Index vertices = 0;
     /// The rows of the stand-in follow each other along y (1) or z (2).
     Eigen::Index axis = 1;
@@ -38,14 +39,19 @@ struct FigureMesh {
     /// The name of the file, or "generated".
     std::string name;
     PolygonMesh mesh;
-    /// #F: 0 for sub-mesh A, 1 for B.
+    /// #F: 0 for one sub-mesh, 1 for the other.
     std::vector<Index> labels;
-    /// Where the mesh is the authors' own.
+    /// How it is cut, in words.
+    std::string cut;
+    /// Whether it is the authors' own.
+    bool is_theirs = false;
+    /// With their own mesh, and where it is cut.
     std::optional<AuthorsRun> authors;
 };
 
 /// Reads the authors' file, or the same with the prefix "ddm__", from a folder if it is there, and makes the stand-in
-/// else. A file is cut in two as the authors did, or else after the first half of its faces; the stand-in by rows.
+/// else. Their own file is cut in two as they did, another one of that name after the first half of its faces, the
+/// stand-in by rows.
 /// @param folder empty: the stand-in.
 /// @throws InputError for a file that cannot be read.
 FigureMesh load(const FigureSource& source, const std::filesystem::path& folder);
@@ -55,5 +61,10 @@ std::vector<Index> halves_by_rows(const PolygonMesh& mesh, Eigen::Index axis);
 
 /// Label 0 for the first `first` faces, 1 for the others.
 std::vector<Index> halves_by_number(const PolygonMesh& mesh, Index first);
+
+/// The sub-mesh that a leading one becomes when it grows by a layer of faces, as with Conditions::Schwarz: 2 for the
+/// faces with another label that share a vertex with it, else the label.
+/// @param labels #F.
+std::vector<Index> with_overlap(const PolygonMesh& mesh, const std::vector<Index>& labels, Index leading);
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #include "samples/figures/runner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,11 +10,11 @@
 #include "engine/displacement_meter.h"
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
+#include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/figures/figure_page.h"
-#include "samples/figures/picture.h"
-#include "samples/figures/roughness.h"
+#include "samples/figures/pictures.h"
 
 namespace seamflow {
 
@@ -36,10 +37,13 @@ class Run {
     {
         table_.figure = experiment.name;
         table_.mesh = input_.name;
-        table_.as_authors = input_.authors && input_.authors->p;
+        table_.vertices = input_.mesh.n_vertices();
+        table_.is_theirs = input_.is_theirs;
+        table_.time_step = experiment.time_step;
         table_.steps = experiment.steps;
-        table_.roughness = roughness(input_.mesh, topology_, input_.mesh.vertices);
-        picture("input", input_.mesh.vertices);
+        table_.roughness = roughness(input_.mesh, input_.mesh.vertices);
+        if (!places_.out.empty())
+            pictures_.emplace(experiment, places_.out, input_);
         if (!places_.page.empty())
             page_.emplace(input_);
     }
@@ -49,8 +53,10 @@ class Run {
         log_ << experiment_.name << ": " << input_.name << ", " << input_.mesh.n_vertices() << " vertices\n";
         for (const Variant& variant : experiment_.variants)
             flow(variant);
+        if (pictures_)
+            pictures_->write_inputs(leading_);
         if (page_)
-            page_->write(places_.page, table_.figure);
+            page_->write(places_.page, experiment_);
         return std::move(table_);
     }
 
@@ -60,15 +66,15 @@ class Run {
       public:
         Shown(Run& run, const Variant& variant)
             : run_(run)
-            , laplacian_(variant.laplacian)
+            , variant_(variant)
         {
             const auto reference = run.reference_.find(variant.laplacian);
             const auto steps = at(run.experiment_.steps);
             if (variant.pieces != Pieces::One && reference != run.reference_.end() && reference->second.size() == steps)
                 undecomposed_ = &reference->second;
             if (run.page_)
-                flow_ =
-                    run.page_->begin(run.title(variant), laplacian_, run.experiment_.steps, undecomposed_ != nullptr);
+                flow_ = run.page_->begin(words_of(variant), variant.laplacian, run.experiment_.steps,
+                                         undecomposed_ != nullptr);
         }
 
         void add_step(const StepState& state)
@@ -87,12 +93,12 @@ class Run {
                 return;
             for (std::size_t k = 0; k < distances_.size(); ++k)
                 report.steps[k].distance = distances_[k];
-            run_.page_->add(std::move(*flow_), report, laplacian_);
+            run_.page_->add(std::move(*flow_), report, command_of(run_.experiment_, variant_, run_.input_));
         }
 
       private:
         Run& run_;
-        Laplacian laplacian_;
+        const Variant& variant_;
         const std::vector<Points>* undecomposed_ = nullptr;
         std::optional<PageFlow> flow_;
         std::vector<VertexDistance> distances_;
@@ -113,21 +119,39 @@ class Run {
                 reference_[variant.laplacian].push_back(state.positions);
             table_.rows.push_back(measured(variant, state, meter.total().drift.mean));
         };
-        Index subdomains = 1;
         try {
             const FlowReport report = mean_curvature_flow(mesh, options_of(experiment_, variant, input_), measure);
-            subdomains = report.subdomains;
             shown.finish(report);
+            complete(variant, report, first);
         } catch (const ComputationError& error) {
-            table_.remarks.push_back(title(variant) + ": " + error.what());
+            table_.remarks.push_back(words_of(variant) + ": " + error.what());
         }
-        for (std::size_t row = first; row < table_.rows.size(); ++row)
-            table_.rows[row].subdomains = subdomains;
-        picture(title(variant), mesh.vertices);
-        report(title(variant), first);
+        if (pictures_)
+            pictures_->write(title_of(variant), mesh.vertices);
+        report(title_of(variant), first);
     }
 
-    /// What is known of a state, but for the number of sub-meshes.
+    /// What is known of a flow's rows in the end alone.
+    void complete(const Variant& variant, const FlowReport& report, std::size_t first)
+    {
+        std::vector<double> p;
+        for (std::size_t part = 0; part < report.p.size(); ++part)
+            if (report.p[part] > 0.0 && (variant.pieces == Pieces::Metis || report.subdomain_colors[part] == 0))
+                p.push_back(report.p[part]);
+        std::string range;
+        if (!p.empty()) {
+            const auto [low, high] = std::minmax_element(p.begin(), p.end());
+            range = csv_number(*low) + (p.size() > 1 ? " to " + csv_number(*high) : "");
+        }
+        for (std::size_t row = first; row < table_.rows.size(); ++row) {
+            table_.rows[row].subdomains = report.subdomains;
+            table_.rows[row].p = range;
+        }
+        if (variant.pieces == Pieces::Halves && report.subdomains == 2)
+            leading_ = report.subdomain_colors[0] == 0 ? 0 : 1;
+    }
+
+    /// What is known of a state before the flow has come to its end.
     Row measured(const Variant& variant, const StepState& state, double drift) const
     {
         Row row;
@@ -139,8 +163,16 @@ class Run {
         row.settings = name_of(variant.settings);
         row.step = state.step;
         row.seconds = state.report.seconds;
-        row.roughness = roughness(input_.mesh, topology_, state.positions);
+        row.roughness = roughness(input_.mesh, state.positions);
+        if (variant.pieces != Pieces::One && variant.conditions == Conditions::AdaptedVentcell)
+            row.q = csv_number(ventcell_q);
+        row.cut = cut_of(variant);
+        row.command = command_of(experiment_, variant, input_);
+        row.title = title_of(variant);
+        row.words = words_of(variant);
         compare(row, state.positions, drift);
+        if (variant.pieces != Pieces::Halves)
+            row.interface_length = std::nan("");
         return row;
     }
 
@@ -150,7 +182,7 @@ class Run {
         const auto reference = reference_.find(row.laplacian);
         if (reference == reference_.end() || reference->second.size() < at(row.step)) {
             row.v = row.h = {.mean = std::nan(""), .rms = std::nan(""), .max = std::nan("")};
-            row.drift = std::nan("");
+            row.drift = row.interface_length = std::nan("");
             return;
         }
         PolygonMesh from = input_.mesh;
@@ -161,23 +193,31 @@ class Run {
         row.v = divided({.mean = v.mean, .rms = v.rms, .max = v.max}, v.mean_edge);
         row.h = divided(surface_distance(from, to), v.mean_edge);
         row.drift = drift / v.mean_edge;
+        row.interface_length = interface_length(positions) / interface_length(from.vertices);
     }
 
-    /// Of a flow: "fujiwara-schwarz-2", say.
-    [[nodiscard]] std::string title(const Variant& variant) const
+    [[nodiscard]] std::string cut_of(const Variant& variant) const
     {
-        std::string text(name_of(variant.laplacian));
-        text.append("-").append(conditions_of(variant));
-        if (variant.pieces == Pieces::Metis)
-            text.append("-").append(std::to_string(variant.subdomains)).append("-").append(name_of(variant.settings));
-        return text;
+        if (variant.pieces == Pieces::One)
+            return "none";
+        return variant.pieces == Pieces::Halves ? input_.cut
+                                                : "METIS, " + std::to_string(variant.subdomains) + " parts";
     }
 
-    void picture(const std::string& title, const Points& positions) const
+    /// Of the edges between the two halves.
+    [[nodiscard]] double interface_length(const Points& positions) const
     {
-        if (!places_.pictures.empty())
-            write_picture(places_.pictures / (std::string(experiment_.name) + "-" + title + ".ply"), input_.mesh,
-                          positions);
+        double length = 0.0;
+        for (Index h = 0; h < input_.mesh.n_corners(); ++h) {
+            const Index twin = topology_.twin[at(h)];
+            if (twin < h ||
+                input_.labels[at(topology_.face_of[at(h)])] == input_.labels[at(topology_.face_of[at(twin)])])
+                continue;
+            const Index a = input_.mesh.face_vertices[at(h)];
+            const Index b = input_.mesh.face_vertices[at(topology_.next(input_.mesh, h))];
+            length += (positions.row(a) - positions.row(b)).norm();
+        }
+        return length;
     }
 
     void report(const std::string& title, std::size_t first) const
@@ -187,7 +227,7 @@ class Run {
             const Row& last = table_.rows.back();
             log_ << ": step " << last.step << ", V_mean " << csv_number(last.v.mean) << ", V_max "
                  << csv_number(last.v.max) << ", H_mean " << csv_number(last.h.mean) << ", drift "
-                 << csv_number(last.drift) << ", roughness " << csv_number(last.roughness);
+                 << csv_number(last.drift) << ", roughness " << csv_number(last.roughness.rms) << "°";
         }
         log_ << std::endl;
     }
@@ -200,6 +240,9 @@ class Run {
     Table table_;
     /// Per Laplacian and step, from step 1.
     std::map<Laplacian, std::vector<Points>> reference_;
+    /// Of the two halves, the one that solves first.
+    Index leading_ = 0;
+    std::optional<Pictures> pictures_;
     std::optional<FigurePage> page_;
 };
 

@@ -6,7 +6,8 @@
 /// same size. Their two halves (see halves_by_rows) meet in the middle.
 namespace seamflow {
 
-/// Quads, mixed polygons or triangles over the square from -1 to 1 in x and y: bumps of one wave length 1.
+/// Quads, polygons or triangles over the square from -1 to 1 in x and y: bumps of one wave length 1. Most polygons have
+/// four to eight corners, and three edges meet at each vertex off the boundary, as in the authors' mesh.
 PolygonMesh quads_with_bumps(Index vertices);
 PolygonMesh polygons_with_bumps(Index vertices);
 PolygonMesh triangles_with_bumps(Index vertices);
@@ -14,7 +15,7 @@ PolygonMesh triangles_with_bumps(Index vertices);
 /// Irregular hexagons over the unit square, the shortest edge about half as long as the mean one.
 PolygonMesh hexagons_with_bumps(Index vertices);
 
-/// Mixed polygons over the square from -1 to 1, a hill in one half and a hollow in the other: where they meet, at y =
+/// Such polygons over the square from -1 to 1, a hill in one half and a hollow in the other: where they meet, at y =
 /// 0, the surface is straight and its mean curvature small.
 PolygonMesh polygons_with_hill_and_hollow(Index vertices);
 

@@ -11,7 +11,8 @@ namespace seamflow {
 namespace {
 
 constexpr std::string_view header = "figure,mesh,vertices,laplacian,conditions,subdomains,step,v_mean,v_rms,v_max,"
-                                    "h_mean,h_rms,h_max,seconds,options,drift_mean,roughness\n";
+                                    "h_mean,h_rms,h_max,seconds,options,drift_mean,roughness,roughness_95,"
+                                    "interface_length,dt,p,q,cut,command\n";
 
 void append_lengths(std::string& text, const LengthStatistics& lengths)
 {
@@ -19,7 +20,7 @@ void append_lengths(std::string& text, const LengthStatistics& lengths)
         text += csv_number(length) + ",";
 }
 
-void append_row(std::string& text, const Row& row)
+void append_row(std::string& text, const Row& row, double time_step)
 {
     text += csv_text(row.figure) + "," + csv_text(row.mesh) + "," + std::to_string(row.vertices) + ",";
     text += std::string(name_of(row.laplacian)) + "," + row.conditions + "," + std::to_string(row.subdomains) + ",";
@@ -27,7 +28,9 @@ void append_row(std::string& text, const Row& row)
     append_lengths(text, row.v);
     append_lengths(text, row.h);
     text += csv_number(row.seconds) + "," + row.settings + "," + csv_number(row.drift) + ",";
-    text += csv_number(row.roughness) + "\n";
+    text += csv_number(row.roughness.rms) + "," + csv_number(row.roughness.percentile_95) + ",";
+    text += csv_number(row.interface_length) + "," + csv_number(time_step) + "," + row.p + "," + row.q + ",";
+    text += csv_text(row.cut) + "," + csv_text(row.command) + "\n";
 }
 
 }  // namespace
@@ -40,12 +43,23 @@ const Row* Table::find(Laplacian laplacian, std::string_view conditions, int ste
     return found == rows.end() ? nullptr : &*found;
 }
 
+std::vector<Row> Table::last_rows() const
+{
+    std::vector<Row> last;
+    for (const Row& row : rows) {
+        if (last.empty() || last.back().title != row.title)
+            last.push_back(row);
+        last.back() = row;
+    }
+    return last;
+}
+
 void write_csv(const std::filesystem::path& path, const std::vector<Table>& tables)
 {
     std::string text(header);
     for (const Table& table : tables)
         for (const Row& row : table.rows)
-            append_row(text, row);
+            append_row(text, row, table.time_step);
     write_text(path, text);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "partition/metrics/length_statistics.h"
+#include "partition/metrics/roughness.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -35,29 +36,49 @@ struct Row {
     std::string settings;
     /// Mean over the vertices: how far their texture was dragged since the beginning (see TotalDisplacement::drift).
     double drift = 0.0;
-    /// See roughness.
-    double roughness = 0.0;
+    Roughness roughness;
+    /// Length of the interface of a flow in two halves, in lengths of the same edges of the undecomposed flow; else not
+    /// a number.
+    double interface_length = 0.0;
+    /// The Robin parameter, in 1/length, of the sub-mesh that solves first, or from the smallest to the largest of many
+    /// ("6.3 to 9.8"), and the Ventcell parameter; empty where there is none.
+    std::string p;
+    std::string q;
+    /// How the mesh was cut, in words.
+    std::string cut;
+    /// See command_of.
+    std::string command;
+    /// See title_of and words_of.
+    std::string title;
+    std::string words;
 };
 
 /// What one experiment gave.
 struct Table {
     std::string figure;
     std::string mesh;
-    /// Whether the flows ran as the authors ran theirs on this mesh (see AuthorsRun::p).
-    bool as_authors = false;
+    Index vertices = 0;
+    /// Whether it is the authors' own (see FigureMesh::is_theirs).
+    bool is_theirs = false;
+    /// dt, in length².
+    double time_step = 0.0;
     int steps = 0;
     /// Of the input.
-    double roughness = 0.0;
+    Roughness roughness;
     std::vector<Row> rows;
     /// Flows that ended before their time, and why; a sentence each.
     std::vector<std::string> remarks;
 
     /// The row of a flow in halves or undecomposed after a step; nullptr: there is none.
     [[nodiscard]] const Row* find(Laplacian laplacian, std::string_view conditions, int step) const;
+
+    /// The last row of each flow.
+    [[nodiscard]] std::vector<Row> last_rows() const;
 };
 
 /// Writes tables one after the other as CSV under one header: figure, mesh, vertices, laplacian, conditions,
-/// subdomains, step, v_mean, v_rms, v_max, h_mean, h_rms, h_max, seconds, options, drift_mean, roughness.
+/// subdomains, step, v_mean, v_rms, v_max, h_mean, h_rms, h_max, seconds, options, drift_mean, roughness, roughness_95,
+/// interface_length, dt, p, q, cut, command.
 /// @throws OutputError naming the file.
 void write_csv(const std::filesystem::path& path, const std::vector<Table>& tables);
 

@@ -56,6 +56,7 @@ class PageFlow {
 
     [[nodiscard]] const PageMesh& mesh() const { return *mesh_; }
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] Laplacian laplacian() const { return laplacian_; }
     [[nodiscard]] bool has_undecomposed() const { return undecomposed_; }
     [[nodiscard]] const std::vector<PageState>& states() const { return states_; }
     [[nodiscard]] const std::string& report_json() const { return report_json_; }

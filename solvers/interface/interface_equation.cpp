@@ -6,6 +6,7 @@
 
 #include "partition/errors.h"
 #include "solvers/interface/power_of_two.h"
+#include "solvers/stagnation.h"
 #include "solvers/systems/messages.h"
 
 namespace seamflow {
@@ -18,8 +19,8 @@ constexpr double most_reduction_at_once = 1e-4;
 constexpr int most_iterations_at_once = 100;
 /// A residual that is larger, relative to that at the beginning, need not be measured anew.
 constexpr double largest_to_measure = 1e-3;
-/// Residuals measured one after the other, none below half of the one before it: the end.
-constexpr int most_stalls = 3;
+/// What may be left of the residual from one measurement to the next without the iteration having stalled.
+constexpr double most_left = 0.5;
 
 /// Not a number where a norm is none.
 double largest_ratio(const std::array<double, 3>& norms, const std::array<double, 3>& first)
@@ -87,8 +88,9 @@ InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> s
     };
     measure_anew();
     InterfaceResult result;
-    int stalls = 0;
-    while (result.iterations < stop.iterations && largest_ratio(present, first) > stop.tolerance && !result.stagnated) {
+    Stagnation stagnation(most_left);
+    while (result.iterations < stop.iterations && largest_ratio(present, first) > stop.tolerance &&
+           !stagnation.is_reached()) {
         Sums goals;
         for (std::size_t c = 0; c < 3; ++c)
             goals[c] = std::max(stop.tolerance * first[c], most_reduction_at_once * present[c]);
@@ -97,16 +99,15 @@ InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> s
         const Sums before = present;
         present = norms(loop);
         measure_anew();
-        stalls = largest_ratio(present, before) > 0.5 ? stalls + 1 : 0;
-        result.stagnated = stalls == most_stalls;
+        stagnation.note(largest_ratio(present, before));
         // Rounding can spoil the directions so much that they lead nowhere: new ones then.
-        if (stalls > 0)
+        if (stagnation.is_stalling())
             curvature_ = {};
     }
     result.residual = largest_ratio(present, first);
     if (!std::isfinite(result.residual))
         throw ComputationError(result_not_finite);
-    result.stagnated = result.stagnated && result.residual > stop.tolerance;
+    result.stagnated = stagnation.is_reached() && result.residual > stop.tolerance;
     result.estimated_distance = estimate_distance(systems, unit, loop);
     x.array().rowwise() *= unit.array();
     return result;

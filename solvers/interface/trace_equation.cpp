@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "solvers/restarted_gmres.h"
 #include "solvers/set_rows.h"
 
 namespace seamflow {
@@ -14,10 +14,6 @@ namespace {
 /// What the directions of GMRES may take before it forgets them and begins anew, but they are this many at least.
 constexpr std::size_t most_direction_bytes = std::size_t{1} << 30;
 constexpr std::size_t least_directions = 60;
-/// What is left of the residual after that must be less, or it will not get smaller.
-constexpr double least_progress = 0.95;
-/// The residual that GMRES estimates is about the true one.
-constexpr double safety = 0.8;
 /// What rounding makes of a residual, relative to the positions.
 constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
@@ -77,29 +73,17 @@ TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const Tr
                 x.row(block.sub_mesh().local_to_global[at(block.unknowns()[at(ends_[at(s)].outputs[i])])]);
     });
     renew(blocks, x, threads);
-    TraceResult result;
     const Loop& loop = threads.loop;
-    double left = norm(residual_, loop);
-    const double unit = std::max(left, rounding * norm(traces_, loop) / stop.tolerance);
-    const double goal = stop.tolerance * unit;
-    double amplification = 1.0;
-    const auto excess = [&] { return std::max(1.0, amplification / Gmres::most_amplification); };
-    while (result.iterations < stop.iterations && left * excess() > goal) {
-        result.iterations +=
-            gmres_.improve([&](const Points& p, Points& product) { multiply(blocks, p, product, threads); }, residual_,
-                           safety * goal / excess(),
-                           std::min(most_directions(size()), stop.iterations - result.iterations), traces_, loop);
-        amplification = std::max(amplification, gmres_.amplification());
-        renew(blocks, x, threads);
-        const double before = std::exchange(left, norm(residual_, loop));
-        if (left > least_progress * before) {
-            result.stagnated = left > goal && result.iterations < stop.iterations;
-            break;
-        }
-    }
-    result.residual = unit > 0.0 ? left / unit : 0.0;
-    result.distance = std::max(1.0, amplified_share * amplification) * longest_row(residual_);
-    return result;
+    const double unit = std::max(norm(residual_, loop), rounding * norm(traces_, loop) / stop.tolerance);
+    const RestartedEquation equation{
+        .multiply = [&](const Points& p, Points& product) { multiply(blocks, p, product, threads); },
+        .measure = [&] { renew(blocks, x, threads); }};
+    const RestartResult found = solve_restarted(
+        equation, {stop.tolerance * unit, stop.iterations, most_directions(size())}, gmres_, traces_, residual_, loop);
+    return {.iterations = found.iterations,
+            .residual = unit > 0.0 ? found.residual / unit : 0.0,
+            .stagnated = found.stagnated,
+            .distance = std::max(1.0, amplified_share * found.amplification) * longest_row(residual_)};
 }
 
 /// All vertices from the traces, and the traces' residual T g + c - g.

@@ -67,3 +67,22 @@ TEST_CASE("the extent is the diagonal of the box")
     positions << 1, 1, 1, 4, 5, 1, 2, 2, 1;
     CHECK(extent_of(positions) == 5.0);
 }
+
+TEST_CASE("a tolerance that was missed is remarked on, with what helps and what does not")
+{
+    FlowReport report;
+    remark_on_missed_tolerance(1000, "do something", report);
+    CHECK(report.remarks.empty());
+    report.steps_short_of_tolerance = 1;
+    remark_on_missed_tolerance(1000, "do something", report);
+    CHECK(report.remarks.back() ==
+          "The tolerance was not reached in 1 step with 1000 iterations at most: do something.");
+    report.steps_short_of_tolerance = 3;
+    remark_on_missed_tolerance(5, "", report);
+    CHECK(report.remarks.back() == "The tolerance was not reached in 3 steps with 5 iterations at most.");
+    report.steps_stagnated = 2;
+    remark_on_missed_tolerance(1000, "do something", report);
+    CHECK(report.remarks.back() ==
+          "The tolerance was not reached in 3 steps with 1000 iterations at most; in 2 of them "
+          "more would not have helped: do something.");
+}

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -82,8 +84,33 @@ TEST_CASE("iterations that run out are said")
         CHECK(step.iterations == 2);
         CHECK(step.residual > 1e-11);
     }
+    CHECK(report.steps_short_of_tolerance == 2);
+    CHECK(report.steps_stagnated == 0);
     REQUIRE_FALSE(report.remarks.empty());
-    CHECK(report.remarks.back().find("not reached in 2 steps") != std::string::npos);
+    CHECK(report.remarks.back() == "The tolerance was not reached in 2 steps with 2 iterations at most: use fewer "
+                                   "sub-meshes or a smaller time step.");
+}
+
+TEST_CASE("steps that iterations no longer bring closer to the tolerance are said to have stagnated")
+{
+    // So long a step that the sub-meshes' equations are nearly singular.
+    PolygonMesh mesh = make_hexagons(900);
+    FlowOptions options = converged(5, 1e-15);
+    options.time_step = 100.0;
+    options.steps = 1;
+    options.converge_iterations = 5000;
+    options.largest_update = std::numeric_limits<double>::infinity();
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    CHECK(mesh.vertices.allFinite());
+    CHECK(report.steps.front().residual > 1e-14);
+    CHECK(report.steps.front().iterations < 5000);
+    CHECK(report.steps_short_of_tolerance == 1);
+    CHECK(report.steps_stagnated == 1);
+    REQUIRE_FALSE(report.remarks.empty());
+    const auto speaks_of_it = [](const std::string& remark) {
+        return remark.find("in 1 of them more would not have helped") != std::string::npos;
+    };
+    CHECK(std::ranges::any_of(report.remarks, speaks_of_it));
 }
 
 TEST_CASE("converged steps by GMRES give the same bits for every number of threads")

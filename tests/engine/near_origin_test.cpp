@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/near_origin.h"
 #include "samples/common/meshes.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;
@@ -64,7 +66,7 @@ TEST_CASE("vertices that stay keep every bit, far away as well")
     PolygonMesh mesh = make_quads(900);
     mesh.vertices = (1e-3 * mesh.vertices.array() + 7654321.123).matrix();
     const Points before = mesh.vertices;
-    REQUIRE_FALSE(offset_of(before).isZero(0.0));
+    REQUIRE_FALSE(offset_of(mesh).isZero(0.0));
     const Topology topology = make_topology(mesh);
     FlowOptions options = options_for(Laplacian::Fujiwara, 4);
     options.time_step = 1e-9;
@@ -77,13 +79,13 @@ TEST_CASE("vertices that stay keep every bit, far away as well")
 
 TEST_CASE("only what lies far away is moved, and no bit of it is lost")
 {
-    const Points sphere = make_noisy_sphere(500).vertices;
-    CHECK(offset_of(sphere).isZero(0.0));
-    CHECK(offset_of(Points(0, 3)).isZero(0.0));
-    CHECK(offset_of(Points::Constant(4, 3, 5.0)).isZero(0.0));
-    Points far = (sphere.array() * 3.7e-4 + 0.0).matrix();
+    PolygonMesh mesh = make_noisy_sphere(500);
+    CHECK(offset_of(mesh).isZero(0.0));
+    CHECK(offset_of(PolygonMesh{}).isZero(0.0));
+    Points& far = mesh.vertices;
+    far *= 3.7e-4;
     far.col(1).array() += 9.87654321e5;
-    const Point offset = offset_of(far);
+    const Point offset = offset_of(mesh);
     CHECK(offset[0] == 0.0);
     CHECK(std::abs(offset[1] - 9.87654321e5) < 1e-3);
     CHECK(offset[2] == 0.0);
@@ -92,8 +94,104 @@ TEST_CASE("only what lies far away is moved, and no bit of it is lost")
     for (Eigen::Index v = 0; v < far.rows(); ++v)
         CHECK(static_cast<long double>(far(v, 1)) - static_cast<long double>(offset[1]) ==
               static_cast<long double>(near(v, 1)));
-    far(3, 0) = std::nan("");
-    CHECK(offset_of(far).isZero(0.0));
+    PolygonMesh unsound = mesh;
+    unsound.face_vertices[7] = unsound.n_vertices();
+    CHECK(offset_of(unsound).isZero(0.0));
+    unsound.face_vertices[7] = -1;
+    CHECK(offset_of(unsound).isZero(0.0));
+    unsound = mesh;
+    unsound.vertices(3, 0) = std::nan("");
+    CHECK(offset_of(unsound).isZero(0.0));
+    far.setConstant(5.0);
+    CHECK(offset_of(mesh).isZero(0.0));
+}
+
+TEST_CASE("vertices without faces neither decide where a surface lies nor lose a bit")
+{
+    for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Robin}) {
+        PolygonMesh near = make_noisy_sphere(800);
+        near.vertices = rounded_at(0.02 * near.vertices, 1e6);
+        PolygonMesh far = near;
+        far.vertices.array() += 1e6;
+        Points alone(4, 3);
+        alone << 0.0, 0.0, 0.0, 0.1, -1e-9, 3e300, 1e6 + 0.125, 1e6, 1e6, 0.3, 0.7, -0.0;
+        const auto n = near.n_vertices();
+        for (PolygonMesh* mesh : {&near, &far}) {
+            mesh->vertices.conservativeResize(n + 4, 3);
+            mesh->vertices.bottomRows(4) = alone;
+        }
+        const Point offset = offset_of(far);
+        CHECK((offset.array() - 1e6).abs().maxCoeff() < 0.1);
+        FlowOptions options = options_for(Laplacian::Fujiwara, 4);
+        options.conditions = conditions;
+        options.keep_gaps = conditions == Conditions::Robin;
+        options.approach = Approach::Sweep;
+        options.reference = true;
+        const Points expected = flowed(near, options).topRows(n);
+        int n_steps = 0;
+        const auto check = [&](const Points& positions) {
+            CHECK(same_bits(positions.middleRows(n, 4), alone));
+            CHECK((positions.topRows(n).array() - 1e6).abs().maxCoeff() < 0.1);
+        };
+        const FlowReport report = mean_curvature_flow(far, options, [&](const StepState& state) {
+            ++n_steps;
+            check(state.positions);
+            REQUIRE(state.reference_positions != nullptr);
+            check(*state.reference_positions);
+            REQUIRE((state.pieces != nullptr) == options.keep_gaps);
+            if (state.pieces != nullptr)
+                CHECK(same_bits(state.pieces->vertices.middleRows(n, 4), alone));
+        });
+        CHECK(n_steps == 3);
+        CHECK(same_bits(far.vertices.bottomRows(4), alone));
+        CHECK(largest_difference((far.vertices.topRows(n).array() - 1e6).matrix(), expected) < 1e-9);
+        CHECK(report.pieces.has_value() == options.keep_gaps);
+        if (report.pieces)
+            CHECK(same_bits(report.pieces->vertices.middleRows(n, 4), alone));
+    }
+}
+
+TEST_CASE("an observer sees everything where it is in truth: the undecomposed flow and the pieces as well")
+{
+    constexpr double offset = 1e6;
+    PolygonMesh near = make_noisy_sphere(800);
+    near.vertices = rounded_at(0.02 * near.vertices, offset);
+    PolygonMesh far = near;
+    far.vertices.array() += offset;
+    FlowOptions options = options_for(Laplacian::Fujiwara, 4);
+    options.conditions = Conditions::Robin;
+    options.keep_gaps = true;
+    options.reference = true;
+    struct Seen {
+        Points positions;
+        Points undecomposed;
+        Points of_pieces;
+    };
+    const auto seen_in = [&](PolygonMesh mesh) {
+        std::vector<Seen> seen;
+        const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
+            REQUIRE(state.reference_positions != nullptr);
+            REQUIRE(state.pieces != nullptr);
+            seen.push_back({state.positions, *state.reference_positions, state.pieces->vertices});
+        });
+        CHECK(seen.back().positions == mesh.vertices);
+        CHECK(seen.back().of_pieces == report.pieces.value().vertices);
+        return seen;
+    };
+    const std::vector<Seen> expected = seen_in(near);
+    const std::vector<Seen> seen = seen_in(far);
+    REQUIRE(seen.size() == 3);
+    const auto check_same = [offset](const Points& of_far, const Points& of_near) {
+        REQUIRE(of_far.rows() == of_near.rows());
+        CHECK(largest_difference((of_far.array() - offset).matrix(), of_near) < 1e-9);
+    };
+    for (std::size_t step = 0; step < 3; ++step) {
+        check_same(seen[step].positions, expected[step].positions);
+        check_same(seen[step].undecomposed, expected[step].undecomposed);
+        check_same(seen[step].of_pieces, expected[step].of_pieces);
+        CHECK(seen[step].undecomposed != seen[step].positions);
+        CHECK(seen[step].of_pieces.rows() > seen[step].positions.rows());
+    }
 }
 
 TEST_CASE("after a failure the mesh is back where it was")

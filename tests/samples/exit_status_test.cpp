@@ -6,6 +6,7 @@
 
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
+#include "samples/common/missed_tolerance.h"
 
 using namespace seamflow;
 
@@ -35,4 +36,23 @@ TEST_CASE("every kind of exception has its exit status and one message")
     CHECK(end_of(std::bad_alloc()).second.find("memory") != std::string::npos);
     CHECK(end_of(std::logic_error("reason")).first == 4);
     CHECK(end_of(7).first == 4);
+}
+
+TEST_CASE(
+    "steps fail that miss the tolerance asked for, unless they were to have few iterations and only these ran out")
+{
+    FlowReport report;
+    report.steps_short_of_tolerance = 3;
+    report.steps_stagnated = 1;
+    SmoothCommand command;
+    CHECK(steps_failed(command, report) == 0);
+    command.options.tolerance = 1e-8;
+    CHECK(steps_failed(command, report) == 3);
+    command.limits_iterations = true;
+    CHECK(steps_failed(command, report) == 1);
+    report.steps_stagnated = 0;
+    CHECK(steps_failed(command, report) == 0);
+    command.limits_iterations = false;
+    CHECK(steps_failed(command, report) == 3);
+    CHECK(steps_failed(command, FlowReport{}) == 0);
 }

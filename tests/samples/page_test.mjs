@@ -171,7 +171,7 @@ test("names are shown as they are", async () => {
 test("every switch changes what is seen", async () => {
     const opened = await open(page("sphere"));
     await bare(opened);
-    for (const colour of ["sub-mesh", "class", "distance", "curvature"])
+    for (const colour of ["sub-mesh", "class", "distance", "texture", "curvature"])
         await changes(opened, colour, () => opened.selectOption("#colour", colour), 0.05);
     await changes(opened, "the range of the ramp", () => opened.selectOption("#range", "all"));
     await opened.selectOption("#colour", "plain");
@@ -289,6 +289,40 @@ test("a page of a figure has all its flows", async () => {
         await opened.selectOption("#colour", "sub-mesh");
     });
     assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("a page of a figure opens on a decomposed flow, under its texture", async () => {
+    const opened = await open(join(out, "figures", "texture.html"));
+    const name = () => opened.locator("#flow option:checked").textContent();
+    assert.equal(await name(), "Δ_F in two sub-meshes, adapted Robin");
+    assert.match(await opened.locator("#summary").textContent(), /2 sub-meshes/);
+    assert.match(await opened.locator("#legend").textContent(), /^Texture/);
+    assert.match(await opened.locator("#facts-table").textContent(), /smooth texture-input\.ply out\.ply --laplacian fujiwara/);
+    const times = () => opened.locator("#times .u-label").allTextContents();
+    assert.ok((await times()).includes("decomposed"));
+    await bare(opened);
+    await changes(opened, "no texture", () => opened.selectOption("#colour", "plain"), 0.05);
+    await opened.selectOption("#flow", "0");
+    await settled(opened);
+    assert.equal(await name(), "Δ_F, undecomposed");
+    assert.ok(!(await times()).includes("decomposed"), (await times()).join());
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("the index of figures opens without complaints, with all its pictures", async () => {
+    const path = join(out, "figures", "index.html");
+    const opened = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    const complaints = [];
+    opened.on("console", (message) => complaints.push(message.text()));
+    opened.on("requestfailed", (request) => complaints.push(request.url()));
+    await opened.goto(pathToFileURL(path).href);
+    const widths = await opened.locator("img").evaluateAll((images) => images.map((image) => image.naturalWidth));
+    assert.equal(widths.length, 12);
+    assert.ok(widths.every((width) => width > 0), widths.join());
+    assert.equal(await opened.evaluate(() => document.documentElement.scrollWidth), 1280);
+    assert.deepEqual(complaints, []);
     await opened.close();
 });
 

@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "partition/io/mesh_io.h"
 #include "tests/samples/workshop.h"
 
 using namespace seamflow;
@@ -112,6 +116,7 @@ TEST_CASE("a missed tolerance ends with 4 and the last state, fewer iterations o
     const std::string flow = " --time-step-edges 2 --subdomains 12 --steps 2 --report report.json --converge ";
     REQUIRE(w.smooth("mesh.obj exact.obj" + flow + "1e-9") == 0);
     const Json report = w.json("report.json");
+    CHECK(report["steps_short_of_tolerance"] == 0);
     for (const auto& step : report["steps"]) {
         CHECK(step["residual"].get<double>() <= 1e-9);
         CHECK(step["estimated_v_max"].get<double>() < 1e-6);
@@ -120,9 +125,12 @@ TEST_CASE("a missed tolerance ends with 4 and the last state, fewer iterations o
     CHECK(w.said().find("the tolerance 1e-100 was missed in 2 steps; missed.obj has the last state") !=
           std::string::npos);
     CHECK(w.has("missed.obj"));
+    CHECK(w.json("report.json")["steps_short_of_tolerance"] == 2);
+    CHECK(w.json("report.json")["steps_stagnated"] == 2);
     CHECK(w.smooth("mesh.obj missed.obj" + flow + "1e-100 --converge-iterations 900") == 4);
     REQUIRE(w.smooth("mesh.obj early.obj" + flow + "1e-9 --converge-iterations 2") == 0);
     CHECK(w.json("report.json")["steps"][1]["iterations"] == 2);
+    CHECK(w.json("report.json")["steps_stagnated"] == 0);
     CHECK(w.said().find("not reached in 2 steps") != std::string::npos);
 }
 
@@ -301,8 +309,8 @@ TEST_CASE("--html writes a page, and changes nothing else" * doctest::skip(!HAS_
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --steps 0 --html page.html") == 0);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --html nowhere/page.html") == 5);
     CHECK(w.run(FIGURES " --out results --html texture") == 0);
-    CHECK(test::content_of(w.directory / "results/texture.html").find("<title>texture: generated</title>") !=
-          std::string::npos);
+    CHECK(test::content_of(w.directory / "results/texture.html").find("<title>Figure 10: ") != std::string::npos);
+    CHECK(test::content_of(w.directory / "results/index.html").find("href=\"texture.html\"") != std::string::npos);
 }
 
 TEST_CASE("--html says what it takes where it is not built" * doctest::skip(HAS_PAGE))
@@ -315,13 +323,54 @@ TEST_CASE("--html says what it takes where it is not built" * doctest::skip(HAS_
     CHECK_FALSE(w.has("page.html"));
 }
 
+TEST_CASE("the command in the table of a figure repeats its flow bit for bit")
+{
+    const Workshop w;
+    REQUIRE(w.run(FIGURES " --out results texture polygons") == 0);
+    int repeated = 0;
+    for (const std::string figure : {"texture", "polygons"}) {
+        std::ifstream table(w.directory / ("results/" + figure + ".csv"));
+        std::string line;
+        std::getline(table, line);
+        while (std::getline(table, line)) {
+            std::vector<std::string> fields;
+            std::istringstream row(line);
+            for (std::string field; std::getline(row, field, ',');)
+                fields.push_back(field);
+            const std::string& command = fields.back();
+            CAPTURE(command);
+            REQUIRE(command.starts_with("smooth "));
+            CHECK(w.run("cd results && " SMOOTH " " + command.substr(7)) == 0);
+            const Points expected =
+                read_mesh(w.directory / ("results/" + figure + "-" + fields[3] + "-" + fields[4] + ".ply"))
+                    .mesh.vertices;
+            CHECK(read_mesh(w.directory / "results/out.ply").mesh.vertices == expected);
+            ++repeated;
+        }
+    }
+    CHECK(repeated == 12);
+}
+
 TEST_CASE("figures writes its tables, meshes and claims, and knows its figures")
 {
     const Workshop w;
     CHECK(w.run(FIGURES " --out results texture") == 0);
     CHECK(w.has("results/texture-input.ply"));
-    CHECK(w.count_lines("results/texture.csv", "texture,generated,3721,") == 6);
-    CHECK(w.count_lines("results/claims.csv", "texture,") == 1);
+    CHECK(w.count_lines("results/texture.csv", "texture,generated,3721,") == 9);
+    CHECK(w.count_lines("results/claims.csv", "texture,") == 4);
+    const std::string index = test::content_of(w.directory / "results/index.html");
+    CHECK(index.find("<h2 id=\"figure-10\">Figure 10. ") != std::string::npos);
+    CHECK(index.find("figure-9") == std::string::npos);
+    CHECK(index.find("texture.html") == std::string::npos);
+    // Every picture that the page shows is there.
+    Index shown = 0;
+    for (std::size_t place = index.find("src=\""); place != std::string::npos;
+         place = index.find("src=\"", place + 1)) {
+        const std::size_t begin = place + 5;
+        CHECK(w.has("results/" + index.substr(begin, index.find('"', begin) - begin)));
+        ++shown;
+    }
+    CHECK(shown == 12);
     CHECK(w.run(FIGURES " --out results figure-1") == 2);
     CHECK(w.said().find("there are teaser, ") != std::string::npos);
     CHECK(w.run(FIGURES " texture") == 2);

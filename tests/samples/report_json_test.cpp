@@ -27,6 +27,24 @@ TEST_CASE("the numbers of a report read back to the same double")
     CHECK(json["peak_memory_bytes"].get<std::int64_t>() > 0);
 }
 
+TEST_CASE("a report tells how many converged steps missed their tolerance, and which of them stagnated")
+{
+    FlowReport report;
+    const Json of_sweeps = Json::parse(smooth_report_json(RunRecord{}, report));
+    for (const char* key : {"tolerance", "steps_short_of_tolerance", "steps_stagnated"})
+        CHECK_FALSE(of_sweeps.contains(key));
+    report.tolerance = 1e-9;
+    const Json all_reached = Json::parse(smooth_report_json(RunRecord{}, report));
+    CHECK(all_reached["tolerance"] == 1e-9);
+    CHECK(all_reached["steps_short_of_tolerance"] == 0);
+    CHECK(all_reached["steps_stagnated"] == 0);
+    report.steps_short_of_tolerance = 5;
+    report.steps_stagnated = 3;
+    const Json missed = Json::parse(smooth_report_json(RunRecord{}, report));
+    CHECK(missed["steps_short_of_tolerance"] == 5);
+    CHECK(missed["steps_stagnated"] == 3);
+}
+
 TEST_CASE("a report is valid JSON whatever happened")
 {
     FlowReport report;

@@ -1,10 +1,16 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
 #include "samples/common/meshes/random_numbers.h"
 #include "solvers/gmres.h"
+#include "solvers/restarted_gmres.h"
+#include "solvers/stagnation.h"
 
 using namespace seamflow;
 
@@ -40,6 +46,50 @@ System random_system(Index n, RandomNumbers& random)
 double residual_of(const System& system, const Points& x)
 {
     return (system.right - system.matrix * x).norm();
+}
+
+/// A solution with GMRES begun anew, and its residuals: at the beginning and after each cycle.
+struct Restarted {
+    RestartResult result;
+    std::vector<double> residuals;
+
+    /// The most cycles one after the other that have left more than 95 % of the residual.
+    [[nodiscard]] int longest_plateau() const
+    {
+        int longest = 0;
+        int length = 0;
+        for (std::size_t i = 1; i < residuals.size(); ++i) {
+            length = residuals[i] > 0.95 * residuals[i - 1] ? length + 1 : 0;
+            longest = std::max(longest, length);
+        }
+        return longest;
+    }
+};
+
+Restarted solve(const System& system, const RestartStop& stop)
+{
+    const auto n = static_cast<Index>(system.right.rows());
+    Points x = Points::Zero(n, 3);
+    Points residual = system.right;
+    Restarted restarted{.result = {}, .residuals = {residual.norm()}};
+    const RestartedEquation equation{.multiply = system.multiply(), .measure = [&] {
+                                         residual = system.right - system.matrix * x;
+                                         restarted.residuals.push_back(residual.norm());
+                                     }};
+    Gmres gmres(n);
+    restarted.result = solve_restarted(equation, stop, gmres, x, residual, run_serially);
+    CHECK(restarted.result.residual == doctest::Approx(residual_of(system, x)));
+    return restarted;
+}
+
+/// One right-hand side, turned from one unknown to the next: cycles of fewer products get nowhere.
+System rotation(Index n)
+{
+    System system{Eigen::MatrixXd::Zero(n, n), Points::Zero(n, 3)};
+    for (Index i = 0; i < n; ++i)
+        system.matrix((i + 1) % n, i) = 1.0;
+    system.right(0, 0) = 1.0;
+    return system;
 }
 
 }  // namespace
@@ -104,10 +154,7 @@ TEST_CASE("right-hand sides that depend on each other, or vanish, and invariant 
 TEST_CASE("a regular matrix whose powers lead nowhere for long is solved in the end")
 {
     constexpr Index n = 30;
-    System system{Eigen::MatrixXd::Zero(n, n), Points::Zero(n, 3)};
-    for (Index i = 0; i < n; ++i)
-        system.matrix((i + 1) % n, i) = 1.0;
-    system.right(0, 0) = 1.0;
+    const System system = rotation(n);
     Points x = Points::Zero(n, 3);
     Gmres gmres(n);
     CHECK(gmres.improve(system.multiply(), system.right, 1e-12, n - 1, x, run_serially) == n - 1);
@@ -116,6 +163,28 @@ TEST_CASE("a regular matrix whose powers lead nowhere for long is solved in the 
     x.setZero();
     CHECK(gmres.improve(system.multiply(), system.right, 1e-12, 2 * n, x, run_serially) == n);
     CHECK(residual_of(system, x) < 1e-12);
+}
+
+TEST_CASE("the residual that ends the iteration is the true one, however much alike the products become")
+{
+    RandomNumbers random(5);
+    constexpr Index n = 150;
+    const Eigen::MatrixXd left_factor = random_system(n, random).matrix.householderQr().householderQ();
+    const Eigen::MatrixXd right_factor = random_system(n, random).matrix.householderQr().householderQ();
+    for (const double decay : {0.9, 0.8})
+        for (const Index n_columns : {1, 3}) {
+            CAPTURE(decay);
+            CAPTURE(n_columns);
+            const auto power = [decay](Eigen::Index i) { return std::pow(decay, i); };
+            const auto values = Eigen::VectorXd::NullaryExpr(n, power);
+            System system{left_factor * values.asDiagonal() * right_factor.transpose(), random_points(n, random)};
+            system.matrix.diagonal().array() += 0.01;
+            system.right.rightCols(3 - n_columns).setZero();
+            Points x = Points::Zero(n, 3);
+            const double goal = 1e-12 * system.right.norm();
+            CHECK(Gmres(n).improve(system.multiply(), system.right, goal, n, x, run_serially) < n / 2);
+            CHECK(residual_of(system, x) <= goal);
+        }
 }
 
 TEST_CASE("the amplification is the norm of the inverse, and tightens the goal where it is large")
@@ -136,4 +205,71 @@ TEST_CASE("the amplification is the norm of the inverse, and tightens the goal w
         const double error = (x - Points(system.matrix.partialPivLu().solve(system.right))).norm();
         CHECK(error < 1e-6 * Gmres::most_amplification);
     }
+}
+
+TEST_CASE("GMRES that is begun anew measures its residual, and ends where that has reached the goal")
+{
+    RandomNumbers random(6);
+    System system = random_system(60, random);
+    system.matrix.diagonal().array() += 12.0;
+    const Restarted restarted = solve(system, {1e-8, 1000, 5});
+    CHECK(restarted.result.residual <= 1e-8);
+    CHECK_FALSE(restarted.result.stagnated);
+    CHECK(restarted.result.iterations > 5);
+    CHECK(restarted.result.iterations <= 5 * static_cast<int>(restarted.residuals.size() - 1));
+    CHECK(solve(system, {1e-8, 7, 5}).result.iterations == 7);
+    CHECK(solve(system, {1e-8, 0, 5}).result.iterations == 0);
+    CHECK(solve(system, {100.0 * system.right.norm(), 1000, 5}).result.iterations == 0);
+}
+
+TEST_CASE("a plateau of two cycles is crossed")
+{
+    struct Plateau {
+        Index n;
+        double shift;
+        int iterations_in_cycle;
+        std::uint32_t seed;
+    };
+    // Found by trying.
+    for (const Plateau& plateau : {Plateau{6, 2.0, 1, 19}, Plateau{20, 3.0, 2, 11}}) {
+        CAPTURE(plateau.n);
+        RandomNumbers random(plateau.seed);
+        System system = random_system(plateau.n, random);
+        system.matrix.diagonal().array() += plateau.shift;
+        system.right.rightCols(2).setZero();
+        const Restarted restarted = solve(system, {1e-8, 200, plateau.iterations_in_cycle});
+        CHECK(restarted.longest_plateau() == 2);
+        CHECK(restarted.result.residual <= 1e-8);
+        CHECK_FALSE(restarted.result.stagnated);
+    }
+}
+
+TEST_CASE("three cycles one after the other that lead nowhere are the end, and said to be")
+{
+    const System system = rotation(30);
+    const RestartResult stagnant = solve(system, {1e-8, 1000, 5}).result;
+    CHECK(stagnant.stagnated);
+    CHECK(stagnant.iterations == 15);
+    CHECK(stagnant.residual == doctest::Approx(1.0));
+    for (const int iterations : {5, 10, 15}) {
+        CAPTURE(iterations);
+        const RestartResult short_of_goal = solve(system, {1e-8, iterations, 5}).result;
+        CHECK_FALSE(short_of_goal.stagnated);
+        CHECK(short_of_goal.iterations == iterations);
+    }
+    CHECK_FALSE(solve(system, {1e-8, 1000, 30}).result.stagnated);
+}
+
+TEST_CASE("stagnation is several measurements with too little progress one after the other")
+{
+    Stagnation stagnation(0.5);
+    for (const double left : {0.9, 0.6, 0.5, 0.9, 0.9}) {
+        stagnation.note(left);
+        CHECK(stagnation.is_stalling() == (left > 0.5));
+        CHECK_FALSE(stagnation.is_reached());
+    }
+    stagnation.note(std::numeric_limits<double>::quiet_NaN());
+    CHECK(stagnation.is_reached());
+    stagnation.note(0.4);
+    CHECK_FALSE(stagnation.is_reached());
 }

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <initializer_list>
+#include <vector>
+
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
@@ -17,6 +21,39 @@ Columns solved(LuSolver& solver, std::span<const double> values, const Columns& 
     solver.solve(right_hand_side, solution, workspace);
     solver.free_factor(heap_memory());
     return solution;
+}
+
+struct Entry {
+    Index row;
+    Index column;
+    double value;
+};
+
+/// Whether the diagonal of a matrix will do whose first columns and rows have these entries. Rows and columns are
+/// numbered in the order of elimination; the rest of the matrix is the identity.
+bool will_do(std::initializer_list<Entry> entries)
+{
+    constexpr Index n = 5;
+    std::vector<MatrixEntry> all;
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < n; ++j)
+            all.push_back({i, j});
+    const SparsePattern pattern = make_pattern(n, all);
+    const std::vector<Index> position = make_factor_pattern(pattern).position;
+    std::vector<Index> unknown(at(n));
+    for (Index v = 0; v < n; ++v)
+        unknown[at(position.empty() ? v : position[at(v)])] = v;
+    std::vector<double> values(at(n * n), 0.0);
+    for (Index v = 0; v < n; ++v)
+        values[at(pattern.slot({v, v}))] = 1.0;
+    for (const auto& [row, column, value] : entries)
+        values[at(pattern.slot({unknown[at(column)], unknown[at(row)]}))] = value;
+    LuWorkspace workspace;
+    LuSolver solver(pattern);
+    const bool does = solver.factorise(values, heap_memory(), workspace);
+    CHECK(solver.has_factor() == does);
+    solver.free_factor(heap_memory());
+    return does;
 }
 
 }  // namespace
@@ -98,4 +135,41 @@ TEST_CASE("a diagonal that will not do is found out, and the solver goes on with
     const Columns right_hand_side = random_columns(40, random);
     const Columns expected = dense(pattern, values).fullPivLu().solve(right_hand_side);
     CHECK((solved(solver, values, right_hand_side, workspace) - expected).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("a pivot will not do that is much less than an entry below it, however little the others grow")
+{
+    // The rows' sizes are 1 and 2, about.
+    const auto does = [](double multiplier) { return will_do({{0, 0, 1.0 / multiplier}, {0, 1, 1.0}, {1, 0, 1.0}}); };
+    for (const double sign : {1.0, -1.0}) {
+        for (const double multiplier : {2.0, 100.0, 1900.0})
+            CHECK(does(sign * multiplier));
+        for (const double multiplier : {2100.0, 1e4, 1e5})
+            CHECK_FALSE(does(sign * multiplier));
+    }
+}
+
+TEST_CASE("pivots will not do that let an entry grow a million times, however little each of them does")
+{
+    // What stands in the last column is multiplied in every row but the last. The fourth row's size is 2.
+    const auto does = [](double multiplier) {
+        const double pivot = 1.0 / multiplier;
+        return will_do(
+            {{0, 0, pivot}, {0, 4, 1.0}, {1, 0, -1.0}, {1, 1, pivot}, {2, 1, -1.0}, {2, 2, pivot}, {3, 2, -1.0}});
+    };
+    for (const double growth : {1e4, 1e6, 1.9e6})
+        CHECK(does(std::cbrt(growth)));
+    for (const double growth : {2.1e6, 1e7, 1e8})
+        for (const double sign : {1.0, -1.0})
+            CHECK_FALSE(does(sign * std::cbrt(growth)));
+}
+
+TEST_CASE("a pivot will not do that is next to nothing, though nothing stands below it")
+{
+    // The row's size is 2.
+    const auto does = [](double pivot) { return will_do({{0, 1, 1.0}, {1, 0, 1.0}, {1, 1, 1.0 + pivot}}); };
+    for (const double pivot : {1e-6, 2.2e-12, -2.2e-12})
+        CHECK(does(pivot));
+    for (const double pivot : {1.8e-12, -1.8e-12, 1e-15, 0.0})
+        CHECK_FALSE(does(pivot));
 }

@@ -25,6 +25,18 @@ SparsePattern repeated(const SparsePattern& block, Index copies)
     return make_pattern(copies * block.n(), entries);
 }
 
+/// Wilkinson's matrix: entries double with every pivot, although no entry is larger than its pivot.
+GrowingMatrix doubling_matrix(Index n)
+{
+    GrowingMatrix matrix = growing_matrix(n);
+    for (Index column = 0; column < n; ++column)
+        for (Index row = 0; row < n; ++row)
+            matrix.values[at(matrix.pattern.slot({column, row}))] = row == column || column == n - 1 ? 1.0
+                                                                    : row > column                   ? -1.0
+                                                                                                     : 0.0;
+    return matrix;
+}
+
 }  // namespace
 
 TEST_CASE("random systems are solved, one set of values after the other")
@@ -130,6 +142,19 @@ TEST_CASE("where pivots on the diagonal would lose all digits, larger ones are f
     CHECK_FALSE(solver.is_nearly_singular());
     solver.solve(values, right_hand_side, solution);
     CHECK((dense(pattern, values).fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+TEST_CASE("where the largest pivots lose digits as well, refinement brings them back")
+{
+    const Index n = 50;
+    const auto [pattern, values] = doubling_matrix(n);
+    RandomNumbers random(6);
+    const Columns right_hand_side = random_columns(n, random);
+    Columns solution(n, 3);
+    UmfpackSolver solver(pattern);
+    solver.factorise(values);
+    solver.solve(values, right_hand_side, solution);
+    CHECK((dense(pattern, values).fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("nearly singular matrices are solved as well as that goes, and said to be what they are")

@@ -33,7 +33,8 @@ struct Blocks {
     std::vector<std::unique_ptr<SchwarzBlock>> blocks;
     std::vector<SchwarzBlock*> views;
 
-    Blocks(const CutMesh& cut, Laplacian laplacian, int layers, SolverWorkspace& workspace)
+    Blocks(const CutMesh& cut, Laplacian laplacian, int layers, SolverWorkspace& workspace,
+           double time_step = time_step_of_blocks)
     {
         workspace.factors = &memory;
         const std::vector<Index> rank(at(cut.n_parts), 0);
@@ -43,7 +44,7 @@ struct Blocks {
                                             std::move(faces[at(s)])));
             blocks.push_back(std::make_unique<SchwarzBlock>(parts.back(), laplacian));
             views.push_back(blocks.back().get());
-            views.back()->assemble(localised(parts.back().sub_mesh, cut.mesh.vertices), time_step_of_blocks);
+            views.back()->assemble(localised(parts.back().sub_mesh, cut.mesh.vertices), time_step);
             views.back()->factorise(workspace);
         }
     }

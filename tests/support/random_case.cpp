@@ -82,7 +82,7 @@ bool is_exact(const FlowReport& report, const FlowOptions& options)
 void compare_with_undecomposed(Case& c, const Outcome& outcome, double tolerance, const std::string& what)
 {
     // Far from the origin the states that the flow goes on from have more digits than those it tells.
-    const bool far = !offset_of(c.mesh().vertices).isZero(0.0);
+    const bool far = !offset_of(c.mesh()).isZero(0.0);
     for (std::size_t step = 1; step < (far ? std::min<std::size_t>(2, outcome.states.size()) : outcome.states.size());
          ++step) {
         const Points& from = outcome.states[step - 1];
@@ -252,7 +252,7 @@ void check_rescaled(Case& c)
     options.rescale = Rescale::None;
     const double unscaled = measure(mesh, outcome_of(c.mesh(), options).end, origin).area;
     const double scale = std::sqrt(after.area / unscaled);
-    const double near = (c.mesh().vertices.rowwise() - offset_of(c.mesh().vertices)).cwiseAbs().maxCoeff();
+    const double near = (c.mesh().vertices.rowwise() - offset_of(c.mesh())).cwiseAbs().maxCoeff();
     const double lost = 1e-14 * ((1.0 + scale) * near + c.expected.end.cwiseAbs().maxCoeff());
     const double size = std::max(c.extent(), extent_of(c.expected.end));
     const double most = 1e-10 + lost * size / std::min(before.area, after.area);

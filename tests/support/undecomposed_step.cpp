@@ -69,7 +69,7 @@ Points solve(const PolygonMesh& mesh, const Topology& topology, const FlowOption
 std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const FlowOptions& options,
                                                   const Points& from)
 {
-    const Point offset = offset_of(mesh.vertices);
+    const Point offset = offset_of(mesh);
     PolygonMesh near = mesh;
     near.vertices.rowwise() -= offset;
     FlowOptions constraints = options;

@@ -16,6 +16,7 @@ export function meanings(flow) {
         flow.has_undecomposed
             ? ["distance", { name: "Distance to the undecomposed flow", unit: "mean edge lengths" }]
             : ["distance", { name: "Displacement from the input", unit: "mean edge lengths of the input" }],
+        ["texture", { name: "Texture (heights)" }],
         ["curvature", { name: "Mean curvature ‖ΔV‖ = |κ₁ + κ₂|", unit: "1/length" }],
     );
     return new Map(list);
@@ -103,6 +104,8 @@ export function showLegend(flow, chosen, range) {
         const name = (c) => `${c}${c === 0 ? " (first in even steps)" : ""}: ${count(c)}`;
         parts.push(swatches(Array.from({ length: Math.min(report.colors, 12) }, (_, c) => [colourOfClass(c), name(c)])));
         parts.push(element("div", { className: "quiet" }, "number of sub-meshes in each"));
+    } else if (chosen.colour === "texture") {
+        parts.push(element("div", { className: "quiet" }, "z in the input, from blue (lowest) to red; its lines go with the vertices"));
     } else {
         parts.push(...rampLegend(chosen.colour, meaning, range));
     }

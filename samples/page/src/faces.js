@@ -70,3 +70,11 @@ export function edgesOf(corners, bits) {
             }
     return index;
 }
+
+/** The third of every four coordinates, as View takes values: two numbers each, the first one as packed roots are. */
+export function heightsOf(positions) {
+    const heights = new Uint16Array(positions.length / 2);
+    for (let v = 0; v < heights.length / 2; ++v)
+        heights[2 * v] = Math.round(65534 * Math.sqrt(positions[4 * v + 2] / 65535));
+    return heights;
+}

@@ -2,7 +2,7 @@
 
 import { offer, rangeOf, reflect, showLegend } from "./controls.js";
 import { facts, remembering, unpacked16, unpacked32, unpackedBytes } from "./data.js";
-import { edgesOf, labelsOfTriangles, withFlatLabels } from "./faces.js";
+import { edgesOf, heightsOf, labelsOfTriangles, withFlatLabels } from "./faces.js";
 import { element, showFacts, summary } from "./facts.js";
 import { colourOfClass, colourOfLabel, ramp } from "./palette.js";
 import { Plots } from "./plots.js";
@@ -13,6 +13,9 @@ const byId = (id) => document.getElementById(id);
 const positionsIn = remembering(6, (block) => unpacked16(block, 3, 4));
 const valuesIn = remembering(6, (block) => unpacked16(block, 1, 2));
 const cornersOnce = remembering(1, (block) => unpacked32(block, 3));
+
+/** The heights (z) of the input, from its lowest to its highest vertex. */
+const texture = remembering(1, async (block) => heightsOf(await positionsIn(block)));
 
 /** The last state at first. */
 const chosen = { flow: 0, state: Infinity, surface: "after", colour: "plain", edges: false, range: "step" };
@@ -37,6 +40,10 @@ async function colour() {
         return () => view.colourByLabel((v) => colourOfLabel(labels[v]));
     if (chosen.colour === "class")
         return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colors[labels[v]] ?? 0));
+    if (chosen.colour === "texture") {
+        const heights = await texture(facts.flows[0].states[0].surface.positions.block);
+        return () => view.colourByTexture(heights, ramp("texture"));
+    }
     const field = chosen.colour === "curvature" ? surface().curvature : state().distance;
     const numbers = await valuesIn(field.block);
     const { end } = rangeOf(flow(), chosen);
@@ -121,6 +128,14 @@ function listen() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plots.show(flow().report));
 }
 
+/** A page with several flows is about what a cut does, and what becomes of the texture. */
+function chooseFirst() {
+    if (facts.flows.length < 2)
+        return 0;
+    chosen.colour = "texture";
+    return Math.max(facts.flows.findIndex(({ report }) => report.subdomains > 1), 0);
+}
+
 async function start() {
     byId("title").textContent = facts.title;
     byId("flow").replaceChildren(...facts.flows.map(({ name }, value) => element("option", { value }, name)));
@@ -131,7 +146,9 @@ async function start() {
         byId("message").textContent = "The surface takes WebGL 2, which this browser does not offer here.";
     }
     listen();
-    await chooseFlow(0);
+    const first = chooseFirst();
+    byId("flow").value = first;
+    await chooseFlow(first);
 }
 
 start().catch((error) => {

@@ -22,6 +22,7 @@ const classes = ["#c8503f", "#56616e", "#d9a531", "#3f84b5", "#5f9a54", "#8a5ba6
 export const colourOfClass = (index) => classes[index] ?? colourOfLabel(index);
 
 const stops = {
+    texture: ["#0000ff", "#00ffff", "#00ff00", "#ffff00", "#ff0000"],
     distance: ["#dde2e6", "#f2c861", "#e0703a", "#b02a50", "#541457"],
     curvature: ["#e2e6ea", "#a5d3c6", "#4a9fb8", "#3561a0", "#2a2461"],
 };

@@ -52,7 +52,8 @@ class Plot {
      * @param places step() is the one shown; choose(step) shows another.
      */
     constructor(section, { title, unit, curves, logarithmic, format }, places) {
-        const shown = curves.filter((curve) => curve.values.some((value) => value !== null && value !== undefined));
+        const drawable = (value) => value !== null && value !== undefined && (!logarithmic || value > 0);
+        const shown = curves.filter((curve) => curve.values.some(drawable));
         section.hidden = shown.length === 0;
         if (section.hidden)
             return;
@@ -152,13 +153,13 @@ const kinds = {
             { name: "largest", values: column(steps, "tangential_max"), colour: 2, dash: [5, 4] },
         ],
     }),
-    times: (steps) => ({
+    times: (steps, { subdomains }) => ({
         title: "Time of each step",
         unit: "wall clock",
         format: seconds,
         curves: [
-            { name: "decomposed", values: column(steps, "seconds"), colour: 1 },
-            { name: "undecomposed", values: column(steps, "reference_seconds"), colour: 4 },
+            { name: subdomains > 1 ? "decomposed" : "undecomposed", values: column(steps, "seconds"), colour: 1 },
+            { name: "undecomposed, to compare", values: column(steps, "reference_seconds"), colour: 4 },
         ],
     }),
 };
@@ -198,7 +199,7 @@ export class Plots {
     show(report) {
         this.#plots.forEach((plot) => plot.destroy());
         this.#plots = Object.entries(kinds).map(
-            ([name, kind]) => new Plot(document.getElementById(name), kind(report.steps), this.#places),
+            ([name, kind]) => new Plot(document.getElementById(name), kind(report.steps, report), this.#places),
         );
         showPhases(document.getElementById("phases"), report);
     }

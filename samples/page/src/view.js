@@ -39,6 +39,7 @@ flat in vec3 faceColour;
 uniform int mode;
 uniform sampler2D ramp;
 uniform vec3 plain;
+uniform float lines;
 out vec4 colour;
 void main() {
     vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
@@ -50,6 +51,8 @@ void main() {
         base = faceColour;
     if (mode == 2)
         base = missing > 0.0 ? vec3(0.5) : texture(ramp, vec2(clamp(shown, 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
+    if (lines > 0.0)
+        base *= abs(fract(shown * lines + 0.5) - 0.5) < 0.07 ? 0.5 : 1.0;
     colour = vec4(min(base * light + 0.06 * pow(key, 24.0), 1.0), 1.0);
 }`;
 
@@ -133,6 +136,7 @@ export class View {
                 extent: { value: new Vector3() },
                 largest: { value: 0 },
                 mode: { value: 0 },
+                lines: { value: 0 },
                 ramp: { value: ramp },
                 plain: { value: new Vector3(0.86, 0.87, 0.885) },
             },
@@ -253,8 +257,14 @@ export class View {
         extent.value.set(...box.upper.map((x, k) => (x - box.lower[k]) / this.#radius));
     }
 
+    #setMode(mode, lines = 0) {
+        const { uniforms } = this.#surface.material;
+        uniforms.mode.value = mode;
+        uniforms.lines.value = lines;
+    }
+
     colourPlainly() {
-        this.#surface.material.uniforms.mode.value = 0;
+        this.#setMode(0);
     }
 
     /** @param colours for each vertex, red, green and blue. */
@@ -263,7 +273,7 @@ export class View {
         for (let v = 0; v < attribute.count; ++v)
             attribute.array.set(colours(v), 4 * v);
         attribute.needsUpdate = true;
-        this.#surface.material.uniforms.mode.value = 1;
+        this.#setMode(1);
     }
 
     /** @param numbers two of 16 bits for each vertex. @param largest that of the values, in ends of the ramp. */
@@ -273,7 +283,13 @@ export class View {
         uniforms.largest.value = largest;
         uniforms.ramp.value.image.data.set(ramp);
         uniforms.ramp.value.needsUpdate = true;
-        uniforms.mode.value = 2;
+        this.#setMode(2);
+    }
+
+    /** As by values from 0 to 1, with sixteen dark lines of equal value. */
+    colourByTexture(numbers, ramp) {
+        this.colourByValue(numbers, 1, ramp);
+        this.#setMode(2, 16);
     }
 
     /** Edges that are close together on the screen are faint, or they would hide all else. */

@@ -48,6 +48,15 @@ TEST_CASE("OBJ: continued lines, CR LF, tabs, comments, a byte order mark and a 
     CHECK(mesh.face_vertices == std::vector<Index>{0, 1, 2, 2, 1, 0});
 }
 
+TEST_CASE("OBJ: a comment in the last line, which need not end")
+{
+    for (const char* last :
+         {"f 1 2 3 # x", "f 1 2 3# x", "f 1 2 3 #", "f 1 2 3\n# x", "f 1 2 \\\n3 # x", "f 1 2 3\r# x"}) {
+        CAPTURE(last);
+        CHECK(read_obj_text(three_vertices + last).face_vertices == std::vector<Index>{0, 1, 2});
+    }
+}
+
 TEST_CASE("OBJ: lines that end with CR alone")
 {
     CHECK(read_obj_text("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r").n_faces() == 1);

@@ -36,6 +36,16 @@ TEST_CASE("OFF: the counts may stand on the line of OFF or after it, with commen
     CHECK(identical(read_text("a.off", "OFF\n3 1 0\n0 0 0#first\n#\n1 0 0\n\n0 1 0\n\n3 0 1 2").mesh, make_triangle()));
 }
 
+TEST_CASE("OFF: a comment in the last line, which need not end")
+{
+    for (const char* end : {" # x", "# x", "#", "\n# x"}) {
+        CAPTURE(end);
+        CHECK(identical(read_text("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2" + std::string(end)).mesh,
+                        make_triangle()));
+    }
+    CHECK(read_text("a.off", "OFF 1 0 0\n1 2 3 # x").mesh.n_vertices() == 1);
+}
+
 TEST_CASE("OFF: numbers after the coordinates and colours of faces are passed over")
 {
     for (const char* keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"}) {

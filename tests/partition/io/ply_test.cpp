@@ -9,6 +9,7 @@
 
 #include "partition/io/byte_order.h"
 #include "partition/io/palette.h"
+#include "partition/vector_area.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -129,6 +130,42 @@ TEST_CASE("PLY: binary numbers of all types in both byte orders")
         expected << 4e9, -7, 0.1, 2, 1, -0.0, 4, 3, 1e308;
         CHECK(identical(read_text("a.ply", content).mesh, make_mesh(expected, {{2, 0, 1}})));
     }
+}
+
+namespace {
+
+/// One triangle on the last of as many vertices as a type without sign can tell apart.
+template <class Number>
+std::string last_vertices(std::endian order, const std::string& type)
+{
+    constexpr std::size_t n = std::size_t{std::numeric_limits<Number>::max()} + 1;
+    const auto last = [](Number back) { return static_cast<Number>(std::numeric_limits<Number>::max() - back); };
+    return header_of(order) + "element vertex " + std::to_string(n) + "\nproperty " + type +
+           " x\nproperty uchar y\nproperty uchar z\nelement face 1\nproperty list uchar " + type +
+           " vertex_indices\nend_header\n" + std::string((sizeof(Number) + 2) * n, '\xff') +
+           Bytes(order).add<std::uint8_t>({3}).add<Number>({last(0), last(1), n / 2}).text();
+}
+
+template <class Number>
+void check_last_vertices(const std::string& type)
+{
+    for (const auto order : {std::endian::little, std::endian::big}) {
+        CAPTURE(type);
+        constexpr Index last = std::numeric_limits<Number>::max();
+        const PolygonMesh mesh = read_text("a.ply", last_vertices<Number>(order, type)).mesh;
+        CHECK(mesh.face_vertices == std::vector<Index>{last, last - 1, last / 2 + 1});
+        CHECK(mesh.vertices.row(last) == Point(last, 255.0, 255.0));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("PLY: binary numbers without sign reach up to the largest of their type")
+{
+    for (const char* type : {"uchar", "uint8"})
+        check_last_vertices<std::uint8_t>(type);
+    for (const char* type : {"ushort", "uint16"})
+        check_last_vertices<std::uint16_t>(type);
 }
 
 TEST_CASE("PLY: binary data follow the header directly, whatever its line ends and their first bytes")

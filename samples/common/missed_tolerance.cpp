@@ -1,0 +1,12 @@
+#include "samples/common/missed_tolerance.h"
+
+namespace seamflow {
+
+int steps_failed(const SmoothCommand& command, const FlowReport& report)
+{
+    if (!command.options.tolerance)
+        return 0;
+    return command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
+}
+
+}  // namespace seamflow

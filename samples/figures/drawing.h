@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "partition/io/palette.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// A picture: red, green, blue and opacity of each pixel, row by row from the top.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> pixels;
+};
+
+/// From where surfaces are looked at: aslant from above, along parallel rays. The same for all pictures of a figure, so
+/// that they can be compared.
+class Viewpoint {
+  public:
+    /// @param positions of the mesh that fills the picture.
+    explicit Viewpoint(const Points& positions);
+
+    /// In pixels to the right and downwards; the third coordinate grows towards the eye.
+    [[nodiscard]] Points seen(const Points& positions) const;
+
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+  private:
+    /// Columns: to the right, downwards, to the eye.
+    Eigen::Matrix3d axes_;
+    Eigen::RowVector3d corner_ = Eigen::RowVector3d::Zero();
+    double scale_ = 1.0;
+    int width_ = 0;
+    int height_ = 0;
+};
+
+/// The colour at a place of a triangle, by the value that the vertices' values have there.
+using Paint = std::function<Colour(Index triangle, double value)>;
+
+/// Draws a surface as a lamp over the eye's shoulder shows it, each triangle flat, both sides alike. Triangles with
+/// coordinates that are not finite are left out; what lies outside of the picture is cut off.
+/// @param values #V, looked up pixel by pixel, as a texture is.
+Image draw(const PolygonMesh& triangles, std::span<const double> values, const Paint& paint,
+           const Viewpoint& viewpoint);
+
+/// Writes a picture as PNG, whole or not at all.
+/// @throws OutputError naming the file.
+void write_png(const std::filesystem::path& path, const Image& image);
+
+}  // namespace seamflow

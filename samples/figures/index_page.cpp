@@ -1,0 +1,236 @@
+#include "samples/figures/index_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "samples/figures/curves.h"
+#include "samples/figures/measured.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr std::string_view head = R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<link rel="icon" href="data:,">
+<title>The paper's figures</title>
+<style>
+:root { color-scheme: light dark; --ink: #1d2329; --quiet: #5d6873; --line: #d9dee3; --ground: #f6f7f8; --panel: #fff; --link: #22659c; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e4e8ec; --quiet: #98a3ae; --line: #323942; --ground: #14171b; --panel: #1c2026; --link: #6aa9dc; }
+}
+body { margin: 0 auto; max-width: 1240px; padding: 16px 20px 60px; background: var(--ground); color: var(--ink);
+  font: 15px/1.5 system-ui, "Segoe UI", Roboto, "DejaVu Sans", Arial, sans-serif; }
+h1 { font-size: 24px; } h2 { font-size: 19px; margin: 44px 0 4px; }
+a { color: var(--link); } nav a { margin-right: 14px; white-space: nowrap; }
+.quiet { color: var(--quiet); }
+.row { display: grid; grid-auto-flow: column; grid-auto-columns: minmax(0, 1fr); gap: 10px; margin: 10px 0; }
+figure { margin: 0; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 8px; }
+figure img { display: block; width: 100%; height: auto; }
+figcaption { font-size: 13px; color: var(--quiet); text-align: center; }
+.curves { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 8px; margin: 10px 0; }
+.curves img { display: block; max-width: 100%; height: auto; margin: auto; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13px; width: 100%; margin: 10px 0; }
+th, td { padding: 3px 8px; border-bottom: 1px solid var(--line); text-align: left; vertical-align: baseline; }
+th { font-weight: 600; } td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+code { font-size: 12px; overflow-wrap: anywhere; }
+tr:has(+ .command) td { border-bottom: 0; } .command td { padding-top: 0; color: var(--quiet); }
+.yes { color: #2c7a3f; } .no { color: #b4452c; }
+@media (prefers-color-scheme: dark) { .yes { color: #6fbf82; } .no { color: #e98a6f; } }
+@media (max-width: 700px) { .row { grid-auto-flow: row; grid-template-columns: 1fr 1fr; } }
+</style>
+</head>
+<body>
+<h1>The paper's figures</h1>
+<p>The experiments of <em>Domain Decomposition for Mean Curvature Flow of Surface Polygonal Meshes</em> (L. Ptáčková,
+M. Outrata, <a href="https://arxiv.org/abs/2602.16874">arXiv 2602.16874</a>), repeated, under the numbers that its figures have
+there. Figures 3, 4 and 6 explain terms and are left out. The texture is the height of the input; lines of equal height
+go with the vertices when they slide along the surface.</p>
+)";
+
+constexpr std::string_view legend =
+    R"(<p class="quiet">Tables: V_ and H_ are distances to the undecomposed flow by the same
+Laplacian after the last step, in mean edge lengths, and drift is how far the texture slid along the surface; Γ is the length of
+the interface, in lengths of the same edges of the undecomposed flow; roughness is the angle between neighbouring triangles,
+root mean square and 95th percentile. dt is in length², p in 1/length, q has no unit. Each command, run in the folder of this
+page, repeats its flow bit for bit; it ends with status 4 where vertices are thrown further than the mesh is wide, which is
+shown here.</p>
+)";
+
+std::string escaped(std::string_view text)
+{
+    std::string result;
+    for (const char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '"')
+            result += "&quot;";
+        else
+            result += c;
+    }
+    return result;
+}
+
+/// A number with three digits, a dash if it is none.
+std::string short_number(double value)
+{
+    if (std::isnan(value))
+        return "–";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string text_cell(std::string_view text)
+{
+    return "<td>" + escaped(text) + "</td>";
+}
+
+std::string number_cell(const std::string& text)
+{
+    return "<td class=\"number\">" + (text.empty() ? "–" : text) + "</td>";
+}
+
+/// The picture of that title, or a sentence where the flow has none because there is no such one.
+std::string picture(const FigureResult& result, const std::string& title)
+{
+    std::string caption = title;
+    if (title == picture_of::input)
+        caption = "input: " + result.table.mesh;
+    else if (title == picture_of::cut)
+        caption = "the two sub-meshes";
+    else if (title == picture_of::part)
+        caption = "the sub-mesh that solves first";
+    for (const Variant& variant : result.experiment->variants)
+        if (title_of(variant) == title)
+            caption = words_of(variant);
+    const std::string file = result.table.figure + "-" + title + ".png";
+    return "<figure><img src=\"" + file + "\" alt=\"" + escaped(caption) + "\"><figcaption>" + escaped(caption) +
+           "</figcaption></figure>\n";
+}
+
+/// Whether there are numbers of the authors for this mesh.
+bool has_theirs(const FigureResult& result)
+{
+    return result.table.is_theirs && !result.experiment->theirs.empty();
+}
+
+/// What the authors measured for a flow, "0.277 / 3.66"; empty: nothing, or on another mesh.
+std::string theirs(const FigureResult& result, const Row& row)
+{
+    if (has_theirs(result))
+        for (const AuthorsDistances& one : result.experiment->theirs)
+            if (is_of(row, one))
+                return short_number(one.v_mean) + " / " + short_number(one.v_max);
+    return {};
+}
+
+/// Two rows: the numbers, and the command.
+std::string flow_rows(const FigureResult& result, const Row& row)
+{
+    const bool compared = row.conditions != conditions_of({});
+    std::string text = "<tr>" + text_cell(row.words) + number_cell(std::to_string(row.step));
+    text += number_cell(short_number(result.table.time_step)) + number_cell(row.p) + number_cell(row.q);
+    text += text_cell(row.cut);
+    text += number_cell(compared ? short_number(row.v.mean) + " / " + short_number(row.v.max) : "");
+    if (has_theirs(result))
+        text += number_cell(theirs(result, row));
+    text += number_cell(compared ? short_number(row.h.mean) + " / " + short_number(row.h.max) : "");
+    text += number_cell(short_number(row.drift)) + number_cell(short_number(row.interface_length));
+    text += number_cell(short_number(row.roughness.rms) + "° / " + short_number(row.roughness.percentile_95) + "°");
+    return text + "</tr>\n<tr class=\"command\"><td colspan=\"12\"><code>" + escaped(row.command) +
+           "</code></td></tr>\n";
+}
+
+std::string table_of(const FigureResult& result)
+{
+    const Roughness& input = result.table.roughness;
+    std::vector<std::string> titles{"flow", "step", "dt", "p", "q", "cut", "V_mean / V_max"};
+    if (has_theirs(result))
+        titles.emplace_back("the authors'");
+    titles.insert(titles.end(),
+                  {"H_mean / H_max", "drift", "Γ",
+                   "roughness (input " + short_number(input.rms) + "° / " + short_number(input.percentile_95) + "°)"});
+    std::string text = "<div class=\"wide\"><table><tr>";
+    for (const std::string& title : titles)
+        text += "<th>" + title + "</th>";
+    text += "</tr>\n";
+    for (const Row& row : result.table.last_rows())
+        text += flow_rows(result, row);
+    return text + "</table></div>\n";
+}
+
+std::string claims_table(const std::vector<Claim>& claims)
+{
+    std::string text = "<div class=\"wide\"><table><tr><th>the paper</th><th>measured</th><th></th></tr>\n";
+    for (const Claim& claim : claims) {
+        text += "<tr>" + text_cell(claim.text) + text_cell(claim.measured);
+        text += claim.holds ? "<td class=\"yes\">holds</td></tr>\n" : "<td class=\"no\">does not hold</td></tr>\n";
+        if (!claim.holds && !claim.why.empty())
+            text += "<tr><td colspan=\"3\" class=\"quiet\">" + escaped(claim.why) + "</td></tr>\n";
+    }
+    return text + "</table></div>\n";
+}
+
+std::string figure_section(const FigureResult& result, bool with_pages)
+{
+    const Experiment& experiment = *result.experiment;
+    const Table& table = result.table;
+    const std::string number = std::to_string(experiment.figure);
+    std::string text =
+        "<h2 id=\"figure-" + number + "\">Figure " + number + ". " + escaped(experiment.heading) + "</h2>\n";
+    text += "<p>" + escaped(experiment.text) + "</p>\n<p class=\"quiet\">" + escaped(table.mesh) + ", " +
+            std::to_string(table.vertices) + " vertices; dt " + short_number(table.time_step) + ", " +
+            std::to_string(table.steps) + (table.steps == 1 ? " step; " : " steps; ");
+    text += "<a href=\"" + table.figure + ".csv\">all steps</a>";
+    if (with_pages)
+        text += "; <a href=\"" + table.figure + ".html\">step by step, in three dimensions</a>";
+    text += "</p>\n";
+    for (const std::vector<std::string>& row : experiment.pictures) {
+        text += "<div class=\"row\">\n";
+        for (const std::string& title : row)
+            text += picture(result, title);
+        text += "</div>\n";
+    }
+    if (!curves_svg(table, experiment).empty())
+        text += "<div class=\"curves\"><img src=\"" + table.figure + "-curves.svg\" alt=\"Distances by step\"></div>\n";
+    text += table_of(result);
+    if (table.is_theirs && !experiment.difference.empty())
+        text += "<p class=\"quiet\">" + escaped(experiment.difference) + "</p>\n";
+    for (const std::string& remark : table.remarks)
+        text += "<p class=\"quiet\">" + escaped(remark) + "</p>\n";
+    return text + claims_table(result.claims);
+}
+
+}  // namespace
+
+std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages)
+{
+    std::string text(head);
+    text += "<nav>";
+    for (const FigureResult& result : results) {
+        const std::string number = std::to_string(result.experiment->figure);
+        text += "<a href=\"#figure-" + number + "\">Figure " + number + "</a>";
+    }
+    text += "</nav>\n";
+    text += legend;
+    for (const FigureResult& result : results)
+        text += figure_section(result, with_pages);
+    if (!many.empty())
+        text += "<h2>More sub-meshes</h2>\n<p>Not in the paper: 2, 4, 8, 16 and 32 sub-meshes by METIS. "
+                "<a href=\"subdomains.csv\">The table</a></p>\n" +
+                claims_table(many);
+    return text + "</body>\n</html>\n";
+}
+
+}  // namespace seamflow
