@@ -19,8 +19,8 @@
 # need a browser or take minutes. The exit status is 0 if all faults apply and build, nine of ten are noticed, and all
 # others are argued.
 #
-# The sources are changed in a copy of the tree, build-mutants/ or FOLDER. It stays for the next run, which builds what
-# is different and puts right what an interrupted one has left.
+# The sources are changed in a copy of the tree: build-mutants/, or a FOLDER outside the tree. It stays for the next run,
+# which builds what is different and puts right what an interrupted one has left.
 
 set -euo pipefail
 # shellcheck source=samples/common/setup.sh
@@ -29,7 +29,8 @@ unset SEAMFLOW_CORPUS
 
 readonly least=90
 readonly slow='^(consumer|corpus|doc|layering|mutants|fuzz)|allocations_in_flows|in_browser'
-# In KiB, of one process: a fault may take all memory there is. A limit of the address space would change how programs run.
+# In KiB, of one process: a fault may take all memory there is. A limit of the address space would change how programs
+# run.
 readonly most_memory=$((8 << 20))
 
 # usage STATUS: to standard output when it was asked for.
@@ -118,8 +119,8 @@ check_faults() {
 
 # files FOLDER: those that are not built, sorted.
 files() {
-    (cd "$1" && find . \( -path './.git' -o -path './build' -o -path './build-*' -o -path './output' -o -path './.cache' \) \
-        -prune -o -type f -print | sort)
+    (cd "$1" && find . \( -path './.git' -o -path './.cache' -o -path './build' -o -path './build-*' -o -path './output' \
+        \) -prune -o -type f -print | sort)
 }
 
 copy_tree() {
@@ -155,15 +156,18 @@ build_targets() {
 }
 
 # run_tests LOG SECONDS OPTION…: stops at the first that fails.
-run_tests() {
-    local log="$1" seconds="$2"
+run_tests() (
+    log="$1"
+    seconds="$2"
     shift 2
-    (
-        ulimit -d "$most_memory"
-        in_copy "$log" timeout --kill-after=10 "$seconds" ctest --test-dir build --parallel "${CTEST_PARALLEL_LEVEL:-$(nproc)}" \
-            --output-on-failure --stop-on-failure --no-tests=error "$@"
-    )
-}
+    ulimit -d "$most_memory"
+    cd "$tree"
+    timeout --kill-after=10 "$seconds" ctest --test-dir build --parallel "${CTEST_PARALLEL_LEVEL:-$(nproc)}" \
+        --output-on-failure --stop-on-failure --no-tests=error "$@" >>"$log" 2>&1 &
+    # Ctrl-C does not reach what timeout starts.
+    trap 'kill $!; exit 130' INT TERM
+    wait $!
+)
 
 # tests_named EXPRESSION: their names.
 tests_named() {
@@ -177,8 +181,8 @@ prepare() {
     mkdir -p "$tree/build/mutants"
     : >"$log"
     if [[ ! -f "$tree/build/build.ninja" ]]; then
-        in_copy "$log" cmake --preset release -DSEAMFLOW_BUILD_SAMPLES=ON -DSEAMFLOW_BUILD_TESTS=ON -DSEAMFLOW_PAGE=OFF \
-            -DSEAMFLOW_WARNINGS_AS_ERRORS=OFF || fail_unchanged "$log"
+        in_copy "$log" cmake --preset release -DSEAMFLOW_BUILD_SAMPLES=ON -DSEAMFLOW_BUILD_TESTS=ON \
+            -DSEAMFLOW_PAGE=OFF -DSEAMFLOW_WARNINGS_AS_ERRORS=OFF || fail_unchanged "$log"
     fi
     local wanted=() all_tests=()
     for name in "${names[@]}"; do
@@ -210,7 +214,8 @@ fail_unchanged() {
 # noticed_by LOG STATUS: the name of the test that failed.
 noticed_by() {
     local test
-    test="$(sed -n '/\*\*\*\(Skipped\|Not Run\)/d; s/^ *[0-9]*\/[0-9]* *Test *#[0-9]*: \([^ ]*\) .*\*\*\*.*/\1/p' "$1" | head -n 1)"
+    test="$(grep -v -e '\*\*\*Skipped' -e '\*\*\*Not Run' "$1" |
+        sed -n 's/^ *[0-9]*\/[0-9]* *Test *#[0-9]*: \([^ ]*\) .*\*\*\*.*/\1/p' | head -n 1)"
     if [[ -n "$test" ]]; then
         echo "noticed by $test"
     elif (($2 == 124 || $2 == 137)); then
@@ -273,7 +278,10 @@ report() {
             printf '\n%s survives. %s\n%s\n' "$name" "${sentence[$name]}" "${argument[$name]:-NOT ARGUED}"
             [[ -n "${argument[$name]:-}" ]] || status=1
             ;;
-        noticed*) [[ -z "${argument[$name]:-}" ]] || printf '\n%s is noticed, though its list argues why not.\n' "$name" ;;
+        noticed*)
+            [[ -z "${argument[$name]:-}" ]] ||
+                printf '\n%s is noticed, though its list argues why it is not.\n' "$name"
+            ;;
         *)
             printf '\n%s %s.\n' "$name" "${verdict[$name]}"
             status=1
@@ -308,6 +316,7 @@ done
 tree="$(realpath -m -- "$tree")"
 patches="$(mktemp -d)"
 trap 'rm -r "$patches"' EXIT
+trap 'exit 130' INT
 for name in partition solvers engine samples; do
     read_list "$name"
 done
