@@ -47,6 +47,6 @@ mapfile -t more < <(page_packages)
 case "$preset" in
 asan | tsan) more+=("${sanitizer_packages[@]}") ;;
 esac
-install_packages doxygen "${more[@]}"
+install_packages doxygen patch "${more[@]}"
 build "$preset"
 exec ctest --preset "$preset" --parallel "$(nproc)"

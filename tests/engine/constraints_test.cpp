@@ -240,3 +240,19 @@ TEST_CASE("strict refuses what is not manifold, and nothing that is sound")
     CHECK(flowed(sound, options) == strict);
     CHECK_NOTHROW(mean_curvature_flow(wings, options));
 }
+
+TEST_CASE("where no vertex could move because the Laplacian is nowhere defined the mesh is refused")
+{
+    PolygonMesh mesh = quad_grid(2, 2);
+    mesh.vertices.row(4) = mesh.vertices.row(5);
+    FlowOptions options;
+    options.time_step = 0.1;
+    options.subdomains = 1;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), InputError);
+    // A second vertex that can.
+    mesh = quad_grid(3, 2);
+    mesh.vertices.row(5) = mesh.vertices.row(4);
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    REQUIRE(report.remarks.size() == 1);
+    CHECK(report.remarks[0].find("1 vertex is held fixed") != std::string::npos);
+}

@@ -55,6 +55,23 @@ TEST_CASE("converged, the flow in many sub-meshes is the undecomposed flow")
         }
 }
 
+TEST_CASE("what the steps are short of the tolerance adds up")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const Laplacian laplacian : symmetric) {
+            FlowOptions options = converged(laplacian, 12, 1e-2);
+            options.steps = 6;
+            PolygonMesh moved = mesh;
+            double before = 0.0;
+            mean_curvature_flow(moved, options, [&](const StepState& state) {
+                const double now = state.report.estimated_v_max.value() * mean_edge_length(mesh, state.positions);
+                CHECK(now >= before * (1.0 - 1e-12));
+                before = now;
+            });
+            CHECK(before > 0.0);
+        }
+}
+
 TEST_CASE("iterations do not grow with the number of sub-meshes, however long the step")
 {
     const PolygonMesh mesh = make_triangles(8000);

@@ -95,6 +95,19 @@ TEST_CASE("the other conditions")
     require_within(3.0, report_of(mesh, plain));
 }
 
+TEST_CASE("where sweeps err little, what the corrections of the interface have done")
+{
+    const PolygonMesh mesh = make_mixed_polygons(1600);
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky})
+        for (const double step : {0.05, 0.2}) {
+            CAPTURE(name_of(laplacian));
+            CAPTURE(step);
+            FlowOptions options = options_for(mesh, laplacian, step, 6);
+            options.steps = 3;
+            require_within(3.0, report_of(mesh, options));
+        }
+}
+
 TEST_CASE("undecomposed the estimate is zero")
 {
     for (const Laplacian laplacian : test::all_laplacians)

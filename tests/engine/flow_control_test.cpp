@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/progress.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/meshes.h"
@@ -75,6 +76,22 @@ TEST_CASE("progress goes from 0 to 1 and never back, one call at a time, and cha
         CHECK(steps_begun == 4);
         CHECK(within_steps >= 4);
     }
+}
+
+TEST_CASE("progress does not go back where a phase begins before the end of the one before it")
+{
+    Told told;
+    const FlowControl control = told.control();
+    Progress progress(control);
+    progress.enter(FlowPhase::Cut, 0, 0.0, 0.5);
+    progress.count();
+    progress.enter(FlowPhase::Step, 1, 0.25, 0.75);
+    progress.count();
+    progress.finish();
+    std::vector<double> fractions;
+    for (const FlowProgress& now : told.all)
+        fractions.push_back(now.fraction);
+    CHECK(fractions == std::vector<double>{0.0, 0.5, 0.5, 0.75, 1.0});
 }
 
 TEST_CASE("progress is told some hundred times at most, however many steps there are")

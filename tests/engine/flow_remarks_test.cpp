@@ -32,6 +32,19 @@ TEST_CASE("a surface that collapses is remarked on, one that is smoothed is not"
     CHECK(speaks_of(mean_curvature_flow(collapsed, options), "has shrunk to"));
 }
 
+TEST_CASE("the estimate of the last step is remarked on")
+{
+    const FlowOptions options;
+    for (const bool grows : {true, false}) {
+        FlowReport report;
+        report.steps.resize(2);
+        report.steps[grows ? 1 : 0].estimated_v_max = 2.0;
+        report.steps[grows ? 0 : 1].estimated_v_max = 0.5;
+        remark_on_drift(options, report);
+        CHECK(speaks_of(report, "by estimate") == grows);
+    }
+}
+
 TEST_CASE("an estimate is remarked on from one mean edge length on")
 {
     const FlowOptions options;

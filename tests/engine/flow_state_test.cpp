@@ -165,6 +165,49 @@ TEST_CASE("a state of another flow is refused by what differs")
     CHECK_THROWS_AS(run(mesh, options, std::make_shared<const FlowState>(broken)), InputError);
 }
 
+TEST_CASE("every option that changes results tells flows apart, by its own name")
+{
+    using Change = void (*)(FlowOptions&);
+    const std::pair<const char*, Change> changes[] = {
+        {"laplacian", [](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; }},
+        {"time_step", [](FlowOptions& o) { o.time_step = 0.5; }},
+        {"subdomains", [](FlowOptions& o) { o.subdomains = 3; }},
+        {"labels",
+         [](FlowOptions& o) {
+             o.labels = {0, 1};
+         }},
+        {"coloring", [](FlowOptions& o) { o.coloring = Coloring::Label; }},
+        {"conditions", [](FlowOptions& o) { o.conditions = Conditions::Ventcell; }},
+        {"scheme", [](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }},
+        {"transmission", [](FlowOptions& o) { o.transmission = Transmission::Derivative; }},
+        {"p", [](FlowOptions& o) { o.p = 2.0; }},
+        {"p_rule", [](FlowOptions& o) { o.p_rule = PRule::InverseStep; }},
+        {"p_edge", [](FlowOptions& o) { o.p_edge = PEdge::Mean; }},
+        {"q", [](FlowOptions& o) { o.q = 0.5; }},
+        {"overlap", [](FlowOptions& o) { o.overlap = 2; }},
+        {"sweep", [](FlowOptions& o) { o.sweep = Sweep::Fixed; }},
+        {"boundary", [](FlowOptions& o) { o.boundary = Boundary::Free; }},
+        {"fixed_vertices", [](FlowOptions& o) { o.fixed_vertices = {1}; }},
+        {"rescale", [](FlowOptions& o) { o.rescale = Rescale::Area; }},
+        {"correction", [](FlowOptions& o) { o.correction = Correction::None; }},
+        {"tolerance", [](FlowOptions& o) { o.tolerance = 0.1; }},
+        {"approach", [](FlowOptions& o) { o.approach = Approach::Sweep; }},
+        {"converge_iterations", [](FlowOptions& o) { o.converge_iterations = 7; }},
+        {"reference", [](FlowOptions& o) { o.reference = true; }},
+    };
+    const PolygonMesh mesh = make_quads(100);
+    const auto base = identify(mesh, {}).entries;
+    CHECK(base.size() == std::size(changes) + 2);  // and the version and the mesh
+    for (const auto& [name, change] : changes) {
+        CAPTURE(name);
+        FlowOptions options;
+        change(options);
+        const auto changed = identify(mesh, options).entries;
+        for (std::size_t i = 0; i < base.size(); ++i)
+            CHECK((changed[i].value != base[i].value) == (changed[i].name == name));
+    }
+}
+
 TEST_CASE("positions of sub-meshes that are not finite are refused; an estimate that has overflowed goes on as such")
 {
     const PolygonMesh mesh = make_triangles(600);

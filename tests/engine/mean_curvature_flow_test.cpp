@@ -232,3 +232,45 @@ TEST_CASE("the decomposed flow stays nearer to the undecomposed one than with th
         CHECK(distance(Transmission::Predicted) < 0.8 * distance(Transmission::Derivative));
     }
 }
+
+TEST_CASE("with adapted conditions the interface is corrected, unless that is not wanted")
+{
+    const PolygonMesh mesh = make_quads(900);
+    for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::AdaptedVentcell}) {
+        FlowOptions options = options_for(4);
+        options.conditions = conditions;
+        if (conditions == Conditions::AdaptedVentcell)
+            options.q = 0.2;
+        const Points by_default = test::flowed(mesh, options);
+        options.correction = Correction::Centroid;
+        CHECK(test::flowed(mesh, options) == by_default);
+        options.correction = Correction::None;
+        CHECK(test::largest_difference(test::flowed(mesh, options), by_default) > 1e-6);
+    }
+}
+
+TEST_CASE("the Ventcell parameter may be 0, which leaves Robin's conditions")
+{
+    const PolygonMesh mesh = make_quads(900);
+    FlowOptions options = options_for(4);
+    options.transmission = Transmission::Derivative;
+    const Points robin = test::flowed(mesh, options);
+    options.conditions = Conditions::AdaptedVentcell;
+    options.q = 0.0;
+    CHECK(test::flowed(mesh, options) == robin);
+}
+
+TEST_CASE("a converged step of a mesh at rest asks for no more than rounding leaves")
+{
+    PolygonMesh mesh = make_mixed_polygons(900);
+    mesh.vertices.col(2).setZero();
+    for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho}) {
+        FlowOptions options = options_for(5);
+        options.laplacian = laplacian;
+        options.tolerance = 1e-8;
+        options.time_step = 0.02;
+        const FlowReport report = mean_curvature_flow(mesh, options);
+        CHECK(report.steps_short_of_tolerance == 0);
+        CHECK(report.steps_stagnated == 0);
+    }
+}

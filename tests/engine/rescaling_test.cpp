@@ -112,6 +112,22 @@ TEST_CASE("what cannot be scaled is refused")
     CHECK_THROWS_AS(Rescaling(both, topology, Rescale::Volume), InputError);
 }
 
+TEST_CASE("what a step moves is measured without the rescaling")
+{
+    const PolygonMesh sphere = make_noisy_sphere(400);
+    FlowOptions options = options_for(Rescale::None);
+    options.time_step = 0.03;
+    options.steps = 6;
+    options.subdomains = 1;
+    REQUIRE(extent_of(flowed(sphere, options)) < 0.6 * extent_of(sphere.vertices));
+    options.largest_update = 0.08;
+    CHECK_NOTHROW(flowed(sphere, options));
+    for (const Rescale rescale : {Rescale::Area, Rescale::Volume}) {
+        options.rescale = rescale;
+        CHECK_NOTHROW(flowed(sphere, options));
+    }
+}
+
 TEST_CASE("a surface of which rounding alone is left is not scaled back")
 {
     for (const Rescale rescale : {Rescale::Area, Rescale::Volume}) {

@@ -1,5 +1,8 @@
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -130,4 +133,40 @@ TEST_CASE("a failure comes out of run, what depends on it does not start, and th
             }
         });
     }
+}
+
+TEST_CASE("of two failures at once the one of the task that was added first comes out")
+{
+    Workers workers(2);
+    workers.execute([&] {
+        TaskGraph graph;
+        std::array<std::atomic<bool>, 2> begun{};
+        // For as long as it takes until both threads are there; a second that is left alone does not fail.
+        const auto both_begin = [&](std::size_t i) {
+            begun[i] = true;
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+            while (!begun[1 - i] && std::chrono::steady_clock::now() < end)
+                std::this_thread::yield();
+            return begun[1 - i].load();
+        };
+        const auto root = graph.add_root();
+        const auto first = graph.add_task(
+            [&] {
+                both_begin(0);
+                throw std::runtime_error("first");
+            },
+            Priority::Normal);
+        const auto second = graph.add_task(
+            [&] {
+                if (both_begin(1))
+                    throw std::runtime_error("second");
+            },
+            Priority::Normal);
+        graph.add_dependency(root, first);
+        graph.add_dependency(root, second);
+        for (int run = 0; run < 20; ++run) {
+            begun[0] = begun[1] = false;
+            CHECK_THROWS_WITH(graph.run(root), "first");
+        }
+    });
 }

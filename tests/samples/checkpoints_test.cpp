@@ -19,6 +19,26 @@ TEST_CASE("a period of checkpoints is a number of steps or a time")
         CHECK_THROWS_AS(parse_checkpoint_period(text), OptionError);
 }
 
+TEST_CASE("a checkpoint is kept after every so many steps, or when so much time has passed, and at the end")
+{
+    const test::TemporaryDirectory directory;
+    const Points positions(0, 3);
+    const StepReport report;
+    const auto keep = [&](Checkpoints& checkpoints, int step, bool is_last) {
+        checkpoints.keep(
+            {.step = step, .positions = positions, .report = report, .capture = [] { return FlowState{}; }}, is_last);
+        return checkpoints.step();
+    };
+    Checkpoints every_third(directory.path(), {.steps = 3});
+    for (int step = 1; step <= 7; ++step)
+        CHECK(keep(every_third, step, false) == step / 3 * 3);
+    CHECK(keep(every_third, 8, true) == 8);
+    Checkpoints rarely(directory.path(), {.seconds = 1e6});
+    for (int step = 1; step <= 3; ++step)
+        CHECK(keep(rarely, step, false) == 0);
+    CHECK(keep(rarely, 4, true) == 4);
+}
+
 TEST_CASE("the mesh of an interrupted run stands beside the output, never in place of the input")
 {
     const test::TemporaryDirectory directory;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -178,6 +179,16 @@ TEST_CASE("flat options give flat meshes and round tubes")
     CHECK(((tube.vertices.leftCols<2>().rowwise().norm().array() - 2.0).abs() < 1e-14).all());
     const PolygonMesh ball = make_noisy_sphere(500, {.radius = 3.0, .amplitude = 0.0, .noise = 0.0});
     CHECK(((ball.vertices.rowwise().norm().array() - 3.0).abs() < 1e-14).all());
+}
+
+TEST_CASE("a height field has as many waves along x and y as asked for")
+{
+    for (const int waves : {1, 3}) {
+        const PolygonMesh mesh = make_triangles(2500, {.amplitude = 0.3, .waves = waves, .noise = 0.0});
+        const auto wave = [&](double x) { return std::cos(2.0 * std::numbers::pi * waves * x); };
+        for (const auto& p : mesh.vertices.rowwise())
+            CHECK(p.z() == doctest::Approx(0.3 * wave(p.x()) * wave(p.y())).scale(1.0));
+    }
 }
 
 TEST_CASE("extreme tubes keep their size")

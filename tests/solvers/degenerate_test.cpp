@@ -58,6 +58,10 @@ TEST_CASE("an edge without length is named for Fujiwara alone")
     CHECK(has(message, "face 6 "));
     CHECK(complaint(mesh, Laplacian::AlexaWardetzky).empty());
     CHECK(complaint(mesh, Laplacian::PtackovaVelho).empty());
+    // The other end may be held fixed.
+    PolygonMesh at_rim = quad_grid(4, 4);
+    at_rim.vertices.row(6) = at_rim.vertices.row(1);
+    CHECK(has(complaint(at_rim, Laplacian::Fujiwara), "face 0 "));
 }
 
 TEST_CASE("a face without area is named for the others")

@@ -144,3 +144,18 @@ TEST_CASE("a block is factorised with the same bits in registers of any width")
         }
     }
 }
+
+TEST_CASE("a pivot of zero will not do, wherever it comes")
+{
+    for (Index width = 1; width <= 12; ++width)
+        for (Index zero = 0; zero < width; ++zero) {
+            Block block{width, std::vector<Index>(at(width)), std::vector<double>(at(width) * at(width), 0.0)};
+            std::iota(block.rows.begin(), block.rows.end(), 0);
+            for (Index c = 0; c < width; ++c)
+                block.values[at(c) * at(width + 1)] = c == zero ? 0.0 : 1.0;
+            for (const Index of_registers : widths()) {
+                Block copy = block;
+                CHECK_FALSE(factorise_panel(copy.panel(), of_registers));
+            }
+        }
+}

@@ -9,6 +9,7 @@
 #include "solvers/conditions/adapted_ventcell.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
+#include "solvers/conditions/remainder.h"
 #include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "solvers/sub_mesh_system.h"
@@ -18,6 +19,7 @@
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
 #include "tests/support/owned_memory.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -221,6 +223,57 @@ TEST_CASE("predicted by a symmetric system or by a general one, the result is th
                 }
             }
     }
+}
+
+TEST_CASE("on the interface all rows yield that can, or none where they would leave no definite matrix")
+{
+    // Triangles of a grid that is pressed flat and sheared are obtuse.
+    RandomNumbers random(9);
+    SolverWorkspace workspace;
+    int n_without = 0;
+    int n_yielding = 0;
+    for (const double dt : {1.0, 1.0, 1.0, 1000.0, 1000.0, 1000.0}) {
+        PolygonMesh mesh = triangle_grid(14, 10);
+        for (double& coordinate : mesh.vertices.reshaped())
+            coordinate += 0.02 * random.symmetric();
+        const CutMesh block = cut_by_place("", mesh, [](const Point& c) {
+            return std::abs(c.x() - 7.0) < 4.0 && std::abs(c.y() - 5.0) < 3.0 ? Index{1} : Index{0};
+        });
+        mesh.vertices.col(1) *= 0.1;
+        mesh.vertices.col(0) -= 2.0 * mesh.vertices.col(1);
+        const Decomposition decomposition = test::decompose(block);
+        const SubMesh& sub_mesh = decomposition.sub_meshes[1];
+        const Points positions = localised(sub_mesh, mesh.vertices);
+        const auto system = make_predicted_system(sub_mesh, Laplacian::AlexaWardetzky, workspace);
+        const std::vector<InterfaceRole> roles(at(sub_mesh.interface.size()), InterfaceRole::Leads);
+        system->assemble(positions, positions, dt, p, roles, workspace);
+        system->factorise(workspace);
+        Points solution = positions;
+        system->solve(positions, solution, workspace);
+
+        Points after = mesh.vertices;
+        for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+            after.row(sub_mesh.local_to_global[at(v)]) = solution.row(v);
+        const Eigen::MatrixXd L = dt * dense_laplacian(Laplacian::AlexaWardetzky, mesh, block.topology);
+        bool all_held = true;
+        bool all_yield = true;
+        for (const Index i : sub_mesh.interface.vertices) {
+            const Index v = sub_mesh.local_to_global[at(i)];
+            const Point held = after.row(v) - mesh.vertices.row(v) + L.row(v) * after;
+            double yield = 0.0;
+            for (Index beyond = sub_mesh.n_vertices; beyond < sub_mesh.n_vertices + sub_mesh.n_halo; ++beyond)
+                yield += L(v, sub_mesh.local_to_global[at(beyond)]) * remainder_between(positions, i, beyond, dt);
+            const Point yielding = held + yield * (after.row(v) - mesh.vertices.row(v));
+            const double small = 1e-9 * (1.0 + L.row(v).norm()) * mesh.vertices.cwiseAbs().maxCoeff();
+            CHECK(std::min(held.norm(), yielding.norm()) < small);
+            all_held = all_held && held.norm() < small;
+            all_yield = all_yield && yielding.norm() < small;
+        }
+        n_without += all_held && !all_yield ? 1 : 0;
+        n_yielding += all_yield && !all_held ? 1 : 0;
+    }
+    CHECK(n_without > 0);
+    CHECK(n_yielding > 0);
 }
 
 TEST_CASE("following everywhere, a symmetric system and a general one give the same")

@@ -47,6 +47,28 @@ void check_valid(const Adjacency& adjacency, const std::vector<Index>& colors)
     CHECK(color(adjacency) == colors);
 }
 
+/// m by n nodes in rows, each joined to the next in its row and to two in the next row.
+Adjacency triangular_grid(Index m, Index n)
+{
+    Adjacency adjacency(at(m * n));
+    const auto join = [&](Index a, Index b) {
+        adjacency[at(a)].push_back(b);
+        adjacency[at(b)].push_back(a);
+    };
+    for (Index j = 0; j < n; ++j)
+        for (Index i = 0; i < m; ++i) {
+            if (i + 1 < m)
+                join(j * m + i, j * m + i + 1);
+            if (j + 1 < n)
+                join(j * m + i, (j + 1) * m + i);
+            if (i + 1 < m && j + 1 < n)
+                join(j * m + i, (j + 1) * m + i + 1);
+        }
+    for (auto& neighbours : adjacency)
+        std::sort(neighbours.begin(), neighbours.end());
+    return adjacency;
+}
+
 }  // namespace
 
 TEST_CASE("rings take two colours or three")
@@ -56,6 +78,17 @@ TEST_CASE("rings take two colours or three")
         check_valid(ring(n), colors);
         CHECK(n_colors(colors) == (n % 2 == 0 ? 2 : 3));
     }
+}
+
+TEST_CASE("a grid of triangles, of which one colour follows from the others, takes three colours")
+{
+    for (const Index m : {2, 5, 12})
+        for (const Index n : {2, 7, 12}) {
+            const Adjacency adjacency = triangular_grid(m, n);
+            const auto colors = color(adjacency);
+            check_valid(adjacency, colors);
+            CHECK(n_colors(colors) == 3);
+        }
 }
 
 TEST_CASE("few nodes take few colours")

@@ -64,6 +64,20 @@ TEST_CASE("no part lies in two components, and every component has one")
     }
 }
 
+TEST_CASE("what is left over goes to the components that lack the most")
+{
+    // Of three parts 1.95 and 1.05 are due, of two 1.3 and 0.7.
+    const PolygonMesh two = side_by_side({quad_grid(13, 10), quad_grid(7, 10)});
+    for (const Index k : {2, 3}) {
+        const Divided d = divided(two, 1, k);
+        std::vector<std::set<Index>> parts_of_component(2);
+        for (std::size_t node = 0; node < d.labels.size(); ++node)
+            parts_of_component[at(d.components.component_of[node])].insert(d.labels[node]);
+        CHECK(parts_of_component[0].size() == at(k) - 1);
+        CHECK(parts_of_component[1].size() == 1);
+    }
+}
+
 TEST_CASE("there may be about as many parts as nodes, or more")
 {
     for (const Index k : {20, 64, 100, 399, 400, 401, 1000})

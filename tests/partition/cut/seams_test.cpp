@@ -42,6 +42,31 @@ std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& l
     return weight;
 }
 
+/// Of how many pieces each part consists.
+std::vector<Index> count_pieces(const NamedMesh& m, const std::vector<Index>& labels, Index n_labels)
+{
+    std::vector<Index> n_pieces(at(n_labels), 0);
+    std::vector<bool> reached(labels.size(), false);
+    for (Index root = 0; root < m.mesh.n_faces(); ++root) {
+        std::vector<Index> stack;
+        const auto reach = [&](Index f) {
+            if (!reached[at(f)] && labels[at(f)] == labels[at(root)])
+                stack.push_back(f);
+        };
+        reach(root);
+        n_pieces[at(labels[at(root)])] += static_cast<Index>(stack.size());
+        while (!stack.empty()) {
+            const Index f = stack.back();
+            stack.pop_back();
+            reached[at(f)] = true;
+            for (Index h = m.mesh.face_offsets[at(f)]; h < m.mesh.face_offsets[at(f) + 1]; ++h)
+                if (const Index twin = m.topology.twin[at(h)]; twin >= 0)
+                    reach(m.topology.face_of[at(twin)]);
+        }
+    }
+    return n_pieces;
+}
+
 NamedMesh named(PolygonMesh mesh)
 {
     Topology topology = make_topology(mesh);
@@ -141,4 +166,18 @@ TEST_CASE("mixed vertices are those whose faces differ")
     const NamedMesh m = named(quad_grid(2, 1));
     CHECK(mixed_vertices(m.topology, std::vector<Index>{0, 1}) == std::vector<Index>{1, 4});
     CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
+}
+
+TEST_CASE("parts that have come to pieces are in doubt")
+{
+    for (const PolygonMesh& mesh : {quad_torus(40, 40), hexagon_sheet(30, 30), triangle_torus(30, 30)})
+        for (const Index weight : {6, 12, 20, 40, 100}) {
+            const NamedMesh m = named(mesh);
+            const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
+            std::vector<Index> labels = clusters.cluster_of;
+            const Doubts doubts = shorten_seams(m.mesh, m.topology, clusters.size(), labels);
+            const std::vector<Index> n_pieces = count_pieces(m, labels, clusters.size());
+            for (Index label = 0; label < clusters.size(); ++label)
+                CHECK((n_pieces[at(label)] <= 1 || doubts.parts[at(label)]));
+        }
 }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/cut/coloring.h"
+#include "partition/decomposition/local_mesh.h"
 #include "partition/decomposition/overlap.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -164,6 +165,16 @@ TEST_CASE("traces come from the part of lowest rank where that solves before, an
             CHECK(found == expected);
         }
     });
+}
+
+TEST_CASE("on the interface are the vertices that may move and have faces of several parts")
+{
+    std::vector<Index> labels;
+    for (const CutMesh& cut : cut_meshes())
+        for (Index v = 0; v < cut.mesh.n_vertices(); ++v) {
+            labels_at(cut.topology, cut.labels, v, labels);
+            CHECK(is_on_interface(cut.topology, cut.labels, v) == (cut.topology.moves(v) && labels.size() > 1));
+        }
 }
 
 TEST_CASE("growing changes neither Γ nor who speaks for a vertex")

@@ -138,6 +138,18 @@ TEST_CASE("vertices are fixed, on the interface or neither, as their kind and th
     });
 }
 
+TEST_CASE("the sub-mesh of the lowest label speaks for a vertex that may move, and for no other")
+{
+    for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {
+        REQUIRE(sub_mesh.owned.size() == at(sub_mesh.n_vertices));
+        for (Index v = 0; v < sub_mesh.n_vertices; ++v) {
+            const Index global = sub_mesh.local_to_global[at(v)];
+            const bool is_lowest = *labels_at(cut, global).begin() == label_of(cut, sub_mesh);
+            CHECK((sub_mesh.owned[at(v)] != 0) == (cut.topology.moves(global) && is_lowest));
+        }
+    });
+}
+
 TEST_CASE("own and complement faces of a vertex of the interface are all faces at it")
 {
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {

@@ -226,6 +226,22 @@ TEST_CASE("A failed output leaves the old file as it was, a successful one repla
     CHECK(folder.n_files() == 1);
 }
 
+TEST_CASE("PLY: faces of as many corners as a byte can count, and of one more")
+{
+    const TemporaryDirectory folder;
+    for (const Index n : {255, 256, 257})
+        for (const Encoding encoding : {Encoding::Ascii, Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian}) {
+            std::vector<Index> corners(at(n));
+            std::iota(corners.begin(), corners.end(), 0);
+            PolygonMesh mesh;
+            mesh.vertices.setZero(n, 3);
+            mesh.vertices.col(0).setLinSpaced(0.0, 1.0);
+            mesh.add_face(corners);
+            write_mesh(folder.path() / "a.ply", mesh, {FileFormat::Ply, encoding});
+            CHECK(identical(read_mesh(folder.path() / "a.ply").mesh, mesh));
+        }
+}
+
 TEST_CASE("A symbolic link stays one")
 {
     const TemporaryDirectory folder;

@@ -65,11 +65,13 @@ TEST_CASE("OBJ: lines that end with CR alone")
 
 TEST_CASE("OBJ: a weight or a colour after the coordinates is passed over, whatever it is")
 {
-    const auto mesh = read_obj_text("v 1 2 3 0.5\nv 4 5 6 1 0 0\nv 7 8 9 nan nan nan\nv 1 1 1 1 0 0 1\n");
-    Points expected(4, 3);
-    expected << 1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 1, 1;
+    const auto mesh =
+        read_obj_text("v 1 2 3 0.5\nv 4 5 6 1 0 0\nv 7 8 9 nan nan nan\nv 1 1 1 1 0 0 1\nv 2 2 2 0.5 1 0 0 1\n");
+    Points expected(5, 3);
+    expected << 1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 1, 1, 2, 2, 2;
     CHECK(mesh.vertices == expected);
     CHECK(mesh.n_faces() == 0);
+    CHECK(contains(complaint("v 2 2 2 0.5 1 0 0 1 1\n"), "a.obj:1: a vertex has 3 coordinates"));
 }
 
 TEST_CASE("OBJ: everything that is no polygon is passed over")
@@ -104,6 +106,8 @@ TEST_CASE("OBJ: every complaint names the line")
     CHECK(contains(complaint(three_vertices + "f 1 2 1\n"), "a.obj:4: the face names vertex 1 twice"));
     CHECK(contains(complaint(three_vertices + "v 1 1 0\nf 1 2 3 -2\n"), "a.obj:5: the face names vertex 3 twice"));
     CHECK(contains(complaint(three_vertices + "f 0 1 2\n"), "a.obj:4: names vertex 0"));
+    CHECK(
+        contains(complaint(three_vertices + "f 1 2 4\n"), "a.obj:4: names vertex 4, but the file has only 3 vertices"));
     CHECK(contains(complaint("f 1 2 3\nf 1 2 9\nf 1 2 5\n" + three_vertices),
                    "a.obj:2: names vertex 9, but the file has only 3 vertices"));
     CHECK(contains(complaint(three_vertices + "f 1 2 \\\n-4\n"),

@@ -91,6 +91,15 @@ TEST_CASE("straight angles and corners in one place are no hindrance")
     CHECK(sum_of_areas(triangles_of(in_order(10), keyhole), keyhole) == doctest::Approx(12.0));
 }
 
+TEST_CASE("no triangle has another corner on its border where there are others")
+{
+    // The fifth corner comes down to the middle of the line from the first to the third, the shortest diagonal.
+    const Points notched{{0.0, 0.0, 0.0}, {0.5, -0.5, 0.0}, {1.0, 0.0, 0.0},  {3.0, 3.0, 0.0},
+                         {2.0, 3.0, 0.0}, {0.5, 0.0, 0.0},  {-1.0, 3.0, 0.0}, {-2.0, 3.0, 0.0}};
+    for (const Triangle& t : triangles_of(in_order(8), notched))
+        CHECK(vector_area(t, notched).norm() > 0.1);
+}
+
 TEST_CASE("polygons without area or sense are covered, too")
 {
     CHECK(triangles_of(in_order(6), Points::Zero(6, 3)).size() == 4);

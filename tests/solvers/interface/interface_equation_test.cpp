@@ -216,6 +216,24 @@ TEST_CASE("the estimated distance is that to the solution within a factor of 3")
         }
 }
 
+TEST_CASE("and within a factor of 10 where steps are short, the preconditioner being much too large")
+{
+    const CutMesh cut = chessboard();
+    for (const Laplacian laplacian : symmetric)
+        for (const double tolerance : {1e-4, 1e-6}) {
+            CAPTURE(name_of(laplacian));
+            CAPTURE(tolerance);
+            Equation problem(cut, laplacian, 500.0, Balancing::None);
+            Points expected;
+            problem.solve({1e-12, 400}, expected);
+            Points x;
+            const InterfaceResult result = problem.solve({tolerance, 200}, x);
+            const double distance = largest_distance(x, expected);
+            CHECK(result.estimated_distance < 10.0 * distance);
+            CHECK(result.estimated_distance > distance / 10.0);
+        }
+}
+
 TEST_CASE("without Γ there is nothing to solve")
 {
     const CutMesh cut = cut_by_place("whole", quad_grid(4, 4), [](const Point&) { return 0; });
