@@ -16,7 +16,7 @@
 #     --- a/FILE and what follows: `git diff -U1`
 #
 # A fault that its own tests let pass is given to all others before it is said to survive, but for those that build,
-# need a browser or take minutes. The exit status is 0 if all faults apply and build, nine of ten are noticed, and all
+# need a browser, take minutes or time programs. The exit status is 0 if all faults apply and build, nine of ten are noticed, and all
 # others are argued.
 #
 # The sources are changed in a copy of the tree: build-mutants/, or a FOLDER outside the tree. It stays for the next run,
@@ -28,7 +28,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../samples/common/setup.sh"
 unset SEAMFLOW_CORPUS
 
 readonly least=90
-readonly slow='^(consumer|corpus|doc|layering|mutants|fuzz)|allocations_in_flows|in_browser'
+readonly slow='^(consumer|corpus|doc|layering|mutants|fuzz)|allocations_in_flows|interruption|in_browser'
 # In KiB, of one process: a fault may take all memory there is. A limit of the address space would change how programs
 # run.
 readonly most_memory=$((8 << 20))

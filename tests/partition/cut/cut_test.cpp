@@ -174,6 +174,11 @@ TEST_CASE("labels with gaps, loose pieces or several components are put right an
     const Cut gaps = cut_by_labels(strip.mesh, strip.topology, std::vector<Index>{9, 9, 4, 4, 4});
     CHECK(gaps.labels == std::vector<Index>{1, 1, 0, 0, 0});
     CHECK(any_contains(gaps.remarks, "gaps"));
+    const Cut one_gap = cut_by_labels(strip.mesh, strip.topology, std::vector<Index>{0, 0, 2, 2, 2});
+    CHECK(one_gap.labels == std::vector<Index>{0, 0, 1, 1, 1});
+    CHECK(any_contains(one_gap.remarks, "gaps"));
+    const Cut no_gap = cut_by_labels(strip.mesh, strip.topology, std::vector<Index>{0, 0, 1, 1, 1});
+    CHECK_FALSE(any_contains(no_gap.remarks, "gaps"));
 
     const Cut loose = cut_by_labels(strip.mesh, strip.topology, std::vector<Index>{0, 0, 1, 1, 0});
     CHECK(loose.labels == std::vector<Index>{0, 0, 1, 1, 1});
