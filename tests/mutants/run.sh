@@ -16,8 +16,8 @@
 #     --- a/FILE and what follows: `git diff -U1`
 #
 # A fault that its own tests let pass is given to all others before it is said to survive, but for those that build,
-# need a browser, take minutes or time programs. The exit status is 0 if all faults apply and build, nine of ten are noticed, and all
-# others are argued.
+# need a browser, take minutes or depend on how fast programs run. The exit status is 0 if all faults apply and build,
+# nine of ten are noticed, and all others are argued.
 #
 # The sources are changed in a copy of the tree: build-mutants/, or a FOLDER outside the tree. It stays for the next run,
 # which builds what is different and puts right what an interrupted one has left.
