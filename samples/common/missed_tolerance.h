@@ -5,9 +5,8 @@
 
 namespace seamflow {
 
-/// How many steps have failed because they missed the tolerance that the user has asked for: those that iterations have
-/// not been enough for which the user has not limited, and those that more would not have helped. A tolerance that
-/// nobody has asked for is none to fail by; of it the remark in the report says enough.
+/// How many steps have failed because they missed the tolerance. Where the user has limited the iterations: those that
+/// stagnated. Else: all that are short of it. 0 where the user has asked for no tolerance.
 int steps_failed(const SmoothCommand& command, const FlowReport& report);
 
 }  // namespace seamflow

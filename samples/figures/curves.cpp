@@ -58,11 +58,15 @@ std::string words(double x, double y, const char* anchor, const std::string& tex
 /// The steps of one flow.
 using Panel = std::vector<const Row*>;
 
-/// From and to which power of ten all curves reach.
-std::pair<int, int> powers_of_ten(const std::vector<Panel>& panels)
+/// From and to which power of ten all curves and the authors' numbers reach.
+std::pair<int, int> powers_of_ten(const std::vector<Panel>& panels, const std::vector<AuthorsDistances>& theirs)
 {
     double low = 1.0;
     double high = 1.0;
+    for (const AuthorsDistances& one : theirs) {
+        low = std::min(low, one.v_mean);
+        high = std::max(high, std::isfinite(one.v_max) ? one.v_max : one.v_mean);
+    }
     for (const Panel& panel : panels)
         for (const Row* row : panel)
             for (const Curve& curve : curves)
@@ -201,7 +205,7 @@ std::string curves_svg(const Table& table, const Experiment& experiment)
     const std::vector<Panel> panels = panels_of(table);
     if (table.steps < 2 || panels.empty())
         return {};
-    const auto powers = powers_of_ten(panels);
+    const auto powers = powers_of_ten(panels, table.is_theirs ? experiment.theirs : std::vector<AuthorsDistances>{});
     const auto n = static_cast<int>(panels.size());
     const int columns = n <= most_in_a_row ? n : (n + 1) / 2;
     const int rows = (n + columns - 1) / columns;

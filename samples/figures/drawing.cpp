@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <png.h>
@@ -59,7 +59,7 @@ class Canvas {
         const Eigen::RowVector3d u = c.row(1) - c.row(0);
         const Eigen::RowVector3d w = c.row(2) - c.row(0);
         const double area = u.x() * w.y() - u.y() * w.x();
-        if (!corners.allFinite() || area == 0.0)
+        if (!corners.allFinite() || !std::isfinite(area) || area == 0.0)
             return;
         Eigen::Vector3d normal = Eigen::Vector3d(corners.row(1) - corners.row(0))
                                      .cross(Eigen::Vector3d(corners.row(2) - corners.row(0)))
@@ -67,23 +67,24 @@ class Canvas {
         const double light = brightness(normal.z() < 0.0 ? Eigen::Vector3d(-normal) : normal);
         const auto [left, right] = range(c.col(0), width_);
         const auto [top, bottom] = range(c.col(1), height_);
-        for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x) {
-                const double dx = x + 0.5 - c(0, 0);
-                const double dy = y + 0.5 - c(0, 1);
-                const double b = (dx * w.y() - dy * w.x()) / area;
-                const double d = (dy * u.x() - dx * u.y()) / area;
-                if (b < 0.0 || d < 0.0 || b + d > 1.0)
-                    continue;
-                const std::size_t place =
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-                const double depth = c(0, 2) + b * u.z() + d * w.z();
-                if (depth <= depths_[place])
-                    continue;
-                depths_[place] = depth;
-                colours_[place] =
-                    lit(paint(values[0] + b * (values[1] - values[0]) + d * (values[2] - values[0])), light);
-            }
+        for (int y = top; y < bottom; ++y) {
+            // The second and third barycentric coordinate of the sample x is b₀ + b₁ x and d₀ + d₁ x.
+            const double dy = y + 0.5 - c(0, 1);
+            const double b1 = w.y() / area;
+            const double d1 = -u.y() / area;
+            const double b0 = (0.5 - c(0, 0)) * b1 - dy * w.x() / area;
+            const double d0 = (0.5 - c(0, 0)) * d1 + dy * u.x() / area;
+            double first = left;
+            double last = right - 1;
+            for (const auto& [start, slope] : {std::pair{b0, b1}, {d0, d1}, {1.0 - b0 - d0, -b1 - d1}})
+                narrow(start, slope, first, last);
+            for (int x = static_cast<int>(std::ceil(first)); x <= last; ++x)
+                add_sample(x, y, c(0, 2) + (b0 + b1 * x) * u.z() + (d0 + d1 * x) * w.z(), [&] {
+                    const double value =
+                        values[0] + (b0 + b1 * x) * (values[1] - values[0]) + (d0 + d1 * x) * (values[2] - values[0]);
+                    return lit(paint(value), light);
+                });
+        }
     }
 
     /// The mean of the samples of each pixel.
@@ -101,6 +102,28 @@ class Canvas {
     {
         return {static_cast<int>(std::clamp(std::floor(places.minCoeff()), 0.0, static_cast<double>(end))),
                 static_cast<int>(std::clamp(std::ceil(places.maxCoeff()), 0.0, static_cast<double>(end)))};
+    }
+
+    /// Leaves of the x between two ends those at which start + slope x is not negative.
+    static void narrow(double start, double slope, double& first, double& last)
+    {
+        if (slope > 0.0)
+            first = std::max(first, -start / slope);
+        else if (slope < 0.0)
+            last = std::min(last, -start / slope);
+        else if (!(start >= 0.0))
+            last = first - 1.0;
+    }
+
+    template <typename MakeColour>
+    void add_sample(int x, int y, double depth, const MakeColour& make_colour)
+    {
+        const std::size_t place =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+        if (!(depth > depths_[place]))
+            return;
+        depths_[place] = depth;
+        colours_[place] = make_colour();
     }
 
     static Colour lit(Colour colour, double light)
@@ -137,8 +160,9 @@ class Canvas {
 
 }  // namespace
 
-Viewpoint::Viewpoint(const Points& positions)
+Viewpoint::Viewpoint(const PolygonMesh& mesh)
 {
+    const Points positions = mesh.vertices(mesh.face_vertices, Eigen::all);
     const Eigen::RowVector3d extent = positions.colwise().maxCoeff() - positions.colwise().minCoeff();
     const int up = upwards(extent);
     Eigen::Vector3d to_the_eye = Eigen::Vector3d::Zero();

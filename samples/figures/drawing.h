@@ -22,8 +22,8 @@ struct Image {
 /// that they can be compared.
 class Viewpoint {
   public:
-    /// @param positions of the mesh that fills the picture.
-    explicit Viewpoint(const Points& positions);
+    /// @param mesh that fills the picture; vertices without faces do not count. It has faces.
+    explicit Viewpoint(const PolygonMesh& mesh);
 
     /// In pixels to the right and downwards; the third coordinate grows towards the eye.
     [[nodiscard]] Points seen(const Points& positions) const;

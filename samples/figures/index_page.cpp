@@ -84,7 +84,7 @@ std::string number_cell(const std::string& text)
     return "<td class=\"number\">" + (text.empty() ? "–" : text) + "</td>";
 }
 
-/// The picture of that title, or a sentence where the flow has none because there is no such one.
+/// The picture of that title. Of a flow that ended early it says after which step that is.
 std::string picture(const FigureResult& result, const std::string& title)
 {
     std::string caption = title;
@@ -93,10 +93,18 @@ std::string picture(const FigureResult& result, const std::string& title)
     else if (title == picture_of::cut)
         caption = "the two sub-meshes";
     else if (title == picture_of::part)
-        caption = "the sub-mesh that solves first";
-    for (const Variant& variant : result.experiment->variants)
-        if (title_of(variant) == title)
-            caption = words_of(variant);
+        caption = "one of the two sub-meshes";
+    for (const Variant& variant : result.experiment->variants) {
+        if (title_of(variant) != title)
+            continue;
+        caption = words_of(variant);
+        int reached = result.table.steps;
+        while (reached > 0 && result.table.find(variant, reached) == nullptr)
+            --reached;
+        if (reached < result.table.steps)
+            caption +=
+                ", which ended after step " + std::to_string(reached) + " of " + std::to_string(result.table.steps);
+    }
     const std::string file = result.table.figure + "-" + title + ".png";
     return "<figure><img src=\"" + file + "\" alt=\"" + escaped_for_html(caption) + "\"><figcaption>" +
            escaped_for_html(caption) + "</figcaption></figure>\n";
@@ -119,7 +127,7 @@ std::string theirs(const FigureResult& result, const Row& row)
 }
 
 /// Two rows: the numbers, and the command.
-std::string flow_rows(const FigureResult& result, const Row& row)
+std::string flow_rows(const FigureResult& result, const Row& row, std::size_t columns)
 {
     const bool compared = row.conditions != conditions_of({});
     std::string text = "<tr>" + text_cell(row.words) + number_cell(std::to_string(row.step));
@@ -131,8 +139,8 @@ std::string flow_rows(const FigureResult& result, const Row& row)
     text += number_cell(compared ? short_number(row.h.mean) + " / " + short_number(row.h.max) : "");
     text += number_cell(short_number(row.drift)) + number_cell(short_number(row.interface_length));
     text += number_cell(short_number(row.roughness.rms) + "° / " + short_number(row.roughness.percentile_95) + "°");
-    return text + "</tr>\n<tr class=\"command\"><td colspan=\"12\"><code>" + escaped_for_html(row.command) +
-           "</code></td></tr>\n";
+    return text + "</tr>\n<tr class=\"command\"><td colspan=\"" + std::to_string(columns) + "\"><code>" +
+           escaped_for_html(row.command) + "</code></td></tr>\n";
 }
 
 std::string table_of(const FigureResult& result)
@@ -149,13 +157,13 @@ std::string table_of(const FigureResult& result)
         text += "<th>" + title + "</th>";
     text += "</tr>\n";
     for (const Row& row : result.table.last_rows())
-        text += flow_rows(result, row);
+        text += flow_rows(result, row, titles.size());
     return text + "</table></div>\n";
 }
 
 std::string claims_table(const std::vector<Claim>& claims)
 {
-    std::string text = "<div class=\"wide\"><table><tr><th>the paper</th><th>measured</th><th></th></tr>\n";
+    std::string text = "<div class=\"wide\"><table><tr><th>claim</th><th>measured</th><th></th></tr>\n";
     for (const Claim& claim : claims) {
         text += "<tr>" + text_cell(claim.text) + text_cell(claim.measured);
         text += claim.holds ? "<td class=\"yes\">holds</td></tr>\n" : "<td class=\"no\">does not hold</td></tr>\n";

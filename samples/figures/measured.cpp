@@ -45,7 +45,7 @@ std::string listed(const std::vector<Measured>& values)
     std::string text;
     for (const Measured& one : values) {
         char number[64];
-        std::snprintf(number, sizeof number, "%.3g", one.value);
+        std::snprintf(number, sizeof number, std::isnan(one.value) ? "none" : "%.3g", one.value);
         text += (text.empty() ? "" : ", ") + one.name + " " + number;
     }
     return text;

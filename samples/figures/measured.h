@@ -40,7 +40,7 @@ double quantity(const Table& table, Laplacian laplacian, std::string_view condit
 std::vector<Measured> last_step(const Table& table, const std::vector<Laplacian>& laplacians,
                                 std::string_view conditions, Quantity what);
 
-/// "Δ_F 0.277, Δ_A 0.0241", with three significant digits.
+/// "Δ_F 0.277, Δ_A 0.0241", with three significant digits; "none" for what is not a number.
 std::string listed(const std::vector<Measured>& values);
 
 /// Whether none of them is larger than a limit, or not a number.

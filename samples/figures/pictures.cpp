@@ -12,14 +12,14 @@ namespace seamflow {
 
 namespace {
 
-/// From 0 for the lowest vertex to 1 for the highest.
+/// From 0 for the lowest vertex that has faces to 1 for the highest.
 std::vector<double> relative_heights(const PolygonMesh& mesh)
 {
-    const auto z = mesh.vertices.col(2);
+    const Eigen::VectorXd z = mesh.vertices(mesh.face_vertices, 2);
     const double low = z.minCoeff();
     const double range = z.maxCoeff() - low;
     std::vector<double> heights;
-    for (const double height : z)
+    for (const double height : mesh.vertices.col(2))
         heights.push_back(range > 0.0 ? (height - low) / range : 0.0);
     return heights;
 }
@@ -80,7 +80,7 @@ Pictures::Pictures(const Experiment& experiment, std::filesystem::path folder, c
     , overlaps_(std::all_of(
           experiment.variants.begin(), experiment.variants.end(),
           [](const Variant& variant) { return !is_in_halves(variant) || variant.conditions == Conditions::Schwarz; }))
-    , viewpoint_(input.mesh.vertices)
+    , viewpoint_(input.mesh)
     , heights_(relative_heights(input.mesh))
 {
     write_ply(picture_of::input, input.mesh.vertices);

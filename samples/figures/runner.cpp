@@ -39,6 +39,7 @@ class Run {
         table_.mesh = input_.name;
         table_.vertices = input_.mesh.n_vertices();
         table_.is_theirs = input_.is_theirs;
+        table_.flows = experiment.variants;
         table_.time_step = experiment.time_step;
         table_.steps = experiment.steps;
         table_.roughness = roughness(input_.mesh, input_.mesh.vertices);
@@ -166,6 +167,7 @@ class Run {
         row.roughness = roughness(input_.mesh, state.positions);
         if (variant.pieces != Pieces::One && variant.conditions == Conditions::AdaptedVentcell)
             row.q = csv_number(ventcell_q);
+        row.subdomains = asked_for(variant);
         row.cut = cut_of(variant);
         row.command = command_of(experiment_, variant, input_);
         row.title = title_of(variant);
@@ -194,6 +196,14 @@ class Run {
         row.h = divided(surface_distance(from, to), v.mean_edge);
         row.drift = drift / v.mean_edge;
         row.interface_length = interface_length(positions) / interface_length(from.vertices);
+    }
+
+    /// Sub-meshes; another number may come out.
+    static Index asked_for(const Variant& variant)
+    {
+        if (variant.pieces == Pieces::One)
+            return 1;
+        return variant.pieces == Pieces::Halves ? 2 : variant.subdomains;
     }
 
     [[nodiscard]] std::string cut_of(const Variant& variant) const

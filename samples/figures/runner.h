@@ -12,7 +12,7 @@ namespace seamflow {
 struct Places {
     /// With the authors' files; empty: all meshes are generated.
     std::filesystem::path meshes;
-    /// For the input and the last state of each flow as PLY and as picture, the cut and the curves; empty: none.
+    /// For the input and the last state of each flow as PLY and as picture, and the cut; empty: none.
     std::filesystem::path out;
     /// For a page with all flows that come to their end; empty: none.
     std::filesystem::path page = {};

@@ -43,6 +43,14 @@ const Row* Table::find(Laplacian laplacian, std::string_view conditions, int ste
     return found == rows.end() ? nullptr : &*found;
 }
 
+const Row* Table::find(const Variant& variant, int step) const
+{
+    const std::string title = title_of(variant);
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.title == title && row.step == step; });
+    return found == rows.end() ? nullptr : &*found;
+}
+
 std::vector<Row> Table::last_rows() const
 {
     std::vector<Row> last;

@@ -8,6 +8,7 @@
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/roughness.h"
 #include "partition/polygon_mesh.h"
+#include "samples/figures/experiment.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -65,12 +66,17 @@ struct Table {
     int steps = 0;
     /// Of the input.
     Roughness roughness;
+    /// All that were to run; one that ended early has fewer rows than steps.
+    std::vector<Variant> flows;
     std::vector<Row> rows;
     /// Flows that ended before their time, and why; a sentence each.
     std::vector<std::string> remarks;
 
     /// The row of a flow in halves or undecomposed after a step; nullptr: there is none.
     [[nodiscard]] const Row* find(Laplacian laplacian, std::string_view conditions, int step) const;
+
+    /// The row of a flow, whatever it is, after a step; nullptr: there is none.
+    [[nodiscard]] const Row* find(const Variant& variant, int step) const;
 
     /// The last row of each flow.
     [[nodiscard]] std::vector<Row> last_rows() const;

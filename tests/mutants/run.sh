@@ -123,9 +123,14 @@ files() {
         \) -prune -o -type f -print | sort)
 }
 
+# What is not among the sources goes from the copy: it must be a copy that an earlier run has made, or none yet.
 copy_tree() {
     local file
-    mkdir -p "$tree"
+    if [[ -d "$tree" && -n "$(ls -A "$tree")" && ! -d "$tree/build/mutants" ]]; then
+        echo "$tree is neither empty nor a copy for faults: name another folder" >&2
+        exit 2
+    fi
+    mkdir -p "$tree/build/mutants"
     while IFS= read -r file; do
         if ! cmp -s "$file" "$tree/$file"; then
             mkdir -p "$(dirname "$tree/$file")"

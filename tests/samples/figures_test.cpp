@@ -215,20 +215,63 @@ TEST_CASE("what does not hold says why")
     table.rows[1].v.mean = 0.4;
     CHECK(claims_of(table)[0].holds);
     CHECK(claims_of(table)[0].why.empty());
+}
 
-    Row plain = row(velho, "adapted-robin", 0.5);
-    plain.figure = "hexagons";
-    plain.subdomains = 4;
-    plain.settings = "plain";
-    Row better = plain;
-    better.settings = "default";
-    better.v.mean = 0.75;
+TEST_CASE("of many sub-meshes every flow counts that was to run beside a smooth reference")
+{
+    const auto with_title = [](Row made, const Variant& variant) {
+        made.title = title_of(variant);
+        return made;
+    };
+    const Variant plain{.laplacian = velho, .pieces = Pieces::Metis, .subdomains = 4};
+    Variant ours = plain;
+    ours.settings = Settings::Default;
     Table many;
+    many.figure = "hexagons";
     many.steps = 5;
-    many.rows = {row(velho, "undecomposed", 0.0), plain, better};
+    many.flows = {{.laplacian = velho}, plain, ours};
+    many.rows = {with_title(row(velho, "undecomposed", 0.0), {.laplacian = velho}),
+                 with_title(row(velho, "adapted-robin", 0.5), plain),
+                 with_title(row(velho, "adapted-robin", 0.4), ours)};
+    for (const Claim& claim : claims_of_many({many}))
+        CHECK(claim.holds);
+    many.rows[2].v.mean = 0.75;
     CHECK(claims_of_many({many})[0].why == "Not so: hexagons, Δ_P, 4 sub-meshes: plain 0.5, default 0.75.");
     CHECK(claims_of_many({many})[1].why ==
           "Not so: hexagons, Δ_P, 4 sub-meshes: V_mean 0.75, roughness of the undecomposed flow 0, of the input 0.");
+    // Ended early.
+    many.rows[2].step = 4;
+    for (const Claim& claim : claims_of_many({many})) {
+        CHECK(claim.measured == "0 of 1");
+        CHECK_FALSE(claim.holds);
+        CHECK(claim.why.find("none") != std::string::npos);
+    }
+    many.rows[1].step = 4;
+    many.rows[2].step = 5;
+    CHECK(claims_of_many({many})[0].holds);
+    many.rows[0].roughness.rms = 46.0;
+    CHECK(claims_of_many({many})[0].measured == "0 of 0");
+}
+
+TEST_CASE("a flow that ends early is told as such")
+{
+    // Where Δ_P throws the vertices of triangles ever further, numbers overflow after some hundred steps.
+    Experiment experiment = small("triangles", 400);
+    experiment.time_step = 50.0;
+    experiment.steps = 2000;
+    std::erase_if(experiment.variants, [](const Variant& variant) { return variant.laplacian != velho; });
+    experiment.variants.erase(experiment.variants.begin());
+    experiment.pictures = {{title_of(experiment.variants[0])}};
+    FigureResult result{.experiment = &experiment, .table = run(experiment), .claims = {}};
+    REQUIRE(result.table.remarks.size() == 1);
+    const auto steps = static_cast<int>(result.table.rows.size());
+    REQUIRE(steps > 0);
+    REQUIRE(steps < experiment.steps);
+    CHECK(result.table.rows.back().subdomains == 2);
+    CHECK(index_html({result}, {}, false).find("which ended after step " + std::to_string(steps) + " of 2000") !=
+          std::string::npos);
+    for (const Claim& claim : claims_of(result.table))
+        CHECK(claim.why.starts_with("There is no number"));
 }
 
 TEST_CASE("the authors' numbers are claimed of their own mesh alone, to the digits given")
@@ -388,7 +431,7 @@ TEST_CASE("pictures show what is nearest, in its colour, and nothing where there
     mesh.vertices << -1, -1, 0, 1, -1, 0, 0, 1, 0, -0.2, -0.4, 0.1, 0.2, -0.4, 0.1, 0, 0, 0.1;
     mesh.add_face(std::array<Index, 3>{3, 4, 5});
     mesh.add_face(std::array<Index, 3>{0, 1, 2});
-    const Viewpoint viewpoint(mesh.vertices);
+    const Viewpoint viewpoint(mesh);
     const std::vector<double> values(6, 0.5);
     double largest = 0.0;
     const auto paint = [&](Index triangle, double value) {
@@ -412,6 +455,16 @@ TEST_CASE("pictures show what is nearest, in its colour, and nothing where there
     CHECK(lower[0] == 0);
     CHECK(lower[2] > 100);
     CHECK(image.pixels[3] == 0);
+    // A vertex without faces changes nothing.
+    PolygonMesh stray = mesh;
+    stray.vertices.conservativeResize(7, 3);
+    stray.vertices.row(6) << 1000, 0, 500;
+    CHECK(Viewpoint(stray).seen(mesh.vertices) == viewpoint.seen(mesh.vertices));
+    // Triangles much larger than the picture, and beyond all numbers.
+    mesh.vertices.row(0) << -1e9, -1e9, 0;
+    CHECK(draw(mesh, values, paint, viewpoint).pixels.size() == image.pixels.size());
+    mesh.vertices.row(0) << -1e200, -1e200, 0;
+    CHECK_NOTHROW(draw(mesh, values, paint, viewpoint));
     mesh.vertices(0, 0) = std::nan("");
     CHECK_NOTHROW(draw(mesh, values, paint, viewpoint));
 }
@@ -442,6 +495,10 @@ TEST_CASE("curves have a panel for each decomposed flow, and the authors' number
     CHECK(count(curves, "nan") == 0);
     CHECK(count(curves, "#b02a50") == 0);
     table.is_theirs = true;
+    // However far they are from ours.
+    Experiment far = experiment;
+    far.theirs[0].v_max = 5e4;
+    CHECK(curves_svg(table, far).find(">100000<") != std::string::npos);
     // Of Schwarz the largest distances are not known.
     CHECK(count(curves_svg(table, experiment), "#b02a50") == 6);
     // A flow that ended early, and one that has nothing to show.
