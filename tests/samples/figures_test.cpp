@@ -106,6 +106,10 @@ TEST_CASE("the teaser on a small mesh: decomposed flows near the undecomposed on
         CHECK(one.p.empty() == !decomposed);
         CHECK(one.cut == (decomposed ? "lower half in z" : "none"));
         CHECK(std::isnan(one.interface_length) == !decomposed);
+        if (decomposed) {
+            CHECK(one.interface_length == doctest::Approx(1.0).epsilon(0.2));
+            CHECK(one.interface_length != 1.0);
+        }
     }
     CHECK(claims_of(table).size() == 4);
 }
@@ -202,6 +206,26 @@ TEST_CASE("spikes are claimed where they are seen, artifacts where the surface i
     table.rows = {rough_row(alexa, 2, 9.9), rough_row(velho, 2, 10.1)};
     CHECK_FALSE(claims_of(table)[1].holds);
     CHECK_FALSE(claims_of(table)[2].holds);
+}
+
+TEST_CASE(
+    "an interface is straightened where it is shorter with the tangential derivative than without, by all Laplacians")
+{
+    Table table;
+    table.figure = "texture";
+    table.steps = 5;
+    const auto long_row = [](Laplacian laplacian, const std::string& conditions, double length) {
+        Row made = row(laplacian, conditions, 0.1);
+        made.interface_length = length;
+        return made;
+    };
+    for (const Laplacian laplacian : {fujiwara, alexa, velho}) {
+        table.rows.push_back(long_row(laplacian, "adapted-robin", 0.99));
+        table.rows.push_back(long_row(laplacian, "adapted-ventcell", 0.98));
+    }
+    CHECK(claims_of(table).back().holds);
+    table.rows.back().interface_length = 0.995;
+    CHECK_FALSE(claims_of(table).back().holds);
 }
 
 TEST_CASE("what does not hold says why")
