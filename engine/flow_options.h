@@ -21,23 +21,23 @@ enum class Coloring {
 
 /// What holds on the interface Γ between sub-meshes. All for any number of sub-meshes.
 enum class Conditions {
-    /// The paper's adapted Robin conditions (eqs. adaptedVentcell A and B with q = 0).
+    /// The paper's adapted Robin conditions (eqs. 24 and 25 with q = 0).
     AdaptedRobin,
-    /// The paper's adapted Ventcell conditions (eqs. adaptedVentcell A and B); FlowOptions::q is required.
+    /// The paper's adapted Ventcell conditions (eqs. 24 and 25); FlowOptions::q is required.
     AdaptedVentcell,
-    /// The classical Robin conditions (eqs. Ventcell A and B with q = 0): every sub-mesh has derivative rows on Γ and a
+    /// The classical Robin conditions (eqs. 20 and 21 with q = 0): every sub-mesh has derivative rows on Γ and a
     /// copy of Γ of its own, which drift apart (StepReport::gap). The result has the mean of the copies.
     Robin,
-    /// The classical Ventcell conditions (eqs. Ventcell A and B); FlowOptions::q is required.
+    /// The classical Ventcell conditions (eqs. 20 and 21); FlowOptions::q is required.
     Ventcell,
-    /// The alternating Schwarz method (eqs. Schwarz A and B): sub-meshes overlap by FlowOptions::overlap layers of
+    /// The alternating Schwarz method (eqs. 18 and 19): sub-meshes overlap by FlowOptions::overlap layers of
     /// faces.
     Schwarz,
 };
 
 /// How a step is taken.
 enum class Scheme {
-    /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. MCFbackwardEuler).
+    /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. 3).
     BackwardEuler,
     /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: everything here about sub-meshes, their order and what holds between
     /// them plays no part. dt must be at most the square of the shortest edge (see largest_explicit_step); a quarter
@@ -46,7 +46,7 @@ enum class Scheme {
     ExplicitEuler,
 };
 
-/// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. parameterP).
+/// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
 enum class PRule {
     /// η = 1, the paper's (which makes p* depend on the unit of length).
     Paper,
@@ -77,7 +77,7 @@ enum class Sweep {
 enum class Correction {
     /// Centroid with the adapted conditions, which need it; as the paper's authors do.
     Automatic,
-    /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. correction). Not with the classical
+    /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. 28). Not with the classical
     /// conditions, with which there is more than one of each.
     Centroid,
     /// Nothing.
@@ -141,7 +141,7 @@ struct FlowOptions {
     /// undecomposed flow.
     Transmission transmission = Transmission::Predicted;
     /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper
-    /// (eq. ourP) for each sub-mesh, by the two rules that follow, which imply it too where they are not the default.
+    /// (eq. 27) for each sub-mesh, by the two rules that follow, which imply it too where they are not the default.
     std::optional<double> p;
     PRule p_rule = PRule::Paper;
     PEdge p_edge = PEdge::Automatic;

@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// Smooths a mesh by mean curvature flow: `options.steps` backward Euler steps (paper, eq. MCFbackwardEuler)
+/// Smooths a mesh by mean curvature flow: `options.steps` backward Euler steps (paper, eq. 3)
 ///
 /// \f[ (I + dt\, \Delta(V^n))\, V^{n+1} = V^n , \f]
 ///

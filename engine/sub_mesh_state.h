@@ -66,7 +66,7 @@ void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vec
 void accept(std::vector<SubMeshState>& states, Index s);
 
 /// Fetches Vᵏ⁺¹ for the halo and accepts Vᵏ⁺¹, the vertices of Γ moved to the centroids of their edge neighbours
-/// (paper, eq. correction). Every sub-mesh at a vertex finds the same bits.
+/// (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.
 void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
 }  // namespace seamflow

@@ -27,7 +27,7 @@ inline Point centroid(std::span<const Index> corners, const Points& positions)
 }
 
 /// bₖ = ½ (vₖ₊₁ - vₖ₋₁) of a polygon's corner k. With E the polygon's edge vectors as rows, d0 its exterior derivative
-/// and R the matrix of the paper (eqs. R_start to R_end), the rows of d0ᵀ R E are these bₖ: R E maps to centroid minus
+/// and R the matrix of the paper (eqs. 7 to 9), the rows of d0ᵀ R E are these bₖ: R E maps to centroid minus
 /// edge midpoint.
 inline Point corner_bisector(std::span<const Index> corners, std::size_t k, const Points& positions)
 {

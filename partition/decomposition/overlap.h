@@ -8,7 +8,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-/// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. Schwarz A and B), in any number. Each one
+/// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. 18 and 19), in any number. Each one
 /// is its own part of the cut, grown into parts of equal or higher rank. What it finds counts on its own part only, and
 /// where own parts meet, on Γ, that of the lowest rank there counts.
 namespace seamflow {

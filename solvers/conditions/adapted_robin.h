@@ -9,7 +9,7 @@
 
 namespace seamflow {
 
-/// The adapted Robin condition of the paper (eq. adaptedVentcell A with q = 0):
+/// The adapted Robin condition of the paper (eq. 24 with q = 0):
 ///
 /// \f[ (I + dt\, p\, \partial_{n_A})\, V_A^{k+1} = (I - dt\, p\, \partial_{n_B})\, V_B , \f]
 ///

@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// The adapted Ventcell condition of the paper (eq. adaptedVentcell A): (I + dt (p ∂n_A + q ∂t)) V_A^{k+1} = (I - dt p
+/// The adapted Ventcell condition of the paper (eq. 24): (I + dt (p ∂n_A + q ∂t)) V_A^{k+1} = (I - dt p
 /// ∂n_B) V_B, with the tangential derivative along Γ, whose lengths are those of Vᵏ; otherwise as AdaptedRobin.
 /// Straightens Γ.
 /// @param sub_mesh must outlive the condition.

@@ -8,7 +8,7 @@
 namespace seamflow {
 
 /// Dirichlet data: V^{k+1} = V^k where a sub-mesh leads; where it follows, as always, what it is given. The condition
-/// of the alternating Schwarz method (paper, eqs. Schwarz A and B), in which sub-meshes that overlap follow everywhere.
+/// of the alternating Schwarz method (paper, eqs. 18 and 19), in which sub-meshes that overlap follow everywhere.
 /// @param sub_mesh needed only during the call; of its interface the vertices alone count.
 std::unique_ptr<TransmissionCondition> make_dirichlet(const SubMesh& sub_mesh);
 

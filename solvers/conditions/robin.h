@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// The classical Robin condition (paper, eqs. Ventcell A and B with q = 0): (I + dt p ∂n) V_A^{k+1} = (I + dt p ∂n)
+/// The classical Robin condition (paper, eqs. 20 and 21 with q = 0): (I + dt p ∂n) V_A^{k+1} = (I + dt p ∂n)
 /// V_B, with V_B the other side's own copy of Γ and what lies beyond. n is A's outward conormal; on the right it is
 /// taken as the opposite of B's, so that a flat mesh stays as it is. Otherwise as AdaptedRobin.
 /// @param sub_mesh must outlive the condition.

@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// The classical Ventcell condition (paper, eqs. Ventcell A and B): (I + dt (p ∂n + q ∂t)) V_A^{k+1} = (I + dt (p ∂n +
+/// The classical Ventcell condition (paper, eqs. 20 and 21): (I + dt (p ∂n + q ∂t)) V_A^{k+1} = (I + dt (p ∂n +
 /// q ∂t)) V_B, with V_B as for the classical Robin condition and the tangential derivative along either side's own copy
 /// of Γ, whose lengths are those of Vᵏ.
 /// @param sub_mesh must outlive the condition.

@@ -51,7 +51,7 @@ void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& st
 Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conormal& conormal,
                                    const Points& other_side);
 
-/// The weights of ∂t at a vertex v of Γ, in 1/length² (paper, eq. tangentialDerivative): ∂t = before (v - v_before) +
+/// The weights of ∂t at a vertex v of Γ, in 1/length² (paper, eq. 23): ∂t = before (v - v_before) +
 /// after (v - v_after), with before = 2 / (l₁ + l₂) / l₁ and after = 2 / (l₁ + l₂) / l₂.
 struct TangentialWeights {
     double before = 0.0;

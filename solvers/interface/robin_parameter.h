@@ -18,7 +18,7 @@ enum class PEdge {
     Mean,
 };
 
-/// p* of a sub-mesh (paper, eqs. parameterP and ourP, after Gander 2006): ((k_min² + η)(k_max² + η))^¼ with k_min = π /
+/// p* of a sub-mesh (paper, eqs. 26 and 27, after Gander 2006): ((k_min² + η)(k_max² + η))^¼ with k_min = π /
 /// l and k_max = π / ‖e‖, in 1/length; ‖e‖ is an edge of the sub-mesh, and l the largest distance from Γ along its
 /// edges (for a strip with Γ on one side, its width). Edges of length zero carry no frequency and do not count; where
 /// every vertex lies on Γ, l is ‖e‖.

@@ -11,20 +11,20 @@ namespace seamflow {
 /// the mean over the corners of a face, A combines the two half-edges of an edge, R the half-edges of a face, W₁ has
 /// their scalar products over the face's area, and W_V the inverse areas of vertices.
 enum class Laplacian {
-    /// Δ_F, the scale-dependent umbrella operator of Fujiwara times the valence (paper, eq. umbrellaLaplace):
+    /// Δ_F, the scale-dependent umbrella operator of Fujiwara times the valence (paper, eq. 14):
     ///
     /// \f[ (\Delta_F V)_v = \frac{n_v}{\sum_j \|v - v_j\|} \sum_j \frac{v - v_j}{\|v - v_j\|} , \f]
     ///
     /// sums over the n_v edges at v. Positive diagonal times symmetric positive semi-definite. Drags vertices along the
     /// surface on irregular meshes.
     Fujiwara,
-    /// Δ_A of Alexa and Wardetzky, the cotan Laplacian on triangles (paper, eq. AWLaplace):
+    /// Δ_A of Alexa and Wardetzky, the cotan Laplacian on triangles (paper, eq. 15):
     ///
     /// \f[ \Delta_A = W_V\, d_0^\top R\, W_1 R^\top d_0 . \f]
     ///
     /// Positive diagonal times symmetric positive semi-definite.
     AlexaWardetzky,
-    /// Δ_P of Ptáčková and Velho (paper, eq. PVLaplace):
+    /// Δ_P of Ptáčková and Velho (paper, eq. 16):
     ///
     /// \f[ \Delta_P = -W_V\, f_v^\top d_1 A\, W_1 R^\top d_0 . \f]
     ///

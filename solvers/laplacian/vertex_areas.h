@@ -7,7 +7,7 @@
 
 namespace seamflow {
 
-/// W_V of the paper (eq. WV), inverted: the area of each vertex, Σ |f| / p over its faces f, p-gons, in length².
+/// W_V of the paper (eq. 11), inverted: the area of each vertex, Σ |f| / p over its faces f, p-gons, in length².
 /// @param face_areas #F, receives |f|.
 /// @param vertex_areas #V, receives the sums.
 inline void measure_areas(const FaceView& faces, const Points& positions, std::span<double> face_areas,
