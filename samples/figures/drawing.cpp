@@ -78,6 +78,8 @@ class Canvas {
             double last = right - 1;
             for (const auto& [start, slope] : {std::pair{b0, b1}, {d0, d1}, {1.0 - b0 - d0, -b1 - d1}})
                 narrow(start, slope, first, last);
+            if (!(first <= last))
+                continue;
             for (int x = static_cast<int>(std::ceil(first)); x <= last; ++x)
                 add_sample(x, y, c(0, 2) + (b0 + b1 * x) * u.z() + (d0 + d1 * x) * w.z(), [&] {
                     const double value =
