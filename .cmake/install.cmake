@@ -3,9 +3,48 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
+# Installed are the headers of the library call and what they include; tests/consumer compiles each by itself.
+foreach(header IN ITEMS
+        engine/eigen.h
+        engine/mean_curvature_flow.h
+        engine/measure/displacement_meter.h
+        engine/openmesh.h
+        engine/options/flow_control.h
+        engine/options/flow_options.h
+        engine/options/flow_remarks.h
+        engine/options/flow_report.h
+        engine/options/schedule.h
+        engine/state/checkpoint.h
+        engine/state/flow_identity.h
+        engine/state/flow_state.h
+        partition/decomposition/sub_mesh.h
+        partition/eigen.h
+        partition/errors.h
+        partition/formats/mesh_io.h
+        partition/formats/palette.h
+        partition/index.h
+        partition/index_lists.h
+        partition/io/fault_log.h
+        partition/loop.h
+        partition/metrics/displacement.h
+        partition/metrics/length_statistics.h
+        partition/metrics/roughness.h
+        partition/metrics/surface_distance.h
+        partition/metrics/vertex_distance.h
+        partition/metrics/vertex_normals.h
+        partition/openmesh.h
+        partition/polygon_mesh.h
+        partition/topology.h
+        partition/vector_area.h
+        partition/version.h
+        solvers/conditions/robin_parameter.h
+        solvers/direct/factorisation.h
+        solvers/laplacian/geometry.h
+        solvers/laplacian/laplacian.h)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow/${folder})
+endforeach()
 foreach(folder IN ITEMS partition solvers engine)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow
-        FILES_MATCHING PATTERN "*.h")
     set_target_properties(seamflow_${folder} PROPERTIES INSTALL_RPATH $ORIGIN)
     install(TARGETS seamflow_${folder} EXPORT seamflow-${folder})
     install(EXPORT seamflow-${folder} DESTINATION ${package_dir} NAMESPACE seamflow::

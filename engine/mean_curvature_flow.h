@@ -1,8 +1,8 @@
 #pragma once
 
-#include "engine/flow_control.h"
-#include "engine/flow_options.h"
-#include "engine/flow_report.h"
+#include "engine/options/flow_control.h"
+#include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -12,7 +12,7 @@ namespace seamflow {
 /// \f[ (I + dt\, \Delta(V^n))\, V^{n+1} = V^n , \f]
 ///
 /// decomposed into sub-meshes, or explicit ones (see Scheme). Boundary vertices stay where they are, bit for bit,
-/// unless FlowOptions::boundary is free; vertices without faces too.
+/// unless MotionOptions::boundary is free; vertices without faces too.
 /// @param mesh its positions are moved; after an exception they are those of the last complete step. While the flow
 ///        runs it belongs to that.
 /// @param on_step called after each step.
@@ -20,8 +20,8 @@ namespace seamflow {
 ///        before the first step, and the report is of all steps.
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits, both for
 ///         a state to go on from that belongs to another flow; ComputationError, naming step and sub-mesh, for a system
-///         that is singular, a result that is not finite or beyond FlowOptions::largest_update, and for a failure of
-///         METIS; Cancelled where control.stop was requested and work was left; std::bad_alloc.
+///         that is singular, a result that is not finite or beyond AccuracyOptions::largest_update, and for a failure
+///         of METIS; Cancelled where control.stop was requested and work was left; std::bad_alloc.
 FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
                                const FlowControl& control = {});
 

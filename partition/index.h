@@ -8,7 +8,8 @@ namespace seamflow {
 /// Index of a vertex, face, half-edge or sub-mesh.
 using Index = std::int32_t;
 
-/// An index as a subscript of a standard container: twin[at(h)].
+/// An index beside sizes of standard containers, as in `at(h) < twin.size()`. Subscripts need no such cast: a container
+/// that checks them (_GLIBCXX_ASSERTIONS, as the preset debug has it) refuses a negative one, too.
 constexpr std::size_t at(Index i)
 {
     return static_cast<std::size_t>(i);

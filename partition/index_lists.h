@@ -17,8 +17,8 @@ struct IndexLists {
 
     [[nodiscard]] std::span<const Index> operator[](Index i) const
     {
-        const std::size_t begin = at(offsets[at(i)]);
-        return std::span<const Index>(values).subspan(begin, at(offsets[at(i) + 1]) - begin);
+        const std::size_t begin = at(offsets[i]);
+        return std::span<const Index>(values).subspan(begin, at(offsets[i + 1]) - begin);
     }
 
     /// Appends a list that has been pushed onto `values` entry by entry.

@@ -57,7 +57,7 @@ std::vector<Index> select(const Loop& loop, Index n, Predicate&& holds)
     for_each_block(loop, n, [&](Index block, Index begin, Index end) {
         for (Index i = begin; i < end; ++i)
             if (holds(i))
-                of_block[at(block)].push_back(i);
+                of_block[block].push_back(i);
     });
     std::vector<Index> selected;
     for (const auto& found : of_block)
@@ -74,7 +74,7 @@ double sum(const Loop& loop, Index n, Value&& value)
         double total = 0.0;
         for (Index i = begin; i < end; ++i)
             total += value(i);
-        of_block[at(block)] = total;
+        of_block[block] = total;
     });
     double total = 0.0;
     for (const double part : of_block)
@@ -110,12 +110,12 @@ std::vector<std::int64_t> sums_by_value(const Loop& loop, Index n, Index n_value
     const std::vector<IndexRange> ranges = long_ranges(n, n_values);
     std::vector<std::vector<std::int64_t>> of_range(ranges.size());
     for_each(loop, static_cast<Index>(ranges.size()), [&](Index r) {
-        std::vector<std::int64_t> sums(at(n_values), 0);
-        for (Index i = ranges[at(r)].begin; i < ranges[at(r)].end; ++i)
-            sums[at(value_of(i))] += weight(i);
-        of_range[at(r)] = std::move(sums);
+        std::vector<std::int64_t> sums(n_values, 0);
+        for (Index i = ranges[r].begin; i < ranges[r].end; ++i)
+            sums[value_of(i)] += weight(i);
+        of_range[r] = std::move(sums);
     });
-    std::vector<std::int64_t> sums(at(n_values), 0);
+    std::vector<std::int64_t> sums(n_values, 0);
     for (const auto& part : of_range)
         std::transform(part.begin(), part.end(), sums.begin(), sums.begin(), std::plus<>());
     return sums;

@@ -39,14 +39,14 @@ PolygonMesh to_polygon_mesh(const Mesh& source)
     for (const auto v : source.vertices()) {
         for (int c = 0; c < 3; ++c)
             mesh.vertices(count, c) = static_cast<double>(source.point(v)[static_cast<unsigned>(c)]);
-        number[at(v.idx())] = count++;
+        number[v.idx()] = count++;
     }
     mesh.vertices.conservativeResize(count, 3);
     std::vector<Index> corners;
     for (const auto f : source.faces()) {
         corners.clear();
         for (const auto v : source.fv_range(f))
-            corners.push_back(number[at(v.idx())]);
+            corners.push_back(number[v.idx()]);
         mesh.add_face(corners);
     }
     return mesh;

@@ -14,7 +14,7 @@ namespace seamflow {
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// A polygonal surface mesh as flat arrays: faces of any number of sides, planar or not, convex or not. Vertices
-/// without faces, several components, closed and open surfaces are all welcome, and faces need not be oriented alike.
+/// without faces, several components, closed and open surfaces are all allowed, and faces need not be oriented alike.
 struct PolygonMesh {
     /// #V by 3.
     Points vertices = Points(0, 3);
@@ -30,8 +30,8 @@ struct PolygonMesh {
     /// The vertices of face f, in order.
     [[nodiscard]] std::span<const Index> face(Index f) const
     {
-        const std::size_t begin = at(face_offsets[at(f)]);
-        return std::span<const Index>(face_vertices).subspan(begin, at(face_offsets[at(f) + 1]) - begin);
+        const std::size_t begin = at(face_offsets[f]);
+        return std::span<const Index>(face_vertices).subspan(begin, at(face_offsets[f + 1]) - begin);
     }
 
     /// Appends a face.

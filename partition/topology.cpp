@@ -20,12 +20,12 @@ void list_corners(const PolygonMesh& mesh, Topology& topology)
     auto& offsets = topology.vertex_offsets;
     offsets.assign(at(mesh.n_vertices()) + 1, 0);
     for (const Index v : mesh.face_vertices)
-        ++offsets[at(v) + 1];
+        ++offsets[v + 1];
     for (std::size_t v = 0; v < at(mesh.n_vertices()); ++v)
         offsets[v + 1] += offsets[v];
     topology.vertex_corners.resize(mesh.face_vertices.size());
     for (Index h = 0; h < mesh.n_corners(); ++h)
-        topology.vertex_corners[at(offsets[at(mesh.face_vertices[at(h)])]++)] = h;
+        topology.vertex_corners[offsets[mesh.face_vertices[h]]++] = h;
     // Every offset has moved on to the next vertex's.
     std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
     offsets.front() = 0;
@@ -45,18 +45,18 @@ void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spo
     for (const Index h : topology.corners_at(v))
         for (const auto& [neighbour_corner, halfedge] :
              {std::pair(topology.next(mesh, h), h), std::pair(topology.previous(mesh, h), topology.previous(mesh, h))})
-            if (const Index neighbour = mesh.face_vertices[at(neighbour_corner)]; neighbour > v)
+            if (const Index neighbour = mesh.face_vertices[neighbour_corner]; neighbour > v)
                 spokes.push_back({neighbour, halfedge});
     std::sort(spokes.begin(), spokes.end());
     for (auto first = spokes.begin(); first != spokes.end();) {
         const auto last =
             std::find_if(first, spokes.end(), [&](const Spoke& s) { return s.neighbour != first->neighbour; });
         if (last - first == 2) {
-            topology.twin[at(first[0].halfedge)] = first[1].halfedge;
-            topology.twin[at(first[1].halfedge)] = first[0].halfedge;
+            topology.twin[first[0].halfedge] = first[1].halfedge;
+            topology.twin[first[1].halfedge] = first[0].halfedge;
         } else if (last - first > 2) {
             for (auto spoke = first; spoke != last; ++spoke)
-                topology.twin[at(spoke->halfedge)] = non_manifold_edge;
+                topology.twin[spoke->halfedge] = non_manifold_edge;
         }
         first = last;
     }
@@ -71,14 +71,14 @@ std::array<Index, 2> spokes_of(const PolygonMesh& mesh, const Topology& topology
 /// The corner at v of the face that half-edge h, which begins or ends at v, belongs to.
 Index corner_at(const PolygonMesh& mesh, const Topology& topology, Index h, Index v)
 {
-    return mesh.face_vertices[at(h)] == v ? h : topology.next(mesh, h);
+    return mesh.face_vertices[h] == v ? h : topology.next(mesh, h);
 }
 
 /// The end of half-edge h that is not v.
 Index other_end(const PolygonMesh& mesh, const Topology& topology, Index h, Index v)
 {
-    const Index start = mesh.face_vertices[at(h)];
-    return start == v ? mesh.face_vertices[at(topology.next(mesh, h))] : start;
+    const Index start = mesh.face_vertices[h];
+    return start == v ? mesh.face_vertices[topology.next(mesh, h)] : start;
 }
 
 /// Walks from corner `start` across its half-edge `spoke` and on, face by face, as long as the faces belong to the fan.
@@ -88,8 +88,8 @@ Index walk(const PolygonMesh& mesh, const Topology& topology, Index v, Index sta
            Visit&& visit)
 {
     for (;;) {
-        const Index across = topology.twin[at(spoke)];
-        if (across < 0 || !belongs(topology.face_of[at(across)]))
+        const Index across = topology.twin[spoke];
+        if (across < 0 || !belongs(topology.face_of[across]))
             return spoke;
         const Index next_corner = corner_at(mesh, topology, across, v);
         if (next_corner == start)
@@ -107,7 +107,7 @@ bool is_closed_fan(const PolygonMesh& mesh, const Topology& topology, Index v)
     std::size_t met = 1;
     const Index last = walk(
         mesh, topology, v, corners.front(), corners.front(), [](Index) { return true; }, [&](Index) { ++met; });
-    return met == corners.size() && topology.twin[at(last)] >= 0;
+    return met == corners.size() && topology.twin[last] >= 0;
 }
 
 VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
@@ -120,7 +120,7 @@ VertexKind classify(const PolygonMesh& mesh, const Topology& topology, Index v)
     Index lowest = 0;
     for (const Index corner : corners)
         for (const Index spoke : spokes_of(mesh, topology, corner))
-            lowest = std::min(lowest, topology.twin[at(spoke)]);
+            lowest = std::min(lowest, topology.twin[spoke]);
     return lowest == -1 ? VertexKind::Boundary : VertexKind::NonManifold;
 }
 
@@ -131,7 +131,7 @@ Index common_degree(const PolygonMesh& mesh)
         return 0;
     const Index degree = mesh.face_offsets[1];
     for (Index f = 1; f < mesh.n_faces(); ++f)
-        if (mesh.face_offsets[at(f) + 1] - mesh.face_offsets[at(f)] != degree)
+        if (mesh.face_offsets[f + 1] - mesh.face_offsets[f] != degree)
             return 0;
     return degree;
 }
@@ -150,7 +150,7 @@ FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop)
     }
     faces_.resize(mesh.face_vertices.size());
     for_each(loop, mesh.n_faces(), [&](Index f) {
-        std::fill(faces_.begin() + mesh.face_offsets[at(f)], faces_.begin() + mesh.face_offsets[at(f) + 1], f);
+        std::fill(faces_.begin() + mesh.face_offsets[f], faces_.begin() + mesh.face_offsets[f + 1], f);
     });
 }
 
@@ -169,13 +169,13 @@ Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
         for (Index v = begin; v < end; ++v)
             pair_halfedges_at(mesh, v, spokes, topology);
     });
-    topology.kind.resize(at(mesh.n_vertices()));
-    topology.fixed.resize(at(mesh.n_vertices()));
+    topology.kind.resize(mesh.n_vertices());
+    topology.fixed.resize(mesh.n_vertices());
     for_each(loop, mesh.n_vertices(), [&](Index v) {
-        topology.kind[at(v)] = classify(mesh, topology, v);
-        topology.fixed[at(v)] = topology.kind[at(v)] == VertexKind::Interior ? 0 : 1;
+        topology.kind[v] = classify(mesh, topology, v);
+        topology.fixed[v] = topology.kind[v] == VertexKind::Interior ? 0 : 1;
     });
-    for_each(loop, mesh.n_corners(), [&](Index h) { topology.twin[at(h)] = std::max(topology.twin[at(h)], -1); });
+    for_each(loop, mesh.n_corners(), [&](Index h) { topology.twin[h] = std::max(topology.twin[h], -1); });
     return topology;
 }
 
@@ -193,15 +193,15 @@ void hold(Topology& topology, std::span<const Index> vertices)
         if (v < 0 || v >= n_vertices)
             throw InputError("vertex " + std::to_string(v) + " is to be held fixed, but the mesh has " +
                              std::to_string(n_vertices) + " vertices, numbered from 0");
-        topology.fixed[at(v)] = 1;
+        topology.fixed[v] = 1;
     }
 }
 
 std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& topology, Index start,
                                     std::span<const Index> labels)
 {
-    const Index v = mesh.face_vertices[at(start)];
-    const auto belongs = [&](Index f) { return labels[at(f)] == labels[at(topology.face_of[at(start)])]; };
+    const Index v = mesh.face_vertices[start];
+    const auto belongs = [&](Index f) { return labels[f] == labels[topology.face_of[start]]; };
     const auto end_across = [&](Index spoke) {
         return other_end(mesh, topology, walk(mesh, topology, v, start, spoke, belongs, [](Index) {}), v);
     };
@@ -212,7 +212,7 @@ std::pair<Index, Index> ends_of_fan(const PolygonMesh& mesh, const Topology& top
 std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Index v, std::span<const Index> labels,
                          Index label)
 {
-    const auto belongs = [&](Index f) { return labels.empty() || labels[at(f)] == label; };
+    const auto belongs = [&](Index f) { return labels.empty() || labels[f] == label; };
     const auto corners = topology.corners_at(v);
     std::vector<bool> visited(corners.size(), false);
     const auto mark = [&](Index corner) {
@@ -222,7 +222,7 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
 
     std::vector<Fan> fans;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (visited[i] || !belongs(topology.face_of[at(corners[i])]))
+        if (visited[i] || !belongs(topology.face_of[corners[i]]))
             continue;
         Fan fan;
         mark(corners[i]);
@@ -232,7 +232,7 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
             fan.corners.push_back(corner);
         };
         const Index last = walk(mesh, topology, v, corners[i], spokes[0], belongs, append);
-        const Index closing = topology.twin[at(last)];
+        const Index closing = topology.twin[last];
         fan.closed = closing >= 0 && closing == spokes[1];
         Index first = spokes[1];
         if (!fan.closed) {

@@ -36,19 +36,19 @@ class FaceOfHalfedge {
     /// The half-edge after h in its face.
     [[nodiscard]] Index next(const PolygonMesh& mesh, Index h) const
     {
-        const Index f = (*this)[at(h)];
+        const Index f = (*this)[h];
         if (degree_ > 0)
             return h + 1 == (f + 1) * degree_ ? h + 1 - degree_ : h + 1;
-        return h + 1 == mesh.face_offsets[at(f) + 1] ? mesh.face_offsets[at(f)] : h + 1;
+        return h + 1 == mesh.face_offsets[f + 1] ? mesh.face_offsets[f] : h + 1;
     }
 
     /// The half-edge before h in its face.
     [[nodiscard]] Index previous(const PolygonMesh& mesh, Index h) const
     {
-        const Index f = (*this)[at(h)];
+        const Index f = (*this)[h];
         if (degree_ > 0)
             return h == f * degree_ ? h + degree_ - 1 : h - 1;
-        return h == mesh.face_offsets[at(f)] ? mesh.face_offsets[at(f) + 1] - 1 : h - 1;
+        return h == mesh.face_offsets[f] ? mesh.face_offsets[f + 1] - 1 : h - 1;
     }
 
   private:
@@ -61,9 +61,9 @@ class FaceOfHalfedge {
     std::vector<Index> faces_;
 };
 
-/// How the faces of a mesh hang together. Half-edge h runs from corner h to the next corner of the same face, so that
-/// half-edges are numbered like `face_vertices`. Orientation plays no part: an edge pairs its two half-edges whether
-/// they run in opposite directions or in the same one, and a Möbius band is as good a mesh as any.
+/// How the faces of a mesh are connected. Half-edge h runs from corner h to the next corner of the same face, so that
+/// half-edges are numbered like `face_vertices`. Orientation does not matter: an edge pairs its two half-edges whether
+/// they run in opposite directions or in the same one, so that a Möbius band is a valid mesh.
 struct Topology {
     /// One entry per half-edge: the half-edge of the other face at the same edge, or -1 on an edge of one face, or of
     /// three or more.
@@ -79,13 +79,13 @@ struct Topology {
     std::vector<std::uint8_t> fixed;
 
     /// Whether a flow moves vertex v.
-    [[nodiscard]] bool moves(Index v) const { return fixed[at(v)] == 0; }
+    [[nodiscard]] bool moves(Index v) const { return fixed[v] == 0; }
 
     /// The corners (each one in its own face) at vertex v.
     [[nodiscard]] std::span<const Index> corners_at(Index v) const
     {
-        const std::size_t begin = at(vertex_offsets[at(v)]);
-        return std::span<const Index>(vertex_corners).subspan(begin, at(vertex_offsets[at(v) + 1]) - begin);
+        const std::size_t begin = at(vertex_offsets[v]);
+        return std::span<const Index>(vertex_corners).subspan(begin, at(vertex_offsets[v + 1]) - begin);
     }
 
     /// The half-edge after h in its face.
@@ -103,7 +103,7 @@ Topology make_topology(const PolygonMesh& mesh, const Loop& loop = run_serially)
 void free_boundary(Topology& topology);
 
 /// Holds these vertices where they are, whatever their kind.
-/// @param vertices in any order, repetitions are welcome.
+/// @param vertices in any order, repetitions are allowed.
 /// @throws InputError naming the first number that is none of a vertex.
 void hold(Topology& topology, std::span<const Index> vertices);
 

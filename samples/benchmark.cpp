@@ -1,4 +1,4 @@
-// Holds one implicit step of ours beside what a user would run instead.
+// Compares one implicit step of ours with what a user would run instead.
 //
 //     mesh ──► temporary file ──► a process for each method ──► positions, times, memory ──► table, JSON
 //                                 (ours, CHOLMOD, UMFPACK,

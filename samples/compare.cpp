@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/compare_command.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"

@@ -6,7 +6,7 @@
 
 #include <iostream>
 
-#include "engine/stopwatch.h"
+#include "engine/tasks/stopwatch.h"
 #include "samples/common/output_files.h"
 #include "samples/figures/claims.h"
 #include "samples/figures/curves.h"

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <limits>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/command_line.h"
 #include "samples/common/meshes.h"
 #include "samples/common/output_files.h"
@@ -31,7 +31,7 @@ ExitStatus generate(int argc, char** argv)
     const RealLimits not_negative{0.0, 1e6};
     int seed = 1;
     app.add_option("KIND", kind, listed_kinds())->required()->type_name("");
-    app.add_option("OUTPUT", output, "the mesh: .obj, .off, .ply or .stl")->required()->type_name("");
+    app.add_option("OUTPUT", output, "the mesh: " + extensions_of())->required()->type_name("");
     add_integer(app, "--vertices", vertices, 100, "about so many vertices [10000]");
     auto* seed_option = add_integer(app, "--seed", seed, 0, "of everything drawn at random [1]");
     add_real(app, "--amplitude", variation.amplitude, any, "height of the waves [that of the kind]");

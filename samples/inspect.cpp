@@ -2,10 +2,10 @@
 
 #include <iostream>
 
-#include "engine/parallel_loop.h"
-#include "engine/workers.h"
+#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/workers.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
-#include "partition/io/mesh_io.h"
 #include "samples/common/command_line.h"
 #include "samples/common/inspection_json.h"
 #include "samples/common/inspection_text.h"
@@ -21,7 +21,7 @@ ExitStatus inspect_file(int argc, char** argv)
     std::filesystem::path input;
     bool as_json = false;
     int most_listed = 10;
-    app.add_option("INPUT", input, "mesh: .obj, .off, .ply or .stl")->required()->type_name("");
+    app.add_option("INPUT", input, "mesh: " + extensions_of())->required()->type_name("");
     app.add_flag("--json", as_json, "write everything as JSON, with all elements");
     add_integer(app, "--list", most_listed, 0, "how many elements of each kind are named without --json [10]");
     if (const auto end = parse_command_line(app, argc, argv))

@@ -16,12 +16,11 @@
 #include <vector>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/stopwatch.h"
-#include "engine/workers.h"
-#include "partition/cut/labels_file.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
-#include "partition/io/vertex_set.h"
+#include "partition/formats/index_files.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
@@ -29,7 +28,7 @@
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
-#include "samples/common/schedule_trace.h"
+#include "samples/common/schedule_files.h"
 #include "samples/common/smooth_command.h"
 #include "samples/page/page_html.h"
 
@@ -41,9 +40,9 @@ namespace {
 void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale)
 {
     if (!command.labels.empty())
-        command.options.labels = read_labels(command.labels, mesh.n_faces());
+        command.options.cut.labels = read_labels(command.labels, mesh.n_faces());
     if (!command.fix.empty())
-        command.options.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+        command.options.motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
     try {
         command.options.time_step = time_step_of(command.amount, scale, command.options.steps);
     } catch (const InputError& error) {
@@ -58,9 +57,9 @@ std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMes
     if (command.html.empty())
         return page;
     require_showable(mesh, command.html);
-    Workers(command.options.threads).execute([&] {
+    Workers(command.options.resources.threads).execute([&] {
         page.emplace(std::make_shared<const PageMesh>(mesh), command.output.filename().string(),
-                     command.options.laplacian, command.options.steps, command.options.reference);
+                     command.options.laplacian, command.options.steps, command.options.report.reference);
     });
     return page;
 }
@@ -103,6 +102,8 @@ void write_reports(const SmoothCommand& command, const RunRecord& run, FlowRepor
         write_text(command.report, smooth_report_json(run, report));
     if (!command.trace.empty())
         write_schedule_trace(command.trace, report);
+    if (!command.task_graph.empty())
+        write_task_graph(command.task_graph, report);
     if (page) {
         page->finish(report, smooth_report_json(run, report));
         write_text(command.html, page_html(command.input.filename().string(), {&*page, 1}));
@@ -126,7 +127,7 @@ ExitStatus require_converged(const SmoothCommand& command, const FlowReport& rep
     const int missed = steps_failed(command, report);
     if (missed == 0)
         return ExitStatus::Success;
-    std::cerr << "smooth: the tolerance " << *command.options.tolerance << " was missed in " << missed
+    std::cerr << "smooth: the tolerance " << *command.options.accuracy.tolerance << " was missed in " << missed
               << (missed == 1 ? " step; " : " steps; ") << command.output.string() << " has the last state\n";
     return ExitStatus::ComputationFailed;
 }
@@ -156,7 +157,7 @@ ExitStatus smooth(int argc, char** argv)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.keep_gaps, file);
+    const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file);
     std::optional<PageFlow> page = make_page(command, file.mesh);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =

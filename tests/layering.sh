@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fails when a folder includes upwards (partition <- solvers <- engine <- samples, tests), or when a header lets in a
-# library that only source files may use.
+# Fails when a folder includes upwards (partition <- solvers <- engine <- samples, tests), when folders at any depth
+# include each other in a circle, or when a header lets in a library that only source files may use.
 #
 #     tests/layering.sh [ROOT]
 
@@ -38,10 +38,21 @@ forbid '#include "(samples|tests)/' 'the engine knows neither samples nor tests'
 forbid '#include "tests/' 'samples do not use tests' samples
 forbid '#include "[^/"]*"|#include "\.\.?/' 'includes start with the name of their folder' partition solvers engine samples tests
 # But for the place where callers of BLAS wait for each other, because of what it does where memory lacks.
-mapfile -t equations < <(find solvers -name '*.h' -o -name '*.cpp' | grep -vx 'solvers/blas_turn.cpp')
+mapfile -t equations < <(find solvers -name '*.h' -o -name '*.cpp' | grep -vx 'solvers/direct/blas_turn.cpp')
 forbid '#include <(oneapi|tbb|thread|mutex|condition_variable|atomic|future)[/>]' 'equations know no threads' \
     /dev/null "${equations[@]}"
 forbid '#include <(umfpack|cholmod|oneapi|tbb)' 'meshes know no solvers' partition
 forbid_in_headers '#include <(metis|umfpack|cholmod|oneapi|tbb|OpenMesh|CGAL|omp)' \
     'libraries other than Eigen are for source files' partition solvers engine
+
+# Every pair of folders of which the first includes from the second, for tsort, which knows what a circle is.
+folder_includes() {
+    grep -roE --include='*.h' --include='*.cpp' '^#include "[^"]+/' "$@" |
+        sed -E 's|/[^/:]*:#include "| |; s|/$||' | awk '$1 != $2' | sort -u
+}
+
+if ! circles="$(folder_includes partition solvers engine samples | tsort 2>&1 >/dev/null)" || [[ -n $circles ]]; then
+    printf 'folders include each other in a circle:\n%s\n\n' "$circles"
+    status=1
+fi
 exit "$status"

@@ -5,8 +5,8 @@
 #     tests/run.sh --sanitizers     # all tests under ASan and UBSan, the engine's under TSan, a flow under valgrind
 #     tests/run.sh --coverage       # which lines the tests reach, at least 90 % of them
 #
-# The last two are described in tests/sanitizers/run.sh and tests/coverage/run.sh. The tests that need a corpus of meshes
-# look for it in the directory SEAMFLOW_CORPUS.
+# The last two are described in tests/sanitizers/run.sh and tests/coverage/run.sh. The tests that need a corpus of
+# meshes look for it in the directory SEAMFLOW_CORPUS.
 
 set -euo pipefail
 if [[ -n "${SEAMFLOW_CORPUS:-}" ]]; then

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks the layout of all sources (.clang-format) and the names in them (.clang-tidy). Installs what is missing of
-# the two tools and of what they read: benchmark's sources include OpenMP's header, and the compiler's own is not clang's.
+# the two tools and of what they read: benchmark's sources include OpenMP's header, and the compiler's own is not
+# clang's.
 #
 #     tests/style.sh
 
@@ -12,7 +13,9 @@ install_packages clang-format clang-tidy libomp-dev
 readonly folders=(partition solvers engine samples tests)
 find "${folders[@]}" \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
 configure release
-run-clang-tidy -quiet -p build -j "$(nproc)" "$PWD/($(IFS='|' && echo "${folders[*]}"))/" >build/clang-tidy.log 2>&1 || {
+# Most sources are included by those of the unity build, where the filter of headers covers them.
+# Names of one file may shadow those of another in its batch; within a file the compiler warns.
+run-clang-tidy -quiet -p build -extra-arg=-Wno-shadow -j "$(nproc)" "$PWD/($(IFS='|' && echo "${folders[*]}")|build/.*/Unity)/" >build/clang-tidy.log 2>&1 || {
     grep -E -A 4 'error:|warning:' build/clang-tidy.log
     exit 1
 }

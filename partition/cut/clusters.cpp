@@ -32,8 +32,8 @@ struct Grown {
     [[nodiscard]] Index size() const { return static_cast<Index>(ends.size()); }
     [[nodiscard]] std::span<const Index> faces_of(Index cluster, const std::vector<Index>& faces) const
     {
-        const Index first = cluster > 0 ? ends[at(cluster) - 1] : begin;
-        return std::span(faces).subspan(at(first), at(ends[at(cluster)] - first));
+        const Index first = cluster > 0 ? ends[cluster - 1] : begin;
+        return std::span(faces).subspan(first, ends[cluster] - first);
     }
 };
 
@@ -76,7 +76,7 @@ class ClusterGrower {
     }
 
   private:
-    [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[at(f)] < 0; }
+    [[nodiscard]] bool is_free(Index f) const { return chunk_.has(f) && cluster_of_[f] < 0; }
     /// The cluster in the making.
     [[nodiscard]] Index last() const { return first_ + grown_.size(); }
 
@@ -84,14 +84,14 @@ class ClusterGrower {
     template <class Visit>
     void for_each_free_neighbour(Index f, Visit&& visit)
     {
-        for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
-            const Index twin = topology_.twin[at(h)];
+        for (Index h = mesh_.face_offsets[f]; h < mesh_.face_offsets[f + 1]; ++h) {
+            const Index twin = topology_.twin[h];
             if (twin < 0)
                 continue;
-            const Index neighbour = topology_.face_of[at(twin)];
+            const Index neighbour = topology_.face_of[twin];
             if (!chunk_.has(neighbour))
                 touches_others_ = true;
-            else if (cluster_of_[at(neighbour)] < 0 && !visit(neighbour))
+            else if (cluster_of_[neighbour] < 0 && !visit(neighbour))
                 return;
         }
     }
@@ -102,23 +102,23 @@ class ClusterGrower {
         touches_others_ = false;
         Index left = weight_;
         const auto add = [&](Index f) {
-            cluster_of_[at(f)] = last();
-            faces_[at(end_++)] = f;
+            cluster_of_[f] = last();
+            faces_[end_++] = f;
             left -= face_weight(mesh_, f);
             return left > 0;
         };
         Index next = begin;
         for (add(seed); left > 0 && next < end_; ++next)
-            for_each_free_neighbour(faces_[at(next)], add);
+            for_each_free_neighbour(faces_[next], add);
         // With notches filled and what would remain alone taken in, outlines are shorter and clusters fewer. All faces
         // that the growth has gone past but the last have no free neighbours any more.
         for (next = std::max(next, begin + 1) - 1; next < end_; ++next) {
-            for_each_free_neighbour(faces_[at(next)], [&](Index g) {
+            for_each_free_neighbour(faces_[next], [&](Index g) {
                 if (belongs_to_last(g))
                     add(g);
                 return true;
             });
-            outer_.push_back(faces_[at(next)]);
+            outer_.push_back(faces_[next]);
         }
         grown_.ends.push_back(end_);
         grown_.touches_others.push_back(touches_others_ ? 1 : 0);
@@ -131,15 +131,15 @@ class ClusterGrower {
         Index inner = 0;
         Index shared = 0;
         Index n_free = 0;
-        for (Index h = mesh_.face_offsets[at(f)]; h < mesh_.face_offsets[at(f) + 1]; ++h) {
-            if (topology_.twin[at(h)] < 0)
+        for (Index h = mesh_.face_offsets[f]; h < mesh_.face_offsets[f + 1]; ++h) {
+            if (topology_.twin[h] < 0)
                 continue;
             ++inner;
-            const Index neighbour = topology_.face_of[at(topology_.twin[at(h)])];
+            const Index neighbour = topology_.face_of[topology_.twin[h]];
             if (!chunk_.has(neighbour))
                 continue;
-            shared += cluster_of_[at(neighbour)] == last() ? 1 : 0;
-            n_free += cluster_of_[at(neighbour)] < 0 ? 1 : 0;
+            shared += cluster_of_[neighbour] == last() ? 1 : 0;
+            n_free += cluster_of_[neighbour] < 0 ? 1 : 0;
         }
         return n_free == 0 || 2 * shared > inner;
     }
@@ -166,10 +166,10 @@ double part_across(const PolygonMesh& mesh, const Topology& topology, Index size
     Index inner = 0;
     Index across = 0;
     for (Index f = 0; f < mesh.n_faces(); f += std::min(sampled, mesh.n_faces() - f))
-        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h)
-            if (const Index twin = topology.twin[at(h)]; twin >= 0) {
+        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+            if (const Index twin = topology.twin[h]; twin >= 0) {
                 ++inner;
-                across += topology.face_of[at(twin)] / size != f / size ? 1 : 0;
+                across += topology.face_of[twin] / size != f / size ? 1 : 0;
             }
     return inner > 0 ? static_cast<double>(across) / inner : 0.0;
 }
@@ -193,7 +193,7 @@ std::vector<Chunk> chunks_of(const PolygonMesh& mesh, const Topology& topology, 
 FaceClusters one_face_each(const PolygonMesh& mesh)
 {
     FaceClusters clusters;
-    clusters.cluster_of.resize(at(mesh.n_faces()));
+    clusters.cluster_of.resize(mesh.n_faces());
     std::iota(clusters.cluster_of.begin(), clusters.cluster_of.end(), 0);
     clusters.faces.values = clusters.cluster_of;
     clusters.faces.offsets = clusters.cluster_of;
@@ -226,23 +226,23 @@ InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> fac
     for (const Grown& chunk : grown) {
         first_of_chunk.push_back(clusters.size());
         for (Index c = 0; c < chunk.size(); ++c)
-            if (chunk.touches_others[at(c)] == 0)
+            if (chunk.touches_others[c] == 0)
                 clusters.faces.offsets.push_back(clusters.faces.offsets.back() +
                                                  static_cast<Index>(chunk.faces_of(c, faces).size()));
     }
     std::vector<std::vector<Index>> left_over(grown.size());
     for_each(loop, static_cast<Index>(grown.size()), [&](Index i) {
-        const Grown& chunk = grown[at(i)];
-        Index number = first_of_chunk[at(i)];
+        const Grown& chunk = grown[i];
+        Index number = first_of_chunk[i];
         for (Index c = 0; c < chunk.size(); ++c) {
             const auto of_cluster = chunk.faces_of(c, faces);
-            const bool is_inner = chunk.touches_others[at(c)] == 0;
+            const bool is_inner = chunk.touches_others[c] == 0;
             for (const Index f : of_cluster)
-                clusters.cluster_of[at(f)] = is_inner ? number : -1;
+                clusters.cluster_of[f] = is_inner ? number : -1;
             if (is_inner)
-                std::ranges::copy(of_cluster, clusters.faces.values.begin() + clusters.faces.offsets[at(number++)]);
+                std::ranges::copy(of_cluster, clusters.faces.values.begin() + clusters.faces.offsets[number++]);
             else
-                left_over[at(i)].insert(left_over[at(i)].end(), of_cluster.begin(), of_cluster.end());
+                left_over[i].insert(left_over[i].end(), of_cluster.begin(), of_cluster.end());
         }
     });
     for (const std::vector<Index>& of_chunk : left_over)
@@ -261,18 +261,18 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
     std::vector<Index> faces;
     for_each(loop, 2, [&](Index one_of_both) {
         if (one_of_both == 0)
-            cluster_of.assign(at(mesh.n_faces()), -1);
+            cluster_of.assign(mesh.n_faces(), -1);
         else
-            faces.resize(at(mesh.n_faces()));
+            faces.resize(mesh.n_faces());
     });
     const std::vector<Chunk> chunks = chunks_of(mesh, topology, weight, chunk);
     std::vector<Grown> grown(chunks.size());
     for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
-        const Chunk& own = chunks[at(i)];
+        const Chunk& own = chunks[i];
         ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, cluster_of, faces);
         for (Index f = own.begin; f < own.end; ++f)
             grower.grow_around(f);
-        grown[at(i)] = grower.take();
+        grown[i] = grower.take();
     });
 
     auto [clusters, left_over] = keep_inner(grown, std::move(faces), std::move(cluster_of), loop);

@@ -4,14 +4,13 @@
 #include <utility>
 
 #include "partition/cut/clusters.h"
-#include "partition/cut/compact.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
 #include "partition/cut/refine.h"
-#include "partition/cut/repair.h"
 #include "partition/cut/seams.h"
 #include "partition/errors.h"
-#include "partition/index.h"
+#include "partition/labels.h"
+#include "partition/repair/repair.h"
 
 namespace seamflow {
 
@@ -25,8 +24,7 @@ std::string counted(Index n, const std::string& thing)
 /// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
 /// seams; of others clusters are.
 constexpr double min_weight_for_clusters = 500'000;
-/// With parts as small as this, whose seams matter less to whoever has so many, clusters are grown in lighter meshes
-/// too.
+/// With parts as small as this, seams matter less, and clusters are grown in lighter meshes too.
 constexpr double small_part = 5'000;
 constexpr double min_weight_for_small_parts = 300'000;
 /// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
@@ -78,7 +76,7 @@ void remark_on_number(const PolygonMesh& mesh, Index k, Index n_components, Cut&
 Cut uncut(const PolygonMesh& mesh)
 {
     Cut cut;
-    cut.labels.assign(at(mesh.n_faces()), 0);
+    cut.labels.assign(mesh.n_faces(), 0);
     cut.n_parts = mesh.n_faces() > 0 ? 1 : 0;
     return cut;
 }
@@ -113,7 +111,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
     const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
     const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
-    GraphComponents components;
+    Components components;
     std::vector<Index> part;
     alongside([&] {
         components = graph_components(graph);
@@ -125,15 +123,15 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const Index n_labels = compact_labels(part);
     Cut cut;
     cut.labels = std::move(clusters.cluster_of);
-    for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[at(f)] = part[at(cut.labels[at(f)])]; });
+    for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[f] = part[cut.labels[f]]; });
     if (weight > 1) {
-        const Doubts doubts = shorten_seams(mesh, topology, n_labels, cut.labels, loop);
-        cut.repaired_faces = repair_where_doubtful(mesh, topology, doubts, cut.labels, loop);
+        const SuspectedDefects suspected = shorten_seams(mesh, topology, n_labels, cut.labels, loop);
+        cut.repaired_faces = repair_where_suspected(mesh, topology, suspected, cut.labels, loop);
     } else {
         cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
     }
     cut.n_parts = count_parts(cut.labels);
-    remark_on_number(mesh, k, components.count, cut);
+    remark_on_number(mesh, k, components.count(), cut);
     return cut;
 }
 

@@ -14,7 +14,7 @@ namespace seamflow {
 /// How the faces of a mesh are divided into sub-meshes.
 struct Cut {
     /// #F: the part each face belongs to, from 0 to n_parts - 1; each label occurs. Unless there is but one part, each
-    /// part is a manifold with boundary (see first_defect).
+    /// part is a manifold with boundary (see repair).
     std::vector<Index> labels;
     /// 0 for a mesh without faces.
     Index n_parts = 0;
@@ -27,8 +27,8 @@ struct Cut {
 /// Parts are not made smaller on average than this many faces: a part should have vertices that no other one has.
 inline constexpr Index min_faces_per_part = 12;
 
-/// Runs what takes but one thread: a caller who has others, and work for them that does not need the cut, passes one
-/// that does both at once.
+/// Runs the serial part of a cut. A caller with further threads, and with work that does not need the cut, can do both
+/// at once.
 using Alongside = std::function<void(const std::function<void()>& serial)>;
 
 /// The serial part in the thread of the caller.

@@ -45,7 +45,7 @@ std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards 
 std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index> labels, std::span<const Index> shares,
                                   Afterwards afterwards)
 {
-    const auto graphs = take_apart(graph, labels, static_cast<Index>(shares.size()));
+    const auto graphs = induced_subgraphs(graph, labels, static_cast<Index>(shares.size()));
     std::vector<Index> result(labels.size());
     std::vector<std::vector<Index>> of_part(graphs.size());
     std::vector<Index> first_label(graphs.size(), 0);
@@ -65,23 +65,23 @@ std::vector<Index> divide_further(const FaceGraph& graph, std::span<const Index>
 std::vector<Index> divide_connected(const FaceGraph& graph, Index k, Afterwards afterwards)
 {
     if (k <= max_parts_at_once)
-        return metis_k_way(graph, std::vector<Index>(at(k), 1), afterwards);
-    std::vector<Index> shares(at(n_groups));
+        return metis_k_way(graph, std::vector<Index>(k, 1), afterwards);
+    std::vector<Index> shares(n_groups);
     for (Index i = 0; i < n_groups; ++i)
-        shares[at(i)] = k / n_groups + (i < k % n_groups ? 1 : 0);
+        shares[i] = k / n_groups + (i < k % n_groups ? 1 : 0);
     return divide_further(graph, metis_k_way(graph, shares, afterwards), shares, afterwards);
 }
 
 }  // namespace
 
-std::vector<Index> divide(const FaceGraph& graph, const GraphComponents& components, Index k, Afterwards afterwards)
+std::vector<Index> divide(const FaceGraph& graph, const Components& components, Index k, Afterwards afterwards)
 {
-    if (components.count == 1)
+    if (components.count() == 1)
         return divide_connected(graph, k, afterwards);
     const std::vector<Index>& component_of = components.component_of;
-    std::vector<double> weight(at(components.count), 0.0);
+    std::vector<double> weight(components.count(), 0.0);
     for (std::size_t node = 0; node < component_of.size(); ++node)
-        weight[at(component_of[node])] += graph.node_weights[node];
+        weight[component_of[node]] += graph.node_weights[node];
     return divide_further(graph, component_of, share_out(std::move(weight), k), afterwards);
 }
 

@@ -13,7 +13,7 @@ namespace seamflow {
 /// @returns one label per node; every part lies within one component, so that there are at least as many as
 ///          components. As with metis_k_way labels may be missing, and parts need not be connected.
 /// @throws ComputationError if METIS fails.
-std::vector<Index> divide(const FaceGraph& graph, const GraphComponents& components, Index k,
+std::vector<Index> divide(const FaceGraph& graph, const Components& components, Index k,
                           Afterwards afterwards = Afterwards::Nothing);
 
 }  // namespace seamflow

@@ -16,8 +16,8 @@ constexpr double mean_arc_weight = 64;
 
 double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)
 {
-    const Index from = mesh.face_vertices[at(h)];
-    const Index to = mesh.face_vertices[at(topology.next(mesh, h))];
+    const Index from = mesh.face_vertices[h];
+    const Index to = mesh.face_vertices[topology.next(mesh, h)];
     // From the lower to the higher vertex, so that both half-edges of an edge give the same bits.
     return (mesh.vertices.row(std::max(from, to)) - mesh.vertices.row(std::min(from, to))).norm();
 }
@@ -81,7 +81,7 @@ std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Loop& loop, Append&& app
 {
     std::vector<BlockOfArcs> blocks(at(n_nodes / block_size) + 1);
     for_each_block(loop, n_nodes, [&](Index b, Index begin, Index end) {
-        BlockOfArcs& block = blocks[at(b)];
+        BlockOfArcs& block = blocks[b];
         for (Index node = begin; node < end; ++node) {
             const auto before = std::ssize(block.arcs);
             append(node, block.arcs);
@@ -97,9 +97,9 @@ std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topo
     return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
         const auto begin = std::ssize(arcs);
         for (const Index f : clusters.faces[cluster])
-            for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
-                const Index twin = topology.twin[at(h)];
-                const Index target = twin < 0 ? cluster : clusters.cluster_of[at(topology.face_of[at(twin)])];
+            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
+                const Index twin = topology.twin[h];
+                const Index target = twin < 0 ? cluster : clusters.cluster_of[topology.face_of[twin]];
                 if (target != cluster)
                     arcs.push_back({target, edge_length(mesh, topology, h)});
             }
@@ -120,18 +120,18 @@ std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, co
 {
     std::vector<std::vector<ClusterPair>> blocks(at(mesh.n_faces() / block_size) + 1);
     for_each_block(loop, mesh.n_faces(), [&](Index b, Index begin, Index end) {
-        std::vector<ClusterPair> found(at(mesh.face_offsets[at(end)] - mesh.face_offsets[at(begin)]));
+        std::vector<ClusterPair> found(mesh.face_offsets[end] - mesh.face_offsets[begin]);
         std::size_t n = 0;
         for (Index f = begin; f < end; ++f) {
-            const Index own = clusters.cluster_of[at(f)];
-            for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h) {
-                const Index twin = topology.twin[at(h)];
-                const Index other = clusters.cluster_of[at(topology.face_of[at(twin < 0 ? h : twin)])];
+            const Index own = clusters.cluster_of[f];
+            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
+                const Index twin = topology.twin[h];
+                const Index other = clusters.cluster_of[topology.face_of[twin < 0 ? h : twin]];
                 found[n] = {own, other};
                 n += own < other ? 1 : 0;
             }
         }
-        blocks[at(b)].assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n));
+        blocks[b].assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(n));
     });
     return blocks;
 }
@@ -152,14 +152,14 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
     auto& targets = neighbours.values;
     // Every node's beginning moves on to its end, which is where the next one begins.
     offsets.assign(at(clusters.size()) + 2, 0);
-    for_each_pair([&](Index node, Index) { ++offsets[at(node) + 2]; });
+    for_each_pair([&](Index node, Index) { ++offsets[node + 2]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    targets.resize(at(offsets.back()));
-    for_each_pair([&](Index node, Index target) { targets[at(offsets[at(node) + 1]++)] = target; });
+    targets.resize(offsets.back());
+    for_each_pair([&](Index node, Index target) { targets[offsets[node + 1]++] = target; });
     offsets.pop_back();
     // As plain numbers: those of a cluster are five times as many as its arcs.
     for_each(loop, clusters.size(), [&](Index cluster) {
-        std::sort(targets.begin() + offsets[at(cluster)], targets.begin() + offsets[at(cluster) + 1]);
+        std::sort(targets.begin() + offsets[cluster], targets.begin() + offsets[cluster + 1]);
     });
     return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
         const auto begin = std::ssize(arcs);
@@ -191,54 +191,37 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     graph.arc_weights = arc_weights(lengths);
     const double total = mesh.n_corners();
     const auto unit = std::max(Index{1}, static_cast<Index>(std::ceil(2 * total / max_weight_sum)));
-    graph.node_weights.resize(at(graph.n_nodes()));
+    graph.node_weights.resize(graph.n_nodes());
     for_each(loop, graph.n_nodes(),
-             [&](Index node) { graph.node_weights[at(node)] = node_weight(mesh, clusters.faces[node], unit); });
+             [&](Index node) { graph.node_weights[node] = node_weight(mesh, clusters.faces[node], unit); });
     return graph;
 }
 
-GraphComponents graph_components(const FaceGraph& graph)
+Components graph_components(const FaceGraph& graph)
 {
-    GraphComponents components;
-    components.component_of.assign(at(graph.n_nodes()), -1);
-    std::vector<Index> reached;
-    const auto reach = [&](Index node) {
-        if (components.component_of[at(node)] >= 0)
-            return;
-        components.component_of[at(node)] = components.count;
-        reached.push_back(node);
-    };
-    for (Index lowest = 0; lowest < graph.n_nodes(); ++lowest) {
-        if (components.component_of[at(lowest)] >= 0)
-            continue;
-        for (reach(lowest); !reached.empty();) {
-            const Index node = reached.back();
-            reached.pop_back();
-            for (Index arc = graph.offsets[at(node)]; arc < graph.offsets[at(node) + 1]; ++arc)
-                reach(graph.targets[at(arc)]);
-        }
-        ++components.count;
-    }
-    return components;
+    return connected_components(graph.n_nodes(), [&](Index node, auto&& visit) {
+        for (const Index neighbour : graph.neighbours(node))
+            visit(neighbour);
+    });
 }
 
-std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts)
+std::vector<FaceGraph> induced_subgraphs(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts)
 {
-    std::vector<FaceGraph> parts(at(n_parts));
+    std::vector<FaceGraph> parts(n_parts);
     std::vector<Index> node_in_part(part_of.size());
     for (std::size_t node = 0; node < part_of.size(); ++node) {
-        auto& node_weights = parts[at(part_of[node])].node_weights;
+        auto& node_weights = parts[part_of[node]].node_weights;
         node_in_part[node] = static_cast<Index>(node_weights.size());
         node_weights.push_back(graph.node_weights[node]);
     }
     for (std::size_t node = 0; node < part_of.size(); ++node) {
-        FaceGraph& part = parts[at(part_of[node])];
+        FaceGraph& part = parts[part_of[node]];
         for (Index arc = graph.offsets[node]; arc < graph.offsets[node + 1]; ++arc) {
-            const auto target = at(graph.targets[at(arc)]);
+            const auto target = at(graph.targets[arc]);
             if (part_of[target] != part_of[node])
                 continue;
             part.targets.push_back(node_in_part[target]);
-            part.arc_weights.push_back(graph.arc_weights[at(arc)]);
+            part.arc_weights.push_back(graph.arc_weights[arc]);
         }
         part.offsets.push_back(static_cast<Index>(part.targets.size()));
     }

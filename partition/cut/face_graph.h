@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
@@ -25,6 +26,13 @@ struct FaceGraph {
     std::vector<Index> node_weights;
 
     [[nodiscard]] Index n_nodes() const { return static_cast<Index>(offsets.size()) - 1; }
+
+    /// The nodes that the arcs of a node lead to.
+    [[nodiscard]] std::span<const Index> neighbours(Index node) const
+    {
+        const std::size_t begin = at(offsets[node]);
+        return std::span<const Index>(targets).subspan(begin, at(offsets[node + 1]) - begin);
+    }
 };
 
 /// Neither the arc weights nor the node weights of a graph add up to more than this.
@@ -42,16 +50,11 @@ enum class ArcMeasure {
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
                           ArcMeasure measure, const Loop& loop = run_serially);
 
-/// The connected components of a graph: for every node one from 0 to count - 1, numbered by their lowest nodes.
-struct GraphComponents {
-    std::vector<Index> component_of;
-    Index count = 0;
-};
+/// The connected components of a graph.
+Components graph_components(const FaceGraph& graph);
 
-GraphComponents graph_components(const FaceGraph& graph);
-
-/// Takes a graph apart, arcs between parts left out. The nodes of each part keep their order.
+/// The subgraphs of the parts of a graph, without the arcs between parts. The nodes of each part keep their order.
 /// @param part_of #nodes, from 0 to n_parts - 1.
-std::vector<FaceGraph> take_apart(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts);
+std::vector<FaceGraph> induced_subgraphs(const FaceGraph& graph, std::span<const Index> part_of, Index n_parts);
 
 }  // namespace seamflow

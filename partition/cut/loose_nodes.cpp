@@ -5,61 +5,38 @@
 #include <map>
 
 #include "partition/index.h"
-#include "partition/index_lists.h"
 
 namespace seamflow {
 
 namespace {
 
-/// The connected pieces of all parts.
-struct Pieces {
-    IndexLists nodes;
-    /// #nodes: the piece of every node.
-    std::vector<Index> piece_of;
-    /// One entry per piece.
-    std::vector<std::int64_t> weight;
-};
-
-Pieces find_pieces(const FaceGraph& graph, const std::vector<Index>& labels)
+/// The connected components of all parts.
+Components components_of_parts(const FaceGraph& graph, const std::vector<Index>& labels)
 {
-    Pieces pieces;
-    pieces.piece_of.assign(labels.size(), -1);
-    auto& reached = pieces.nodes.values;
-    const auto reach = [&](Index node) {
-        pieces.piece_of[at(node)] = pieces.nodes.size();
-        pieces.weight.back() += graph.node_weights[at(node)];
-        reached.push_back(node);
-    };
-    for (Index start = 0; start < graph.n_nodes(); ++start) {
-        if (pieces.piece_of[at(start)] >= 0)
-            continue;
-        pieces.weight.push_back(0);
-        reach(start);
-        for (std::size_t i = at(pieces.nodes.offsets.back()); i < reached.size(); ++i) {
-            const auto node = at(reached[i]);
-            for (Index arc = graph.offsets[node]; arc < graph.offsets[node + 1]; ++arc)
-                if (const Index target = graph.targets[at(arc)];
-                    pieces.piece_of[at(target)] < 0 && labels[at(target)] == labels[at(start)])
-                    reach(target);
-        }
-        pieces.nodes.close();
-    }
-    return pieces;
+    return connected_components(graph.n_nodes(), [&](Index node, auto&& visit) {
+        for (const Index neighbour : graph.neighbours(node))
+            if (labels[neighbour] == labels[node])
+                visit(neighbour);
+    });
 }
 
-/// One entry per piece: whether it is the heaviest of its part.
-std::vector<bool> find_heaviest(const Pieces& pieces, Index n_labels, const std::vector<Index>& labels)
+/// One entry per component: whether it is the heaviest of its part.
+std::vector<bool> find_heaviest(const FaceGraph& graph, const Components& components, Index n_labels,
+                                const std::vector<Index>& labels)
 {
-    const auto label_of = [&](Index piece) { return labels[at(pieces.nodes[piece].front())]; };
-    std::vector<Index> heaviest(at(n_labels), -1);
-    for (Index piece = 0; piece < pieces.nodes.size(); ++piece) {
-        Index& best = heaviest[at(label_of(piece))];
-        if (best < 0 || pieces.weight[at(piece)] > pieces.weight[at(best)])
-            best = piece;
+    std::vector<std::int64_t> weight(components.count(), 0);
+    for (Index node = 0; node < graph.n_nodes(); ++node)
+        weight[components.component_of[node]] += graph.node_weights[node];
+    const auto label_of = [&](Index component) { return labels[components.nodes[component].front()]; };
+    std::vector<Index> heaviest(n_labels, -1);
+    for (Index component = 0; component < components.count(); ++component) {
+        Index& best = heaviest[label_of(component)];
+        if (best < 0 || weight[component] > weight[best])
+            best = component;
     }
-    std::vector<bool> is_heaviest(pieces.weight.size());
-    for (Index piece = 0; piece < pieces.nodes.size(); ++piece)
-        is_heaviest[at(piece)] = heaviest[at(label_of(piece))] == piece;
+    std::vector<bool> is_heaviest(weight.size());
+    for (Index component = 0; component < components.count(); ++component)
+        is_heaviest[component] = heaviest[label_of(component)] == component;
     return is_heaviest;
 }
 
@@ -67,26 +44,26 @@ std::vector<bool> find_heaviest(const Pieces& pieces, Index n_labels, const std:
 
 bool join_loose_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
 {
-    const Pieces pieces = find_pieces(graph, labels);
-    std::vector<bool> settled = find_heaviest(pieces, n_labels, labels);
+    const Components components = components_of_parts(graph, labels);
+    std::vector<bool> settled = find_heaviest(graph, components, n_labels, labels);
     std::vector<Index> loose;
-    for (Index piece = 0; piece < pieces.nodes.size(); ++piece)
-        if (!settled[at(piece)])
-            loose.push_back(piece);
-    // A piece with none but loose ones around it waits for them.
-    const auto join = [&](Index piece) {
+    for (Index component = 0; component < components.count(); ++component)
+        if (!settled[component])
+            loose.push_back(component);
+    // A component with none but loose ones around it waits for them.
+    const auto join = [&](Index component) {
         std::map<Index, std::int64_t> shared;
-        for (const Index node : pieces.nodes[piece])
-            for (Index arc = graph.offsets[at(node)]; arc < graph.offsets[at(node) + 1]; ++arc)
-                if (const Index target = graph.targets[at(arc)]; settled[at(pieces.piece_of[at(target)])])
-                    shared[labels[at(target)]] += graph.arc_weights[at(arc)];
+        for (const Index node : components.nodes[component])
+            for (Index arc = graph.offsets[node]; arc < graph.offsets[node + 1]; ++arc)
+                if (const Index target = graph.targets[arc]; settled[components.component_of[target]])
+                    shared[labels[target]] += graph.arc_weights[arc];
         if (shared.empty())
             return false;
         const auto best = std::max_element(shared.begin(), shared.end(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
-        for (const Index node : pieces.nodes[piece])
-            labels[at(node)] = best->first;
-        settled[at(piece)] = true;
+        for (const Index node : components.nodes[component])
+            labels[node] = best->first;
+        settled[component] = true;
         return true;
     };
     const bool any = !loose.empty();

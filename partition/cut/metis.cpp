@@ -85,7 +85,7 @@ std::vector<real_t> target_weights(std::span<const Index> shares)
 
 std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> shares, Afterwards afterwards)
 {
-    std::vector<idx_t> labels(at(graph.n_nodes()), 0);
+    std::vector<idx_t> labels(graph.n_nodes(), 0);
     auto n_parts = static_cast<idx_t>(std::min(shares.size(), labels.size()));
     if (n_parts > 1) {
         const std::lock_guard lock(metis_mutex());
@@ -94,7 +94,7 @@ std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> sh
             graph.n_nodes() / n_parts >=
             (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);
         // METIS refuses to make connected parts of other graphs.
-        auto settings = options(k_way && graph_components(graph).count == 1);
+        auto settings = options(k_way && graph_components(graph).count() == 1);
         if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
             settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
         auto offsets = copy(graph.offsets);

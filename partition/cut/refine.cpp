@@ -20,11 +20,11 @@ class Refiner {
     Refiner(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
         : graph_(graph)
         , labels_(labels)
-        , weight_(at(n_labels), 0)
-        , shared_(at(n_labels), 0)
+        , weight_(n_labels, 0)
+        , shared_(n_labels, 0)
     {
         for (std::size_t node = 0; node < labels.size(); ++node)
-            weight_[at(labels[node])] += graph.node_weights[node];
+            weight_[labels[node]] += graph.node_weights[node];
         const double mean =
             static_cast<double>(std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0})) / n_labels;
         heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
@@ -34,39 +34,38 @@ class Refiner {
     /// @returns whether the node changed its label.
     bool improve(Index node)
     {
-        const Index own = labels_[at(node)];
+        const Index own = labels_[node];
         candidates_.assign(1, own);
-        for (Index arc = graph_.offsets[at(node)]; arc < graph_.offsets[at(node) + 1]; ++arc) {
-            const Index label = labels_[at(graph_.targets[at(arc)])];
-            if (shared_[at(label)] == 0 && label != own)
+        for (Index arc = graph_.offsets[node]; arc < graph_.offsets[node + 1]; ++arc) {
+            const Index label = labels_[graph_.targets[arc]];
+            if (shared_[label] == 0 && label != own)
                 candidates_.push_back(label);
-            shared_[at(label)] += graph_.arc_weights[at(arc)];
+            shared_[label] += graph_.arc_weights[arc];
         }
         Index best = own;
-        if (shared_[at(own)] > 0)
+        if (shared_[own] > 0)
             for (const Index label : candidates_)
                 if (is_better(node, label, best))
                     best = label;
         for (const Index label : candidates_)
-            shared_[at(label)] = 0;
-        weight_[at(own)] -= graph_.node_weights[at(node)];
-        weight_[at(best)] += graph_.node_weights[at(node)];
-        labels_[at(node)] = best;
+            shared_[label] = 0;
+        weight_[own] -= graph_.node_weights[node];
+        weight_[best] += graph_.node_weights[node];
+        labels_[node] = best;
         return best != own;
     }
 
   private:
     [[nodiscard]] bool is_better(Index node, Index label, Index other) const
     {
-        const Index own = labels_[at(node)];
+        const Index own = labels_[node];
         if (label == own)
             return false;
-        const Index weight = graph_.node_weights[at(node)];
-        if (weight_[at(label)] + weight < weight_[at(own)] &&
-            (weight_[at(own)] > heaviest_ || weight_[at(label)] < lightest_))
-            return other == own || shared_[at(label)] > shared_[at(other)];
-        return weight_[at(label)] + weight <= heaviest_ && weight_[at(own)] - weight >= lightest_ &&
-               shared_[at(label)] > shared_[at(other)];
+        const Index weight = graph_.node_weights[node];
+        if (weight_[label] + weight < weight_[own] && (weight_[own] > heaviest_ || weight_[label] < lightest_))
+            return other == own || shared_[label] > shared_[other];
+        return weight_[label] + weight <= heaviest_ && weight_[own] - weight >= lightest_ &&
+               shared_[label] > shared_[other];
     }
 
     const FaceGraph& graph_;

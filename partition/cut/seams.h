@@ -2,19 +2,12 @@
 
 #include <vector>
 
-#include "partition/cut/doubts.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
+#include "partition/repair/repair.h"
 #include "partition/topology.h"
 
 namespace seamflow {
-
-/// Whether faces at v have different labels.
-bool is_mixed(const Topology& topology, const std::vector<Index>& labels, Index v);
-
-/// The vertices whose faces have different labels, ascending.
-std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<Index>& labels,
-                                  const Loop& loop = run_serially);
 
 /// Shortens the seams between parts, which at first follow the outlines of clusters: face by face, each goes to the
 /// part across most of its edges if fewer edges are cut then, or as many and the two parts differ less in weight (see
@@ -23,7 +16,7 @@ std::vector<Index> mixed_vertices(const Topology& topology, const std::vector<In
 /// repair).
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
 /// @returns where defects may be now if all parts were connected before.
-Doubts shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
-                     const Loop& loop = run_serially);
+SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
+                               std::vector<Index>& labels, const Loop& loop = run_serially);
 
 }  // namespace seamflow

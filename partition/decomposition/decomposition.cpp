@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "partition/decomposition/local_mesh.h"
+#include "partition/labels.h"
 
 namespace seamflow {
 
@@ -17,14 +18,14 @@ class Copies {
     /// Number of vertices on Γ.
     [[nodiscard]] Index n_interface_vertices() const { return sub_meshes_.size(); }
 
-    [[nodiscard]] bool is_on_interface(Index v) const { return number_[at(v)] >= 0; }
+    [[nodiscard]] bool is_on_interface(Index v) const { return number_[v] >= 0; }
 
     /// The sub-meshes at a vertex of Γ, ascending, and its local index in each.
-    [[nodiscard]] std::span<const Index> sub_meshes(Index v) const { return sub_meshes_[number_[at(v)]]; }
-    [[nodiscard]] std::span<const Index> local_indices(Index v) const { return local_indices_[number_[at(v)]]; }
+    [[nodiscard]] std::span<const Index> sub_meshes(Index v) const { return sub_meshes_[number_[v]]; }
+    [[nodiscard]] std::span<const Index> local_indices(Index v) const { return local_indices_[number_[v]]; }
 
     /// The local index in the sub-mesh that owns v, which must be movable.
-    [[nodiscard]] Index owned_index(Index v) const { return owned_index_[at(v)]; }
+    [[nodiscard]] Index owned_index(Index v) const { return owned_index_[v]; }
 
   private:
     /// #V: the position on Γ, or -1.
@@ -36,18 +37,17 @@ class Copies {
 
 Copies::Copies(const std::vector<SubMesh>& sub_meshes, Index n_vertices, const Loop& loop)
 {
-    for_each(loop, 2,
-             [&](Index one_of_both) { (one_of_both == 0 ? number_ : owned_index_).assign(at(n_vertices), -1); });
+    for_each(loop, 2, [&](Index one_of_both) { (one_of_both == 0 ? number_ : owned_index_).assign(n_vertices, -1); });
     for_each(loop, static_cast<Index>(sub_meshes.size()), [&](Index s) {
-        const SubMesh& sub_mesh = sub_meshes[at(s)];
+        const SubMesh& sub_mesh = sub_meshes[s];
         for (Index i = 0; i < sub_mesh.n_vertices; ++i)
-            if (sub_mesh.owned[at(i)] != 0)
-                owned_index_[at(sub_mesh.local_to_global[at(i)])] = i;
+            if (sub_mesh.owned[i] != 0)
+                owned_index_[sub_mesh.local_to_global[i]] = i;
     });
     const auto for_each_copy = [&](const auto& visit) {
         for (std::size_t s = 0; s < sub_meshes.size(); ++s)
             for (const Index i : sub_meshes[s].interface.vertices)
-                visit(static_cast<Index>(s), i, number_[at(sub_meshes[s].local_to_global[at(i)])]);
+                visit(static_cast<Index>(s), i, number_[sub_meshes[s].local_to_global[i]]);
     };
     std::vector<Index> counts;
     for_each_copy([&](Index, Index, Index& number) {
@@ -55,27 +55,27 @@ Copies::Copies(const std::vector<SubMesh>& sub_meshes, Index n_vertices, const L
             number = static_cast<Index>(counts.size());
             counts.push_back(0);
         }
-        ++counts[at(number)];
+        ++counts[number];
     });
     for (const Index count : counts)
         sub_meshes_.offsets.push_back(sub_meshes_.offsets.back() + count);
     std::vector<Index> next(sub_meshes_.offsets.begin(), sub_meshes_.offsets.end() - 1);
     local_indices_.offsets = sub_meshes_.offsets;
-    sub_meshes_.values.resize(at(sub_meshes_.offsets.back()));
+    sub_meshes_.values.resize(sub_meshes_.offsets.back());
     local_indices_.values.resize(sub_meshes_.values.size());
     for_each_copy([&](Index s, Index i, Index number) {
-        sub_meshes_.values[at(next[at(number)])] = s;
-        local_indices_.values[at(next[at(number)]++)] = i;
+        sub_meshes_.values[next[number]] = s;
+        local_indices_.values[next[number]++] = i;
     });
 }
 
 void list_sharing(const Copies& copies, Index s, Decomposition& decomposition)
 {
-    SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+    SubMesh& sub_mesh = decomposition.sub_meshes[s];
     auto& interface = sub_mesh.interface;
-    auto& adjacent = decomposition.adjacency[at(s)];
+    auto& adjacent = decomposition.adjacency[s];
     for (const Index i : interface.vertices) {
-        const Index v = sub_mesh.local_to_global[at(i)];
+        const Index v = sub_mesh.local_to_global[i];
         const auto sharing = copies.sub_meshes(v);
         const auto indices = copies.local_indices(v);
         interface.sharing.values.insert(interface.sharing.values.end(), sharing.begin(), sharing.end());
@@ -94,25 +94,24 @@ void list_sharing(const Copies& copies, Index s, Decomposition& decomposition)
 std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<const Index> labels, const Copies& copies,
                                           Index s, const Decomposition& decomposition)
 {
-    const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
-    const auto& adjacent = decomposition.adjacency[at(s)];
+    const SubMesh& sub_mesh = decomposition.sub_meshes[s];
+    const auto& adjacent = decomposition.adjacency[s];
     const auto is_adjacent = [&](Index t) { return std::binary_search(adjacent.begin(), adjacent.end(), t); };
     std::vector<TransferRow> rows;
-    rows.reserve(at(sub_mesh.n_halo));
+    rows.reserve(sub_mesh.n_halo);
     std::vector<Index> around;
     for (Index i = sub_mesh.n_vertices; i < sub_mesh.n_vertices + sub_mesh.n_halo; ++i) {
-        const Index v = sub_mesh.local_to_global[at(i)];
+        const Index v = sub_mesh.local_to_global[i];
         if (copies.is_on_interface(v)) {
             const auto sharing = copies.sub_meshes(v);
             const auto sender = std::find_if(sharing.begin(), sharing.end(), is_adjacent);
             rows.push_back({*sender, copies.local_indices(v)[static_cast<std::size_t>(sender - sharing.begin())], i});
         } else if (copies.owned_index(v) >= 0) {
-            rows.push_back(
-                {labels[at(topology.face_of[at(topology.corners_at(v).front())])], copies.owned_index(v), i});
+            rows.push_back({labels[topology.face_of[topology.corners_at(v).front()]], copies.owned_index(v), i});
         } else {
-            labels_at(topology, labels, v, around);
+            labels_around(topology, labels, v, around);
             const auto sender = std::find_if(around.begin(), around.end(), is_adjacent);
-            rows.push_back({*sender, local_index(decomposition.sub_meshes[at(*sender)], v), i});
+            rows.push_back({*sender, local_index(decomposition.sub_meshes[*sender], v), i});
         }
     }
     return transfers_to(s, rows);
@@ -126,11 +125,11 @@ IndexLists sorted_by_label(std::span<const Index> labels, Index n_parts, IndexRa
     // Where those of each label begin stands one further, and moves on to where they end.
     offsets.assign(at(n_parts) + 2, 0);
     for (Index f = range.begin; f < range.end; ++f)
-        ++offsets[at(labels[at(f)]) + 2];
+        ++offsets[labels[f] + 2];
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    values.resize(at(offsets.back()));
+    values.resize(offsets.back());
     for (Index f = range.begin; f < range.end; ++f)
-        values[at(offsets[at(labels[at(f)]) + 1]++)] = f;
+        values[offsets[labels[f] + 1]++] = f;
     offsets.pop_back();
     return faces;
 }
@@ -142,15 +141,15 @@ std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, In
     const std::vector<IndexRange> ranges = long_ranges(static_cast<Index>(labels.size()), n_parts);
     std::vector<IndexLists> of_range(ranges.size());
     for_each(loop, static_cast<Index>(ranges.size()),
-             [&](Index r) { of_range[at(r)] = sorted_by_label(labels, n_parts, ranges[at(r)]); });
-    std::vector<std::vector<Index>> faces(at(n_parts));
+             [&](Index r) { of_range[r] = sorted_by_label(labels, n_parts, ranges[r]); });
+    std::vector<std::vector<Index>> faces(n_parts);
     for_each(loop, n_parts, [&](Index s) {
         std::size_t count = 0;
         for (const IndexLists& lists : of_range)
             count += lists[s].size();
-        faces[at(s)].reserve(count);
+        faces[s].reserve(count);
         for (const IndexLists& lists : of_range)
-            faces[at(s)].insert(faces[at(s)].end(), lists[s].begin(), lists[s].end());
+            faces[s].insert(faces[s].end(), lists[s].begin(), lists[s].end());
     });
     return faces;
 }
@@ -163,11 +162,11 @@ Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
     const auto n = static_cast<Index>(decomposition.sub_meshes.size());
     const Copies copies(decomposition.sub_meshes, static_cast<Index>(topology.kind.size()), loop);
     decomposition.n_interface_vertices = copies.n_interface_vertices();
-    decomposition.adjacency.resize(at(n));
-    decomposition.halo.resize(at(n));
+    decomposition.adjacency.resize(n);
+    decomposition.halo.resize(n);
     for_each(loop, n, [&](Index s) {
         list_sharing(copies, s, decomposition);
-        decomposition.halo[at(s)] = list_halo_transfers(topology, labels, copies, s, decomposition);
+        decomposition.halo[s] = list_halo_transfers(topology, labels, copies, s, decomposition);
     });
     return decomposition;
 }
@@ -178,7 +177,7 @@ Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::
     auto faces = faces_by_label(labels, n_parts, loop);
     std::vector<SubMesh> sub_meshes(faces.size());
     for_each(loop, n_parts,
-             [&](Index s) { sub_meshes[at(s)] = make_sub_mesh(mesh, topology, labels, std::move(faces[at(s)])); });
+             [&](Index s) { sub_meshes[s] = make_sub_mesh(mesh, topology, labels, std::move(faces[s])); });
     return connect(std::move(sub_meshes), topology, labels, loop);
 }
 

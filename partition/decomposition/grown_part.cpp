@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "partition/decomposition/local_mesh.h"
+#include "partition/labels.h"
 
 namespace seamflow {
 
@@ -31,12 +32,12 @@ GrownPart make_grown_part(const PolygonMesh& mesh, const Topology& topology, con
     const Overlap beyond{overlap.labels, overlap.rank, reach};
     SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, beyond, s, std::move(grown)));
     part.sub_mesh = std::move(draft.sub_mesh);
-    part.sub_mesh.owned.assign(at(part.sub_mesh.n_vertices), 0);
+    part.sub_mesh.owned.assign(part.sub_mesh.n_vertices, 0);
     std::vector<Index> labels;
     for (Index& v : part.unknowns) {
-        labels_at(topology, overlap.labels, v, labels);
+        labels_around(topology, overlap.labels, v, labels);
         v = draft.vertices[v];
-        part.sub_mesh.owned[at(v)] = labels.front() == s ? 1 : 0;
+        part.sub_mesh.owned[v] = labels.front() == s ? 1 : 0;
     }
     return part;
 }

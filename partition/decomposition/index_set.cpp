@@ -40,7 +40,7 @@ void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
         word.before = n;
         n += count(word.bits);
     }
-    ascending_.reserve(at(n));
+    ascending_.reserve(n);
     for (std::size_t word = 0; word < words_.size(); ++word)
         for (std::uint64_t left = words_[word].bits; left != 0; left &= left - 1)
             ascending_.push_back(first_ + static_cast<Index>(word * bits_per_word) + std::countr_zero(left));

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "partition/labels.h"
+
 namespace seamflow {
 
 namespace {
@@ -16,7 +18,7 @@ void copy_vertices(const PolygonMesh& mesh, SubMeshDraft& draft)
     offsets.reserve(sub_mesh.faces.size() + 1);
     for (const Index f : sub_mesh.faces)
         offsets.push_back(offsets.back() + static_cast<Index>(mesh.face(f).size()));
-    corners.reserve(at(offsets.back()));
+    corners.reserve(offsets.back());
     for (const Index f : sub_mesh.faces)
         for (const Index v : mesh.face(f))
             corners.push_back(v);
@@ -34,17 +36,17 @@ void copy_twins(const PolygonMesh& mesh, const Topology& topology, SubMeshDraft&
     sub_mesh.twin.assign(sub_mesh.face_vertices.values.size(), -1);
     Index own = 0;
     for (const Index f : sub_mesh.faces)
-        for (Index h = mesh.face_offsets[at(f)]; h < mesh.face_offsets[at(f) + 1]; ++h, ++own) {
-            const Index twin = topology.twin[at(h)];
+        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h, ++own) {
+            const Index twin = topology.twin[h];
             if (twin < h)
                 continue;
-            const Index other_face = topology.face_of[at(twin)];
+            const Index other_face = topology.face_of[twin];
             const Index face = draft.faces[other_face];
             if (face < 0)
                 continue;
-            const Index other = sub_mesh.face_vertices.offsets[at(face)] + twin - mesh.face_offsets[at(other_face)];
-            sub_mesh.twin[at(own)] = other;
-            sub_mesh.twin[at(other)] = own;
+            const Index other = sub_mesh.face_vertices.offsets[face] + twin - mesh.face_offsets[other_face];
+            sub_mesh.twin[own] = other;
+            sub_mesh.twin[other] = own;
         }
 }
 
@@ -71,29 +73,15 @@ Index position_in(std::span<const Index> ascending, Index value)
 
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v)
 {
-    if (!topology.moves(v))
-        return false;
-    const auto corners = topology.corners_at(v);
-    const auto label_of = [&](Index corner) { return labels[at(topology.face_of[at(corner)])]; };
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](Index corner) { return label_of(corner) != label_of(corners.front()); });
-}
-
-void labels_at(const Topology& topology, std::span<const Index> labels, Index v, std::vector<Index>& found)
-{
-    found.clear();
-    for (const Index corner : topology.corners_at(v))
-        if (const Index label = labels[at(topology.face_of[at(corner)])]; found.empty() || found.back() != label)
-            found.push_back(label);
-    sort_unique(found);
+    return topology.moves(v) && is_mixed(topology, labels, v);
 }
 
 void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours)
 {
     neighbours.clear();
     for (const Index corner : topology.corners_at(v)) {
-        neighbours.push_back(mesh.face_vertices[at(topology.next(mesh, corner))]);
-        neighbours.push_back(mesh.face_vertices[at(topology.previous(mesh, corner))]);
+        neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
+        neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
     }
     sort_unique(neighbours);
 }

@@ -21,9 +21,6 @@ Index position_in(std::span<const Index> ascending, Index value);
 /// Whether vertex v may move and has faces of several labels: whether it lies on Γ.
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v);
 
-/// Lists the labels of the faces around a vertex, ascending.
-void labels_at(const Topology& topology, std::span<const Index> labels, Index v, std::vector<Index>& found);
-
 /// Lists the vertices at the other ends of the edges at v, in ascending order.
 void edge_neighbours(const PolygonMesh& mesh, const Topology& topology, Index v, std::vector<Index>& neighbours);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "partition/connected_components.h"
+
 namespace seamflow {
 
 namespace {
@@ -19,23 +21,22 @@ class BreadthFirst {
     std::vector<Index> walk(Index start)
     {
         ++n_walks_;
-        std::vector<Index> order{start};
-        reached_in_[at(start)] = n_walks_;
-        for (std::size_t i = 0; i < order.size(); ++i) {
+        std::vector<Index> order;
+        reached_in_[start] = n_walks_;
+        append_reachable(start, order, [&](Index vertex, auto&& reach) {
             const auto first_new = static_cast<std::ptrdiff_t>(order.size());
-            for (const Index neighbour : (*adjacency_)[at(order[i])])
-                if (reached_in_[at(neighbour)] != n_walks_) {
-                    reached_in_[at(neighbour)] = n_walks_;
-                    order.push_back(neighbour);
+            for (const Index neighbour : (*adjacency_)[vertex])
+                if (reached_in_[neighbour] != n_walks_) {
+                    reached_in_[neighbour] = n_walks_;
+                    reach(neighbour);
                 }
-            std::stable_sort(order.begin() + first_new, order.end(), [&](Index a, Index b) {
-                return (*adjacency_)[at(a)].size() < (*adjacency_)[at(b)].size();
-            });
-        }
+            std::stable_sort(order.begin() + first_new, order.end(),
+                             [&](Index a, Index b) { return (*adjacency_)[a].size() < (*adjacency_)[b].size(); });
+        });
         return order;
     }
 
-    [[nodiscard]] bool was_reached(Index vertex) const { return reached_in_[at(vertex)] != 0; }
+    [[nodiscard]] bool was_reached(Index vertex) const { return reached_in_[vertex] != 0; }
 
   private:
     const std::vector<std::vector<Index>>* adjacency_;

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "partition/decomposition/local_mesh.h"
+#include "partition/labels.h"
 
 namespace seamflow {
 
@@ -17,9 +18,9 @@ std::vector<Index> next_layer(const PolygonMesh& mesh, const Topology& topology,
     for (const Index of_front : front)
         for (const Index v : mesh.face(of_front))
             for (const Index corner : topology.corners_at(v)) {
-                const Index f = topology.face_of[at(corner)];
-                const Index part = overlap.labels[at(f)];
-                if (part != s && overlap.rank[at(part)] >= overlap.rank[at(s)] && position_in(faces, f) < 0)
+                const Index f = topology.face_of[corner];
+                const Index part = overlap.labels[f];
+                if (part != s && overlap.rank[part] >= overlap.rank[s] && position_in(faces, f) < 0)
                     layer.push_back(f);
             }
     sort_unique(layer);
@@ -30,7 +31,7 @@ bool is_artificial_boundary(const Topology& topology, const SubMesh& sub_mesh, I
 {
     const auto corners = topology.corners_at(v);
     return topology.moves(v) && std::any_of(corners.begin(), corners.end(), [&](Index c) {
-               return position_in(sub_mesh.faces, topology.face_of[at(c)]) < 0;
+               return position_in(sub_mesh.faces, topology.face_of[c]) < 0;
            });
 }
 
@@ -38,7 +39,7 @@ void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
 {
     auto& interface = sub_mesh.interface;
     for (Index i = 0; i < sub_mesh.n_vertices; ++i) {
-        if (!is_artificial_boundary(topology, sub_mesh, sub_mesh.local_to_global[at(i)]))
+        if (!is_artificial_boundary(topology, sub_mesh, sub_mesh.local_to_global[i]))
             continue;
         interface.vertices.push_back(i);
         interface.before.push_back(-1);
@@ -66,11 +67,11 @@ void list_sharing(const Topology& topology, const Overlap& overlap, std::span<co
     auto& interface = sub_mesh.interface;
     std::vector<Index> parts;
     for (const Index i : interface.vertices) {
-        const Index v = sub_mesh.local_to_global[at(i)];
-        labels_at(topology, overlap.labels, v, parts);
+        const Index v = sub_mesh.local_to_global[i];
+        labels_around(topology, overlap.labels, v, parts);
         for (const Index part : parts) {
             interface.sharing.values.push_back(part);
-            interface.index_in_sharing.values.push_back(local_index(sub_meshes[at(part)], v));
+            interface.index_in_sharing.values.push_back(local_index(sub_meshes[part], v));
         }
         interface.sharing.close();
         interface.index_in_sharing.close();
@@ -80,13 +81,11 @@ void list_sharing(const Topology& topology, const Overlap& overlap, std::span<co
 /// Marks the vertices for which a sub-mesh speaks: those that may move and whose lowest label is its own.
 void mark_owned(const Topology& topology, std::span<const Index> labels, Index own, SubMesh& sub_mesh)
 {
-    sub_mesh.owned.resize(at(sub_mesh.n_vertices));
+    sub_mesh.owned.resize(sub_mesh.n_vertices);
+    std::vector<Index> parts;
     for (Index i = 0; i < sub_mesh.n_vertices; ++i) {
-        const auto corners = topology.corners_at(sub_mesh.local_to_global[at(i)]);
-        Index lowest = labels[at(topology.face_of[at(corners.front())])];
-        for (const Index corner : corners)
-            lowest = std::min(lowest, labels[at(topology.face_of[at(corner)])]);
-        sub_mesh.owned[at(i)] = sub_mesh.fixed[at(i)] == 0 && lowest == own ? 1 : 0;
+        labels_around(topology, labels, sub_mesh.local_to_global[i], parts);
+        sub_mesh.owned[i] = sub_mesh.fixed[i] == 0 && parts.front() == own ? 1 : 0;
     }
 }
 
@@ -94,14 +93,14 @@ void mark_owned(const Topology& topology, std::span<const Index> labels, Index o
 std::vector<Transfer> list_halo_transfers(const Topology& topology, const Overlap& overlap, Index s,
                                           std::span<const SubMesh> sub_meshes)
 {
-    const auto& local_to_global = sub_meshes[at(s)].local_to_global;
+    const auto& local_to_global = sub_meshes[s].local_to_global;
     std::vector<TransferRow> rows;
     std::vector<Index> parts;
     for (std::size_t i = 0; i < local_to_global.size(); ++i) {
-        labels_at(topology, overlap.labels, local_to_global[i], parts);
+        labels_around(topology, overlap.labels, local_to_global[i], parts);
         if (!std::binary_search(parts.begin(), parts.end(), s))
             rows.push_back(
-                {parts.front(), local_index(sub_meshes[at(parts.front())], local_to_global[i]), static_cast<Index>(i)});
+                {parts.front(), local_index(sub_meshes[parts.front()], local_to_global[i]), static_cast<Index>(i)});
     }
     return transfers_to(s, rows);
 }
@@ -111,8 +110,8 @@ void list_adjacent(Decomposition& decomposition)
     decomposition.adjacency.resize(decomposition.halo.size());
     for (const auto& transfers : decomposition.halo)
         for (const Transfer& transfer : transfers) {
-            decomposition.adjacency[at(transfer.from)].push_back(transfer.to);
-            decomposition.adjacency[at(transfer.to)].push_back(transfer.from);
+            decomposition.adjacency[transfer.from].push_back(transfer.to);
+            decomposition.adjacency[transfer.to].push_back(transfer.from);
         }
     for (auto& adjacent : decomposition.adjacency)
         sort_unique(adjacent);
@@ -158,11 +157,11 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
 {
     Decomposition decomposition;
     for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s) {
-        SubMesh& sub_mesh = sub_meshes[at(s)];
+        SubMesh& sub_mesh = sub_meshes[s];
         list_sharing(topology, overlap, sub_meshes, sub_mesh);
         decomposition.halo.push_back(list_halo_transfers(topology, overlap, s, sub_meshes));
         for (const Index v : sub_mesh.seam.vertices)
-            decomposition.n_interface_vertices += sub_mesh.owned[at(v)];
+            decomposition.n_interface_vertices += sub_mesh.owned[v];
     }
     decomposition.sub_meshes = std::move(sub_meshes);
     list_adjacent(decomposition);
@@ -173,19 +172,19 @@ SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<c
 {
     SweepPlan plan = empty_plan({rank.begin(), rank.end()});
     for (Index s = 0; s < static_cast<Index>(rank.size()); ++s) {
-        const auto& interface = decomposition.sub_meshes[at(s)].interface;
-        plan.roles[at(s)].assign(interface.vertices.size(), InterfaceRole::Follows);
+        const auto& interface = decomposition.sub_meshes[s].interface;
+        plan.roles[s].assign(interface.vertices.size(), InterfaceRole::Follows);
         std::vector<TransferRow> rows;
         for (Index i = 0; i < interface.size(); ++i) {
             const auto parts = interface.sharing[i];
-            const auto first = std::min_element(parts.begin(), parts.end(),
-                                                [&](Index a, Index b) { return rank[at(a)] < rank[at(b)]; });
-            if (rank[at(*first)] >= rank[at(s)])
+            const auto first =
+                std::min_element(parts.begin(), parts.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
+            if (rank[*first] >= rank[s])
                 continue;
-            rows.push_back({*first, interface.index_in_sharing[i][at(static_cast<Index>(first - parts.begin()))],
-                            interface.vertices[at(i)]});
+            rows.push_back({*first, interface.index_in_sharing[i][static_cast<Index>(first - parts.begin())],
+                            interface.vertices[i]});
         }
-        plan.traces[at(s)] = transfers_to(s, rows);
+        plan.traces[s] = transfers_to(s, rows);
     }
     return plan;
 }

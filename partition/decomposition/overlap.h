@@ -8,9 +8,9 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
-/// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. 18 and 19), in any number. Each one
-/// is its own part of the cut, grown into parts of equal or higher rank. What it finds counts on its own part only, and
-/// where own parts meet, on Γ, that of the lowest rank there counts.
+/// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. 18 and 19), in any number. Each one is its
+/// own part of the cut, grown into parts of equal or higher rank. Its result is used on its own part only; where own
+/// parts meet, on Γ, the result of the lowest rank is used.
 namespace seamflow {
 
 /// How a cut is made to overlap.

@@ -18,20 +18,20 @@ struct Whole {
     /// The label of the sub-mesh.
     Index own;
 
-    [[nodiscard]] Index label_of(Index corner) const { return labels[at(topology.face_of[at(corner)])]; }
+    [[nodiscard]] Index label_of(Index corner) const { return labels[topology.face_of[corner]]; }
 };
 
 /// The local vertices that have faces of other sub-meshes too.
 std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh)
 {
-    std::vector<Index> n_others(at(sub_mesh.n_vertices));
+    std::vector<Index> n_others(sub_mesh.n_vertices);
     for (std::size_t i = 0; i < n_others.size(); ++i)
         n_others[i] = static_cast<Index>(topology.corners_at(sub_mesh.local_to_global[i]).size());
     for (const Index i : sub_mesh.face_vertices.values)
-        --n_others[at(i)];
+        --n_others[i];
     std::vector<Index> shared;
     for (Index i = 0; i < sub_mesh.n_vertices; ++i)
-        if (n_others[at(i)] > 0)
+        if (n_others[i] > 0)
             shared.push_back(i);
     return shared;
 }
@@ -39,13 +39,13 @@ std::vector<Index> list_shared(const Topology& topology, const SubMesh& sub_mesh
 /// The sub-mesh of the lowest label speaks for a vertex.
 void mark_owned(const Whole& whole, std::span<const Index> shared, SubMesh& sub_mesh)
 {
-    sub_mesh.owned.resize(at(sub_mesh.n_vertices));
+    sub_mesh.owned.resize(sub_mesh.n_vertices);
     for (std::size_t i = 0; i < sub_mesh.owned.size(); ++i)
         sub_mesh.owned[i] = sub_mesh.fixed[i] == 0 ? 1 : 0;
     for (const Index i : shared) {
-        const auto corners = whole.topology.corners_at(sub_mesh.local_to_global[at(i)]);
+        const auto corners = whole.topology.corners_at(sub_mesh.local_to_global[i]);
         if (std::any_of(corners.begin(), corners.end(), [&](Index c) { return whole.label_of(c) < whole.own; }))
-            sub_mesh.owned[at(i)] = 0;
+            sub_mesh.owned[i] = 0;
     }
 }
 
@@ -54,8 +54,8 @@ IndexSet list_halo_faces(const Whole& whole, const SubMesh& sub_mesh)
 {
     std::vector<Index> faces;
     for (const Index i : sub_mesh.interface.vertices)
-        for (const Index corner : whole.topology.corners_at(sub_mesh.local_to_global[at(i)]))
-            if (const Index f = whole.topology.face_of[at(corner)]; whole.labels[at(f)] != whole.own)
+        for (const Index corner : whole.topology.corners_at(sub_mesh.local_to_global[i]))
+            if (const Index f = whole.topology.face_of[corner]; whole.labels[f] != whole.own)
                 faces.push_back(f);
     return IndexSet(faces);
 }
@@ -88,8 +88,8 @@ void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, I
     interface.before.push_back(draft.vertices[first]);
     interface.after.push_back(draft.vertices[last]);
     for (const Index corner : corners) {
-        const Index f = whole.topology.face_of[at(corner)];
-        if (whole.labels[at(f)] == whole.own)
+        const Index f = whole.topology.face_of[corner];
+        if (whole.labels[f] == whole.own)
             interface.own_faces.values.push_back(draft.faces[f]);
         else
             interface.complement_faces.values.push_back(halo_faces[f]);
@@ -104,24 +104,24 @@ void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, I
 
 Index local_index(const SubMesh& sub_mesh, Index global_vertex)
 {
-    return position_in(std::span<const Index>(sub_mesh.local_to_global).first(at(sub_mesh.n_vertices)), global_vertex);
+    return position_in(std::span<const Index>(sub_mesh.local_to_global).first(sub_mesh.n_vertices), global_vertex);
 }
 
 SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
                       std::vector<Index> faces)
 {
-    const Whole whole{mesh, topology, labels, labels[at(faces.front())]};
+    const Whole whole{mesh, topology, labels, labels[faces.front()]};
     SubMeshDraft draft = copy_faces(mesh, topology, std::move(faces));
     SubMesh& sub_mesh = draft.sub_mesh;
     const auto shared = list_shared(topology, sub_mesh);
     mark_owned(whole, shared, sub_mesh);
     std::copy_if(shared.begin(), shared.end(), std::back_inserter(sub_mesh.interface.vertices),
-                 [&](Index i) { return sub_mesh.fixed[at(i)] == 0; });
+                 [&](Index i) { return sub_mesh.fixed[i] == 0; });
     const IndexSet halo_faces = list_halo_faces(whole, sub_mesh);
     localise_halo_faces(mesh, halo_faces.ascending(), draft);
     std::vector<Index> neighbours;
     for (const Index i : sub_mesh.interface.vertices)
-        describe_interface_vertex(whole, halo_faces, sub_mesh.local_to_global[at(i)], neighbours, draft);
+        describe_interface_vertex(whole, halo_faces, sub_mesh.local_to_global[i], neighbours, draft);
     auto& interface = sub_mesh.interface;
     for (auto* list : {&interface.vertices, &interface.before, &interface.after, &sub_mesh.seam.vertices})
         list->shrink_to_fit();

@@ -41,8 +41,8 @@ struct SubMeshSeam {
 };
 
 /// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
-/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ. Who needs the
-/// corners of the faces and their half-edges no more may empty `face_vertices` and `twin`.
+/// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ.
+/// `face_vertices` and `twin` may be emptied when they are no longer used.
 struct SubMesh {
     /// The faces, as indices into the whole mesh, in ascending order.
     std::vector<Index> faces;
@@ -57,8 +57,8 @@ struct SubMesh {
     std::vector<Index> twin;
     /// n_vertices: 1 where a vertex stays where it is (see Topology::fixed).
     std::vector<std::uint8_t> fixed;
-    /// n_vertices: 1 where this sub-mesh speaks for the vertex when the whole is put together; exactly one sub-mesh
-    /// does so for each vertex that may move.
+    /// n_vertices: 1 where this sub-mesh owns the vertex, which means that the whole mesh gets its position from here;
+    /// exactly one sub-mesh owns each vertex that may move.
     std::vector<std::uint8_t> owned;
     SubMeshInterface interface;
     SubMeshSeam seam;

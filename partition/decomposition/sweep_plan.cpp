@@ -12,34 +12,34 @@ namespace {
 std::size_t leader_among(std::span<const Index> sharing, const std::vector<Index>& rank)
 {
     const auto leader =
-        std::min_element(sharing.begin(), sharing.end(), [&](Index s, Index t) { return rank[at(s)] < rank[at(t)]; });
+        std::min_element(sharing.begin(), sharing.end(), [&](Index s, Index t) { return rank[s] < rank[t]; });
     return static_cast<std::size_t>(leader - sharing.begin());
 }
 
 void plan_sub_mesh(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
-    const auto& interface = decomposition.sub_meshes[at(s)].interface;
+    const auto& interface = decomposition.sub_meshes[s].interface;
     std::vector<TransferRow> rows;
-    plan.roles[at(s)].reserve(at(interface.size()));
+    plan.roles[s].reserve(interface.size());
     for (Index i = 0; i < interface.size(); ++i) {
         const std::size_t first = leader_among(interface.sharing[i], plan.rank);
         const Index leader = interface.sharing[i][first];
-        plan.roles[at(s)].push_back(leader == s ? InterfaceRole::Leads : InterfaceRole::Follows);
-        assert((leader == s || plan.rank[at(leader)] < plan.rank[at(s)]) && "adjacent sub-meshes have different ranks");
+        plan.roles[s].push_back(leader == s ? InterfaceRole::Leads : InterfaceRole::Follows);
+        assert((leader == s || plan.rank[leader] < plan.rank[s]) && "adjacent sub-meshes have different ranks");
         if (leader != s)
-            rows.push_back({leader, interface.index_in_sharing[i][first], interface.vertices[at(i)]});
+            rows.push_back({leader, interface.index_in_sharing[i][first], interface.vertices[i]});
     }
-    plan.traces[at(s)] = transfers_to(s, rows);
+    plan.traces[s] = transfers_to(s, rows);
 }
 
 /// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ, of which
 /// one has all faces of both.
 TransferRow sender_of(const Decomposition& decomposition, std::span<const Index> sharing, Index s, Index halo_vertex)
 {
-    const Index vertex = decomposition.sub_meshes[at(s)].local_to_global[at(halo_vertex)];
+    const Index vertex = decomposition.sub_meshes[s].local_to_global[halo_vertex];
     for (const Index t : sharing)
         if (t != s)
-            if (const Index local = local_index(decomposition.sub_meshes[at(t)], vertex); local >= 0)
+            if (const Index local = local_index(decomposition.sub_meshes[t], vertex); local >= 0)
                 return {t, local, halo_vertex};
     assert(false && "a face beyond Γ belongs to a sub-mesh with all its vertices");
     return {-1, -1, -1};
@@ -88,12 +88,12 @@ class LargeFaces {
 
 void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& plan)
 {
-    const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+    const SubMesh& sub_mesh = decomposition.sub_meshes[s];
     const auto& interface = sub_mesh.interface;
-    std::vector<TransferRow> senders(at(sub_mesh.n_halo), {-1, -1, -1});
+    std::vector<TransferRow> senders(sub_mesh.n_halo, {-1, -1, -1});
     LargeFaces large_faces(interface);
     for (Index i = 0; i < interface.size(); ++i) {
-        if (plan.roles[at(s)][at(i)] == InterfaceRole::Follows)
+        if (plan.roles[s][i] == InterfaceRole::Follows)
             continue;
         for (const Index f : interface.complement_faces[i]) {
             if (large_faces.has_been_seen_from_like(f, i))
@@ -101,8 +101,8 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
             for (const Index v : interface.halo_faces[f]) {
                 if (v < sub_mesh.n_vertices)
                     continue;
-                // The lowest of all, whichever vertex of Γ comes first: numbers of vertices decide nothing.
-                TransferRow& sender = senders[at(v - sub_mesh.n_vertices)];
+                // The lowest of all, so that the choice does not depend on how vertices are numbered.
+                TransferRow& sender = senders[v - sub_mesh.n_vertices];
                 if (sender.from >= 0 && sender.from <= lowest_but(s, interface.sharing[i]))
                     continue;
                 if (const TransferRow found = sender_of(decomposition, interface.sharing[i], s, v);
@@ -112,17 +112,17 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
         }
     }
     std::erase_if(senders, [](const TransferRow& row) { return row.from < 0; });
-    plan.predictions[at(s)] = transfers_to(s, senders);
+    plan.predictions[s] = transfers_to(s, senders);
 }
 
 std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
 {
-    const auto& interface = decomposition.sub_meshes[at(s)].interface;
+    const auto& interface = decomposition.sub_meshes[s].interface;
     std::vector<TransferRow> rows;
     for (Index i = 0; i < interface.size(); ++i)
         for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
             if (const Index t = interface.sharing[i][k]; t != s)
-                rows.push_back({t, interface.index_in_sharing[i][k], interface.vertices[at(i)]});
+                rows.push_back({t, interface.index_in_sharing[i][k], interface.vertices[i]});
     return transfers_to(s, rows);
 }
 
@@ -144,8 +144,8 @@ SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Inde
 {
     SweepPlan plan = empty_plan(std::move(rank));
     for_each(loop, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
-        plan.roles[at(s)].assign(at(decomposition.sub_meshes[at(s)].interface.size()), InterfaceRole::Leads);
-        plan.copies[at(s)] = list_copies(decomposition, s);
+        plan.roles[s].assign(decomposition.sub_meshes[s].interface.size(), InterfaceRole::Leads);
+        plan.copies[s] = list_copies(decomposition, s);
     });
     return plan;
 }

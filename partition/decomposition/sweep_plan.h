@@ -11,15 +11,15 @@ namespace seamflow {
 
 /// What a sub-mesh does at a vertex of Γ in a sweep.
 enum class InterfaceRole : std::uint8_t {
-    /// Its row is a transmission condition against the complement fan: it is the first to solve there, or everyone
-    /// keeps
-    /// a copy of its own.
+    /// Its row is a transmission condition against the complement fan: the sub-mesh is the first to solve there, or
+    /// every sub-mesh keeps its own copy.
     Leads,
     /// Another sub-mesh has solved there before: it takes over that Vᵏ⁺¹.
     Follows,
 };
 
-/// One pass over all sub-meshes, colour by colour: who leads where on Γ, and what crosses it after which colour.
+/// One pass over all sub-meshes, colour by colour: which sub-mesh leads at which vertices of Γ, and what crosses Γ
+/// after which colour.
 struct SweepPlan {
     /// #sub-meshes; a sub-mesh solves after all adjacent ones of lower rank. Adjacent sub-meshes have different ranks.
     std::vector<Index> rank;

@@ -15,7 +15,7 @@ std::vector<Transfer> transfers_to(Index to, std::span<const TransferRow> rows)
     std::vector<std::size_t> counts(senders.size(), 0);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         transfer_of[i] = position_in(senders, rows[i].from);
-        ++counts[at(transfer_of[i])];
+        ++counts[transfer_of[i]];
     }
     std::vector<Transfer> transfers(senders.size());
     for (std::size_t k = 0; k < senders.size(); ++k) {
@@ -25,7 +25,7 @@ std::vector<Transfer> transfers_to(Index to, std::span<const TransferRow> rows)
         transfers[k].target.reserve(counts[k]);
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        Transfer& transfer = transfers[at(transfer_of[i])];
+        Transfer& transfer = transfers[transfer_of[i]];
         transfer.source.push_back(rows[i].source);
         transfer.target.push_back(rows[i].target);
     }

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "partition/cut/components.h"
+#include "partition/connected_components.h"
 #include "partition/inspection/repeated_faces.h"
 #include "partition/vector_area.h"
 
@@ -22,8 +22,8 @@ struct Surface {
     const PolygonMesh& mesh;
     const Topology& topology;
 
-    [[nodiscard]] Index start(Index h) const { return mesh.face_vertices[at(h)]; }
-    [[nodiscard]] Index end(Index h) const { return mesh.face_vertices[at(topology.next(mesh, h))]; }
+    [[nodiscard]] Index start(Index h) const { return mesh.face_vertices[h]; }
+    [[nodiscard]] Index end(Index h) const { return mesh.face_vertices[topology.next(mesh, h)]; }
     [[nodiscard]] Edge edge(Index h) const { return {std::min(start(h), end(h)), std::max(start(h), end(h))}; }
     /// Whether both ends are somewhere.
     [[nodiscard]] bool is_finite(Index h) const
@@ -57,7 +57,7 @@ void count_sides(const PolygonMesh& mesh, MeshInspection& found)
 /// Half-edges without a twin are on edges of one face, or of three and more.
 void inspect_edges(const Surface& s, const Loop& loop, MeshInspection& found)
 {
-    const auto alone = select(loop, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[at(h)] < 0; });
+    const auto alone = select(loop, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[h] < 0; });
     std::vector<Edge> edges;
     for (const Index h : alone)
         edges.push_back(s.edge(h));
@@ -74,7 +74,7 @@ void inspect_edges(const Surface& s, const Loop& loop, MeshInspection& found)
     }
     found.edges = n_edges;
     found.inconsistent_edges = edges_where(s, loop, [&](Index h) {
-        const Index twin = s.topology.twin[at(h)];
+        const Index twin = s.topology.twin[h];
         return twin > h && s.start(h) == s.start(twin);
     });
     found.edges_without_length =
@@ -142,7 +142,7 @@ bool lacks_area(const PolygonMesh& mesh, Index f)
 template <class Before, class Same>
 std::vector<Index> repetitions(Index n, Before&& before, Same&& same)
 {
-    std::vector<Index> order(at(n));
+    std::vector<Index> order(n);
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](Index a, Index b) { return before(a, b) || (!before(b, a) && a < b); });
     std::vector<Index> repeated;
@@ -168,7 +168,7 @@ std::vector<Index> coincident_vertices(const Points& positions)
 
 std::vector<Index> duplicate_faces(const PolygonMesh& mesh)
 {
-    std::vector<Index> all(at(mesh.n_faces()));
+    std::vector<Index> all(mesh.n_faces());
     std::iota(all.begin(), all.end(), 0);
     std::vector<Index> duplicates;
     for (const RepeatedFace& repeated : find_repeated_faces(mesh, all))
@@ -179,43 +179,31 @@ std::vector<Index> duplicate_faces(const PolygonMesh& mesh)
 /// Turns faces, one after the other, so that they fit those before; whether all fit each other in the end.
 bool is_orientable(const Surface& s)
 {
-    std::vector<signed char> sense(at(s.mesh.n_faces()), 0);
-    std::vector<Index> queue;
-    for (Index root = 0; root < s.mesh.n_faces(); ++root) {
-        if (sense[at(root)] != 0)
+    std::vector<signed char> sense(s.mesh.n_faces(), 0);
+    std::vector<Index> reached;
+    bool all_fit = true;
+    for (Index root = 0; root < s.mesh.n_faces() && all_fit; ++root) {
+        if (sense[root] != 0)
             continue;
-        sense[at(root)] = 1;
-        queue.assign(1, root);
-        for (std::size_t i = 0; i < queue.size(); ++i) {
-            const Index f = queue[i];
-            for (Index h = s.mesh.face_offsets[at(f)]; h < s.mesh.face_offsets[at(f) + 1]; ++h) {
-                const Index twin = s.topology.twin[at(h)];
-                if (twin < 0)
-                    continue;
-                const Index other = s.topology.face_of[at(twin)];
-                const auto fitting =
-                    static_cast<signed char>(s.start(h) == s.start(twin) ? -sense[at(f)] : sense[at(f)]);
-                if (sense[at(other)] == 0) {
-                    sense[at(other)] = fitting;
-                    queue.push_back(other);
-                } else if (sense[at(other)] != fitting) {
-                    return false;
+        sense[root] = 1;
+        reached.clear();
+        append_reachable(root, reached, [&](Index f, auto&& reach) {
+            for_each_neighbour(s.mesh, s.topology, f, [&](Index h, Index other) {
+                const bool runs_back = s.start(h) != s.start(s.topology.twin[h]);
+                const auto fitting = static_cast<signed char>(runs_back ? sense[f] : -sense[f]);
+                if (sense[other] == 0) {
+                    sense[other] = fitting;
+                    reach(other);
+                } else if (sense[other] != fitting) {
+                    all_fit = false;
                 }
-            }
-        }
+            });
+        });
     }
-    return true;
+    return all_fit;
 }
 
 }  // namespace
-
-bool MeshInspection::has_findings() const
-{
-    return !orientable ||
-           !(vertices_not_finite.empty() && non_manifold_edges.empty() && non_manifold_vertices.empty() &&
-             inconsistent_edges.empty() && duplicate_faces.empty() && faces_without_area.empty() &&
-             edges_without_length.empty() && coincident_vertices.empty() && isolated_vertices.empty());
-}
 
 MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
 {
@@ -224,14 +212,14 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     found.vertices = mesh.n_vertices();
     found.faces = mesh.n_faces();
     count_sides(mesh, found);
-    found.components = face_components(mesh, topology).count;
+    found.components = face_components(mesh, topology).count();
     inspect_edges(surface, loop, found);
     measure_edges(surface, found);
     measure_box(mesh, found);
     found.vertices_not_finite =
         select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     const auto of_kind = [&](VertexKind kind) {
-        return select(loop, mesh.n_vertices(), [&](Index v) { return topology.kind[at(v)] == kind; });
+        return select(loop, mesh.n_vertices(), [&](Index v) { return topology.kind[v] == kind; });
     };
     found.non_manifold_vertices = of_kind(VertexKind::NonManifold);
     found.isolated_vertices = of_kind(VertexKind::Isolated);

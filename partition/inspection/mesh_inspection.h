@@ -55,9 +55,6 @@ struct MeshInspection {
     /// How many of the bits of a double are left for detail of the size of the mean edge at the distance from the
     /// origin at which the mesh lies; of 53. A file with floats keeps 29 fewer.
     int bits_for_detail = 53;
-
-    /// Whether any of the lists holds something, or the mesh cannot be oriented.
-    [[nodiscard]] bool has_findings() const;
 };
 
 /// Examines a mesh. Near to linear in its size.

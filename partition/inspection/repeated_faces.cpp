@@ -28,7 +28,7 @@ std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std
     std::vector<RepeatedFace> repeated;
     for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
         if (std::ranges::equal(vertices[order[first]], vertices[order[i]]))
-            repeated.push_back({candidates[at(order[i])], candidates[at(order[first])]});
+            repeated.push_back({candidates[order[i]], candidates[order[first]]});
         else
             first = i;
     }

@@ -49,7 +49,7 @@ CentreFans fans_around_centres(const PolygonMesh& mesh, const Points& positions)
             for (const Triangle& triangle : cut)
                 fans.triangles.add_face(triangle);
         }
-        fans.faces.resize(at(fans.triangles.n_faces()), f);
+        fans.faces.resize(fans.triangles.n_faces(), f);
     }
     fans.triangles.vertices.resize(positions.rows() + static_cast<Eigen::Index>(centres.size()), 3);
     fans.triangles.vertices.topRows(positions.rows()) = positions;

@@ -26,18 +26,17 @@ std::vector<double> angles(const PolygonMesh& triangles)
 {
     const Topology topology = make_topology(triangles);
     std::vector<Point> areas;
-    areas.reserve(at(triangles.n_faces()));
+    areas.reserve(triangles.n_faces());
     for (Index f = 0; f < triangles.n_faces(); ++f)
         areas.push_back(vector_area(triangles.face(f), triangles.vertices));
     std::vector<double> angles;
     for (Index h = 0; h < triangles.n_corners(); ++h) {
-        const Index twin = topology.twin[at(h)];
+        const Index twin = topology.twin[h];
         if (twin < h)
             continue;
         // Half-edges that run in the same direction belong to faces of opposite orientation.
-        const double sense = triangles.face_vertices[at(h)] == triangles.face_vertices[at(twin)] ? -1.0 : 1.0;
-        const double angle =
-            angle_between(areas[at(topology.face_of[at(h)])], sense * areas[at(topology.face_of[at(twin)])]);
+        const double sense = triangles.face_vertices[h] == triangles.face_vertices[twin] ? -1.0 : 1.0;
+        const double angle = angle_between(areas[topology.face_of[h]], sense * areas[topology.face_of[twin]]);
         if (!std::isnan(angle))
             angles.push_back(angle);
     }

@@ -35,7 +35,7 @@ Triangles triangles_of(const PolygonMesh& surface)
     if (surface.n_faces() == 0)
         throw InputError("there are no faces, and so no surface to measure distances from");
     Triangles triangles;
-    triangles.reserve(at(surface.n_corners()));
+    triangles.reserve(surface.n_corners());
     for (const Triangle& t : triangulate(surface))
         triangles.emplace_back(corner(surface.vertices, t[0]), corner(surface.vertices, t[1]),
                                corner(surface.vertices, t[2]));
@@ -138,7 +138,7 @@ LengthStatistics surface_distance(const PolygonMesh& from, const PolygonMesh& to
     std::vector<double> distances = SurfaceDistance(to)(from.vertices);
     std::vector<bool> used(distances.size(), false);
     for (const Index v : from.face_vertices)
-        used[at(v)] = true;
+        used[v] = true;
     for (std::size_t v = 0; v < distances.size(); ++v)
         if (!used[v])
             distances[v] = std::numeric_limits<double>::quiet_NaN();

@@ -9,13 +9,13 @@ namespace {
 bool is_oriented(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
 {
     const auto is_turned = [&](Index h) {
-        const Index twin = topology.twin[at(h)];
-        return twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)];
+        const Index twin = topology.twin[h];
+        return twin >= 0 && mesh.face_vertices[h] == mesh.face_vertices[twin];
     };
     std::vector<std::uint8_t> has_turned(at(mesh.n_corners() / block_size) + 1, 0);
     for_each_block(loop, mesh.n_corners(), [&](Index block, Index begin, Index end) {
-        for (Index h = begin; h < end && has_turned[at(block)] == 0; ++h)
-            has_turned[at(block)] = is_turned(h) ? 1 : 0;
+        for (Index h = begin; h < end && has_turned[block] == 0; ++h)
+            has_turned[block] = is_turned(h) ? 1 : 0;
     });
     return std::ranges::find(has_turned, 1) == has_turned.end();
 }
@@ -26,14 +26,14 @@ void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, st
 {
     Index shared = fan.first;
     for (const Index corner : fan.corners) {
-        const Index previous = mesh.face_vertices[at(topology.previous(mesh, corner))];
+        const Index previous = mesh.face_vertices[topology.previous(mesh, corner)];
         const bool along = previous == shared;
-        sense[at(corner)] = along ? 1 : -1;
-        shared = along ? mesh.face_vertices[at(topology.next(mesh, corner))] : previous;
+        sense[corner] = along ? 1 : -1;
+        shared = along ? mesh.face_vertices[topology.next(mesh, corner)] : previous;
     }
-    if (sense[at(*std::ranges::min_element(fan.corners))] < 0)
+    if (sense[*std::ranges::min_element(fan.corners)] < 0)
         for (const Index corner : fan.corners)
-            sense[at(corner)] = static_cast<std::int8_t>(-sense[at(corner)]);
+            sense[corner] = static_cast<std::int8_t>(-sense[corner]);
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology, 
 {
     if (is_oriented(mesh, topology, loop))
         return;
-    sense_.assign(at(mesh.n_corners()), 1);
+    sense_.assign(mesh.n_corners(), 1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         for (const Fan& fan : fans_at(mesh, topology, v, {}, 0))
             align(mesh, topology, fan, sense_);
@@ -59,8 +59,7 @@ Point VertexNormals::operator()(std::span<const Index> corners, const Points& po
 {
     Point sum = Point::Zero();
     for (const Index corner : corners)
-        sum += (sense_.empty() ? 1 : sense_[at(corner)]) *
-               vector_area(mesh_.face(topology_.face_of[at(corner)]), positions);
+        sum += (sense_.empty() ? 1 : sense_[corner]) * vector_area(mesh_.face(topology_.face_of[corner]), positions);
     sum.stableNormalize();
     return sum;
 }

@@ -65,7 +65,7 @@ class Case {
     {
         MethodTask task{method, options_.flow, tolerance, {}};
         if (method == Method::Amg)
-            task.options.threads = 1;
+            task.options.resources.threads = 1;
         return task;
     }
 
@@ -123,10 +123,10 @@ class Case {
     {
         const bool wanted =
             std::find(options_.peers.begin(), options_.peers.end(), Method::Amg) != options_.peers.end();
-        if (!wanted || options_.flow.threads == 1)
+        if (!wanted || options_.flow.resources.threads == 1)
             return;
         MethodTask task = task_of(Method::Ours, 0.0);
-        task.options.threads = 1;
+        task.options.resources.threads = 1;
         Row row = run(task);
         row.name = "ours-one-thread";
         measure(row);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "samples/benchmark/method.h"
+#include "samples/benchmark/methods/method.h"
 
 namespace seamflow {
 

@@ -41,7 +41,7 @@ void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
     for (const MeshKind& kind : mesh_kinds())
         kinds.emplace_back(kind.name, kind.name);
     auto* kind = add_choice<std::string>(app, "--kind", command.kind, kinds, "of mesh that is made [triangles]");
-    app.add_option("--mesh", command.mesh, "mesh to read instead: .obj, .off, .ply or .stl")
+    app.add_option("--mesh", command.mesh, "mesh to read instead: " + extensions_of())
         ->excludes(vertices)
         ->excludes(kind)
         ->type_name("FILE");
@@ -53,19 +53,19 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
     add_choice(app, "--laplacian", flow.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_real(app, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths [5]");
     add_integer(app, "--steps", flow.steps, 1, "number of steps [5]");
-    add_integer(app, "--subdomains", flow.subdomains, 0, "number of sub-meshes of ours; 0: chosen [0]");
-    add_choice(app, "--conditions", flow.conditions, conditions_choices(),
+    add_integer(app, "--subdomains", flow.cut.subdomains, 0, "number of sub-meshes of ours; 0: chosen [0]");
+    add_choice(app, "--conditions", flow.interface.conditions, conditions_choices(),
                "what holds between sub-meshes of ours [adapted-robin]");
-    add_real(app, "--q", flow.q, {0.0, std::numeric_limits<double>::max()},
+    add_real(app, "--q", flow.interface.q, {0.0, std::numeric_limits<double>::max()},
              "Ventcell parameter of ours, for adapted-ventcell and ventcell");
-    add_bytes(app, "--memory-limit", flow.memory_limit,
+    add_bytes(app, "--memory-limit", flow.resources.memory_limit,
               "most that the factorisations of ours may take at once, in bytes or with K, M, G, KiB, MiB, GiB; "
               "converged steps make twice what they cannot keep [sweeps: as little as keeps all threads busy, with "
               "--simulate-threads no limit; converged steps: no limit]");
     add_converge(app, flow,
                  "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
                  "[auto]");
-    add_integer(app, "--threads", flow.threads, 0,
+    add_integer(app, "--threads", flow.resources.threads, 0,
                 "number of threads, at most 1024; 0: all cores [0; with --simulate-threads 1]");
 }
 
@@ -88,17 +88,17 @@ void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
     require_writable(command.export_folder / "system.mtx");
 }
 
-/// More threads than cores would be held up by each other, and what was recorded with it. Tasks wait for each other
-/// alone, not for room for their factors.
+/// More threads than cores would delay each other, which the recorded times would show. Tasks wait only for each other,
+/// not for memory.
 void prepare_simulation(const CLI::App& app, std::string_view threads, BenchmarkCommand& command)
 {
     command.mode = BenchmarkMode::SimulateThreads;
     command.options.simulated_threads = threads_named(threads);
     FlowOptions& flow = command.options.flow;
     if (app.count("--threads") == 0)
-        flow.threads = 1;
-    if (!flow.memory_limit)
-        flow.memory_limit = std::numeric_limits<std::size_t>::max();
+        flow.resources.threads = 1;
+    if (!flow.resources.memory_limit)
+        flow.resources.memory_limit = std::numeric_limits<std::size_t>::max();
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ std::vector<int> threads_named(std::string_view word)
 {
     std::vector<int> threads;
     if (word == "all") {
-        for (int n = 1; n <= FlowOptions::most_threads; n *= 2)
+        for (int n = 1; n <= ResourceOptions::most_threads; n *= 2)
             threads.push_back(n);
         return threads;
     }
@@ -139,7 +139,7 @@ std::vector<int> threads_named(std::string_view word)
         for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
             end = word.find(',', begin);
             threads.push_back(
-                static_cast<int>(parse_integer(word.substr(begin, end - begin), 1, FlowOptions::most_threads)));
+                static_cast<int>(parse_integer(word.substr(begin, end - begin), 1, ResourceOptions::most_threads)));
         }
     } catch (const OptionError& error) {
         throw OptionError(std::string("--simulate-threads: ") + error.what() + "; or all");
@@ -196,7 +196,7 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     if (app.count("--simulate-threads") > 0)
         prepare_simulation(app, simulated_threads, command);
     if (app.count("--conditions") > 0)
-        command.options.flow.approach = Approach::Sweep;
+        command.options.flow.accuracy.approach = Approach::Sweep;
     const bool sweeps = command.mode != BenchmarkMode::Case;
     command.options.peers = peers_named(!peers.empty() ? peers : sweeps ? "none" : "all");
     if (sweeps && command.options.peers.empty() && reference->count() == 0)
@@ -204,8 +204,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     if (command.mode == BenchmarkMode::Scaling && app.count("--vertices") == 0)
         command.vertices = largest_of_scaling;
     require_consistent(app, command);
-    if (command.options.flow.threads == 0)
-        command.options.flow.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    if (command.options.flow.resources.threads == 0)
+        command.options.flow.resources.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     return std::nullopt;
 }
 

@@ -16,7 +16,7 @@ Json row_json(const Row& row)
               {"all_s", row.result.total_seconds()},
               {"phases", {{"assemble", phases.assemble}, {"prepare", phases.prepare}, {"solve", phases.solve}}},
               {"peak_memory_bytes", row.result.peak_memory_bytes},
-              {"threads", row.task.options.threads}};
+              {"threads", row.task.options.resources.threads}};
     if (row.v_mean && row.v_max) {
         json["v_mean"] = *row.v_mean;
         json["v_max"] = *row.v_max;
@@ -54,7 +54,7 @@ Json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& op
               {"time_step", options.flow.time_step},
               {"dt_over_h2", dt_over_h2},
               {"steps", options.flow.steps},
-              {"threads", options.flow.threads},
+              {"threads", options.flow.resources.threads},
               {"reference", result.reference},
               {"ours", row_json(result.ours)}};
     if (result.ours_one_thread)

@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// What was found for one mesh, as `--json` has it (see README).
+/// What was found for one mesh, as `--json` has it.
 /// @param mesh name of the mesh.
 /// @param dt_over_h2 time step in squared mean edge lengths.
 nlohmann::ordered_json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options,

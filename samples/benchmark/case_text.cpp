@@ -52,8 +52,8 @@ CaseTable::CaseTable(std::ostream& out, const std::string& mesh, Index vertices,
 {
     const FlowOptions& flow = options.flow;
     out_ << mesh << ", " << vertices << " vertices, " << name_of(flow.laplacian) << ", dt " << short_number(dt_over_h2)
-         << " squared mean edge lengths, " << flow.steps << (flow.steps == 1 ? " step, " : " steps, ") << flow.threads
-         << (flow.threads == 1 ? " thread\n" : " threads\n");
+         << " squared mean edge lengths, " << flow.steps << (flow.steps == 1 ? " step, " : " steps, ")
+         << flow.resources.threads << (flow.resources.threads == 1 ? " thread\n" : " threads\n");
     print_cells(out_, "seconds",
                 {"setup", "assemble", "prepare", "solve", "step", "all", "MB", "iter.", "V_mean", "V_max", "ratio",
                  "1 thread"});

@@ -36,8 +36,8 @@ Index count_entries(const SparsePattern& pattern, SystemForm form)
 {
     Index n = 0;
     for (Index c = 0; c < pattern.n(); ++c)
-        for (Index i = pattern.column_offsets[at(c)]; i < pattern.column_offsets[at(c) + 1]; ++i)
-            n += counts(form, pattern.rows[at(i)], c) ? 1 : 0;
+        for (Index i = pattern.column_offsets[c]; i < pattern.column_offsets[c + 1]; ++i)
+            n += counts(form, pattern.rows[i], c) ? 1 : 0;
     return n;
 }
 
@@ -59,9 +59,9 @@ void write_matrix(const fs::path& path, const WholeSystem& system, SystemForm fo
     };
     line(system.n(), system.n(), count_entries(pattern, form));
     for (Index c = 0; c < pattern.n(); ++c)
-        for (Index i = pattern.column_offsets[at(c)]; i < pattern.column_offsets[at(c) + 1]; ++i)
-            if (counts(form, pattern.rows[at(i)], c))
-                line(pattern.rows[at(i)] + 1, c + 1, system.values()[at(i)]);
+        for (Index i = pattern.column_offsets[c]; i < pattern.column_offsets[c + 1]; ++i)
+            if (counts(form, pattern.rows[i], c))
+                line(pattern.rows[i] + 1, c + 1, system.values()[i]);
     file.commit();
 }
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "engine/flow_options.h"
-#include "samples/benchmark/whole_system.h"
+#include "engine/options/flow_options.h"
+#include "samples/benchmark/methods/whole_system.h"
 
 namespace seamflow {
 

@@ -19,7 +19,7 @@
 #include "partition/errors.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
-#include "solvers/blas_turn.h"
+#include "solvers/direct/blas_turn.h"
 
 namespace seamflow {
 
@@ -100,7 +100,7 @@ void take_blas_work_areas_within_limit(int threads)
 MethodResult result_or_error(const fs::path& folder)
 {
     try {
-        take_blas_work_areas_within_limit(read_task(folder).options.threads);
+        take_blas_work_areas_within_limit(read_task(folder).options.resources.threads);
         return run_method(read_mesh_for_methods(folder), read_task(folder));
     } catch (const std::bad_alloc&) {
         return failed("out of memory");
@@ -114,7 +114,7 @@ MethodResult result_or_error(const fs::path& folder)
 MethodResult run_in_process(const fs::path& folder, const MethodTask& task)
 {
     write_task(folder, task);
-    const std::string failure = run_program_in(folder, task.options.threads);
+    const std::string failure = run_program_in(folder, task.options.resources.threads);
     if (failure.empty())
         return read_result(folder);
     return failed(failure);

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/stopwatch.h"
-#include "samples/benchmark/peers/peer_solver.h"
-#include "samples/benchmark/peers/smooth_shape.h"
+#include "engine/tasks/stopwatch.h"
+#include "samples/benchmark/methods/peer_solver.h"
+#include "samples/benchmark/methods/smooth_shape.h"
 
 namespace seamflow {
 
@@ -15,7 +15,7 @@ namespace {
 MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
 {
     FlowOptions options = task.options;
-    options.record_schedule = !task.simulated_threads.empty();
+    options.report.record_schedule = !task.simulated_threads.empty();
     const FlowReport report = mean_curvature_flow(mesh, options);
     MethodResult result;
     result.setup_seconds = report.seconds.cut + report.seconds.analyse;

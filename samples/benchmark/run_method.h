@@ -1,6 +1,6 @@
 #pragma once
 
-#include "samples/benchmark/method.h"
+#include "samples/benchmark/methods/method.h"
 
 namespace seamflow {
 

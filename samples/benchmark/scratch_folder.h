@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "samples/benchmark/method.h"
+#include "samples/benchmark/methods/method.h"
 
 namespace seamflow {
 

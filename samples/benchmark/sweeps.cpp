@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "samples/benchmark/case_json.h"
@@ -13,7 +13,7 @@
 #include "samples/benchmark/matrix_market.h"
 #include "samples/common/meshes.h"
 #include "samples/common/simulation_text.h"
-#include "solvers/degenerate.h"
+#include "solvers/laplacian/degenerate.h"
 
 namespace seamflow {
 
@@ -120,8 +120,8 @@ Json run_threads_sweep(const BenchmarkCommand& command, std::ostream& out)
     CaseOptions options = options_for(command, mesh);
     Json list = Json::array();
     std::vector<CaseResult> results;
-    for (int threads = 1; threads <= command.options.flow.threads; ++threads) {
-        options.flow.threads = threads;
+    for (int threads = 1; threads <= command.options.flow.resources.threads; ++threads) {
+        options.flow.resources.threads = threads;
         results.push_back(run_table(command, mesh, options, out));
         list.push_back(case_json(name_of_mesh(command), command.time_step_edges, options, results.back()));
     }

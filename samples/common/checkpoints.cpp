@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "engine/checkpoint.h"
+#include "engine/state/checkpoint.h"
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
 
@@ -18,7 +18,7 @@ constexpr const char* file_name = "smooth.checkpoint";
 
 /// Failures of `body` come out with the name of the file, and what to do.
 template <class Body>
-void on_behalf_of(const std::filesystem::path& file, Body&& body)
+void run_for_sub_mesh(const std::filesystem::path& file, Body&& body)
 {
     const auto message = [&](const std::exception& error) {
         return file.string() + ": " + error.what() +
@@ -68,7 +68,7 @@ std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, cons
     if (!std::filesystem::exists(file_))
         return nullptr;
     auto state = std::make_shared<const FlowState>(read_checkpoint(file_));
-    on_behalf_of(file_, [&] {
+    run_for_sub_mesh(file_, [&] {
         require_same(state->identity, identify(mesh, options));
         if (state->n_steps() > options.steps)
             throw OptionError("is after step " + std::to_string(state->n_steps()) + ", but steps is " +

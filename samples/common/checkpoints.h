@@ -4,10 +4,10 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/flow_options.h"
-#include "engine/flow_report.h"
-#include "engine/flow_state.h"
-#include "engine/stopwatch.h"
+#include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
+#include "engine/state/flow_state.h"
+#include "engine/tasks/stopwatch.h"
 
 namespace seamflow {
 

@@ -1,7 +1,7 @@
 #include "samples/common/compare_command.h"
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/command_line.h"
 #include "samples/common/output_files.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/displacement.h"
 #include "partition/metrics/surface_distance.h"
 #include "samples/common/comparison.h"

@@ -32,12 +32,12 @@ const std::vector<std::pair<std::string, Conditions>>& conditions_choices()
 CLI::Option* add_converge(CLI::App& app, FlowOptions& options, const std::string& description)
 {
     const auto store = [&options](const std::string& text) {
-        options.approach = text == "never" ? Approach::Sweep : Approach::Automatic;
-        options.tolerance.reset();
+        options.accuracy.approach = text == "never" ? Approach::Sweep : Approach::Automatic;
+        options.accuracy.tolerance.reset();
         if (text == "auto" || text == "never")
             return;
         try {
-            options.tolerance = parse_real(text, positive());
+            options.accuracy.tolerance = parse_real(text, positive());
         } catch (const OptionError& error) {
             throw CLI::ValidationError("--converge", std::string(error.what()) + ", \"auto\" or \"never\"");
         }

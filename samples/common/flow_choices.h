@@ -6,7 +6,7 @@
 
 #include <CLI/App.hpp>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 
 /// The words by which programs know the values of FlowOptions (see add_choice).
 namespace seamflow {
@@ -14,7 +14,7 @@ namespace seamflow {
 /// "fujiwara", "alexa-wardetzky", "ptackova-velho".
 const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices();
 
-/// Adds --converge: "auto", "never", or a tolerance below 1, for FlowOptions::tolerance and approach.
+/// Adds --converge: "auto", "never", or a tolerance below 1, for AccuracyOptions::tolerance and approach.
 CLI::Option* add_converge(CLI::App& app, FlowOptions& options, const std::string& description);
 
 /// "adapted-robin", "adapted-ventcell", "robin", "ventcell", "schwarz".

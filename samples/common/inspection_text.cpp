@@ -11,7 +11,7 @@ namespace seamflow {
 
 namespace {
 
-std::string digits(double value)
+std::string digits_of(double value)
 {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", value);
@@ -86,8 +86,8 @@ void print_sizes(std::ostream& out, const std::string& file, const MeshInspectio
     out << file << '\n'
         << "vertices   " << found.vertices << '\n'
         << "edges      " << found.edges << ", " << found.boundary_edges << " of them on the boundary; shortest "
-        << digits(found.shortest_edge) << ", mean " << digits(found.mean_edge) << ", longest "
-        << digits(found.longest_edge) << '\n'
+        << digits_of(found.shortest_edge) << ", mean " << digits_of(found.mean_edge) << ", longest "
+        << digits_of(found.longest_edge) << '\n'
         << "faces      " << found.faces;
     constexpr std::array<const char*, 5> names = {"triangles", "quads", "pentagons", "hexagons", "with more sides"};
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -95,8 +95,9 @@ void print_sizes(std::ostream& out, const std::string& file, const MeshInspectio
             out << ", " << found.faces_by_sides[k] << ' ' << names[k];
     out << '\n'
         << "components " << found.components << '\n'
-        << "box        " << digits(found.diagonal) << " from corner to corner, around (" << digits(found.middle[0])
-        << ", " << digits(found.middle[1]) << ", " << digits(found.middle[2]) << ")\n";
+        << "box        " << digits_of(found.diagonal) << " from corner to corner, around ("
+        << digits_of(found.middle[0]) << ", " << digits_of(found.middle[1]) << ", " << digits_of(found.middle[2])
+        << ")\n";
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include "engine/single_threaded_libraries.h"
+#include "engine/tasks/single_threaded_libraries.h"
 
 namespace seamflow {
 

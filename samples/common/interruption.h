@@ -10,8 +10,8 @@
 
 namespace seamflow {
 
-/// Ends a program well when SIGINT (Ctrl-C) or SIGTERM arrives, as long as this lives. The first one ends it at once
-/// where it has not made anything yet, and asks it to stop where it has; the second ends it at once, as it would
+/// Ends a program well when SIGINT (Ctrl-C) or SIGTERM arrives, as long as this lives. The first signal ends the
+/// program at once if there is no result yet, and otherwise asks it to stop. The second ends it at once, as it would
 /// without this. A thread waits for them, so that no code runs in the middle of other code; all others block them, so
 /// that the handlers that METIS installs for a while are never called. A signal that the program ignored from its start
 /// is left alone. One at a time in a program.

@@ -4,9 +4,9 @@
 #include <iosfwd>
 #include <optional>
 
-#include "engine/flow_control.h"
-#include "engine/flow_report.h"
-#include "partition/io/mesh_io.h"
+#include "engine/options/flow_control.h"
+#include "engine/options/flow_report.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/interruption.h"

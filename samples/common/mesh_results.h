@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 
 namespace seamflow {
 

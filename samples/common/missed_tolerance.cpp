@@ -4,7 +4,7 @@ namespace seamflow {
 
 int steps_failed(const SmoothCommand& command, const FlowReport& report)
 {
-    if (!command.options.tolerance)
+    if (!command.options.accuracy.tolerance)
         return 0;
     return command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
 }

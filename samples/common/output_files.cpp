@@ -71,9 +71,10 @@ void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileK
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (mesh.face(f).size() > 3)
             refuse(path, "for STL holds triangles only, and face " + std::to_string(f) + " has " +
-                             std::to_string(mesh.face(f).size()) + " sides; choose .obj, .off or .ply");
+                             std::to_string(mesh.face(f).size()) + " sides; choose " +
+                             extensions_of(FormatGroup::Polygons));
     if (has_isolated_vertices(mesh))
-        refuse(path, "for STL cannot hold vertices without faces; choose .obj, .off or .ply");
+        refuse(path, "for STL cannot hold vertices without faces; choose " + extensions_of(FormatGroup::Polygons));
 }
 
 void write_text(const fs::path& path, const std::string& text)

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 
-/// What can be known about results before the long work begins, so that nobody waits an hour for a mistyped name.
+/// Checks of result files before the long work begins, so that no user waits an hour for a mistyped name.
 namespace seamflow {
 
 /// @throws OutputError if no file can be made at that place: its directory does not exist or may not be written to, or

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/flow_control.h"
-#include "engine/stopwatch.h"
+#include "engine/options/flow_control.h"
+#include "engine/tasks/stopwatch.h"
 
 namespace seamflow {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/smoothing_amount.h"
+#include "engine/setup/smoothing_amount.h"
 #include "samples/common/peak_memory.h"
 
 namespace seamflow {

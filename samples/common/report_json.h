@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/flow_report.h"
+#include "engine/options/flow_report.h"
 #include "samples/common/comparison.h"
 #include "samples/common/run_record.h"
 

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "engine/smoothing_amount.h"
+#include "engine/setup/smoothing_amount.h"
 #include "samples/common/peak_memory.h"
 
 namespace seamflow {

@@ -3,8 +3,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "engine/flow_options.h"
-#include "engine/flow_report.h"
+#include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
 #include "samples/common/comparison.h"
 #include "samples/common/error_map.h"
 #include "samples/common/run_record.h"

@@ -3,7 +3,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "engine/schedule_simulation.h"
+#include "engine/tasks/schedule_simulation.h"
 
 namespace seamflow {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/command_line.h"
 #include "samples/common/flow_choices.h"
 #include "samples/common/output_files.h"
@@ -20,25 +20,25 @@ void add_parameters(CLI::App& app, FlowOptions& options)
 {
     std::vector<CLI::Option*> of_derivatives;
     of_derivatives.push_back(
-        add_real(app, "--p", options.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]"));
-    of_derivatives.push_back(add_choice<PRule>(app, "--p-rule", options.p_rule,
+        add_real(app, "--p", options.interface.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]"));
+    of_derivatives.push_back(add_choice<PRule>(app, "--p-rule", options.interface.p_rule,
                                                {{"paper", PRule::Paper}, {"inverse-step", PRule::InverseStep}},
                                                "η in p*: 1 or 1/dt [paper]"));
     of_derivatives.push_back(add_choice<PEdge>(
-        app, "--p-edge", options.p_edge,
+        app, "--p-edge", options.interface.p_edge,
         {{"auto", PEdge::Automatic}, {"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}},
         "edge in p*: the shortest, the 5th percentile, or the mean; auto: the shortest unless it is a "
         "sliver's, then the percentile [auto; with --plain min]"));
-    add_real(app, "--q", options.q, {0.0, std::numeric_limits<double>::max()},
+    add_real(app, "--q", options.interface.q, {0.0, std::numeric_limits<double>::max()},
              "Ventcell parameter, for adapted-ventcell and ventcell");
     app.callback([of_derivatives, &app, &options] {
         for (const CLI::Option* option : of_derivatives) {
             if (option->count() == 0)
                 continue;
-            if (app.count("--transmission") > 0 && options.transmission == Transmission::Predicted)
+            if (app.count("--transmission") > 0 && options.interface.transmission == Transmission::Predicted)
                 throw OptionError(option->get_name() +
                                   " is for the derivatives of the paper; --transmission predicted has none");
-            options.transmission = Transmission::Derivative;
+            options.interface.transmission = Transmission::Derivative;
         }
     });
 }
@@ -63,7 +63,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "--plain", [&options] { options = FlowOptions::plain(); }, "the paper to the letter, without improvements");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_amount(app, command.amount);
-    add_choice<Boundary>(app, "--boundary", options.boundary, {{"fixed", Boundary::Fixed}, {"free", Boundary::Free}},
+    add_choice<Boundary>(app, "--boundary", options.motion.boundary,
+                         {{"fixed", Boundary::Fixed}, {"free", Boundary::Free}},
                          "whether the rims of an open surface stay where they are or draw in freely [fixed]");
     auto* fix = app.add_option("--fix", command.fix,
                                "vertices that stay: their numbers from 0, one a line, or a .ply with as many vertices "
@@ -72,11 +73,11 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--fix-property", command.fix_property, "the name of that property [fixed]")
         ->needs(fix)
         ->type_name("NAME");
-    app.add_flag("--strict", options.strict,
+    app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or degenerate where the Laplacian divides, instead of holding "
                  "such vertices fixed");
     add_choice<Rescale>(
-        app, "--rescale", options.rescale,
+        app, "--rescale", options.motion.rescale,
         {{"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}},
         "scale the result to the area or volume of the input, its centroid kept; where no vertex is held, so of open "
         "surfaces with --boundary free [none]");
@@ -85,46 +86,55 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                        "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
                        "small time steps only [implicit]");
     add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
-    auto* subdomains =
-        add_integer(app, "--subdomains", options.subdomains, 0, "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
+    auto* subdomains = add_integer(app, "--subdomains", options.cut.subdomains, 0,
+                                   "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
     app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
         ->excludes(subdomains)
         ->type_name("FILE");
-    add_choice<Coloring>(app, "--coloring", options.coloring,
+    add_choice<Coloring>(app, "--coloring", options.interface.coloring,
                          {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
                          "order of the sub-meshes in a step [greedy]");
-    add_choice(app, "--conditions", options.conditions, conditions_choices(),
+    add_choice(app, "--conditions", options.interface.conditions, conditions_choices(),
                "what holds between sub-meshes [adapted-robin]");
-    add_choice<Transmission>(app, "--transmission", options.transmission,
+    add_choice<Transmission>(app, "--transmission", options.interface.transmission,
                              {{"predicted", Transmission::Predicted}, {"derivative", Transmission::Derivative}},
                              "how the first sub-mesh at the interface learns of the others [predicted]");
     add_parameters(app, options);
-    add_integer(app, "--overlap", options.overlap, 1, "layers of faces by which sub-meshes overlap with schwarz [1]");
+    add_integer(app, "--overlap", options.interface.overlap, 1,
+                "layers of faces by which sub-meshes overlap with schwarz [1]");
     app.add_flag_callback(
-        "--no-correction", [&options] { options.correction = Correction::None; },
+        "--no-correction", [&options] { options.interface.correction = Correction::None; },
         "leave the vertices of the interface where the step puts them");
-    app.add_flag("--keep-gaps", options.keep_gaps,
+    app.add_flag("--keep-gaps", options.report.keep_gaps,
                  "write the sub-meshes as they are, each with its own copy of the interface; for robin and ventcell");
-    add_choice<Sweep>(app, "--sweep", options.sweep, {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
+    add_choice<Sweep>(app, "--sweep", options.interface.sweep,
+                      {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
                       "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
     add_converge(
         app, options,
         "the undecomposed step itself, to this relative residual; never: one sweep each step; auto: to 1e-2 where "
         "sweeps would stray, unless another option speaks of sweeps [auto]");
-    add_integer(app, "--converge-iterations", options.converge_iterations, 0,
+    add_integer(app, "--converge-iterations", options.accuracy.converge_iterations, 0,
                 "most iterations of a converged step [1000]");
-    add_integer(app, "--threads", options.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
+    add_choice<Factorisation>(app, "--factorisation", options.resources.factorisation,
+                              {{"auto", Factorisation::Automatic},
+                               {"own", Factorisation::Own},
+                               {"cholmod", Factorisation::Cholmod},
+                               {"umfpack", Factorisation::Umfpack}},
+                              "whose factorisation solves the equations of sub-meshes; cholmod: UMFPACK where they are "
+                              "not symmetric; both keep fujiwara and alexa-wardetzky to sweeps [auto: the fastest]");
+    add_integer(app, "--threads", options.resources.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     add_bytes(
-        app, "--memory-limit", options.memory_limit,
+        app, "--memory-limit", options.resources.memory_limit,
         "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
         "does not change the result; converged steps make twice what they cannot keep [sweeps: as little as keeps all "
         "threads busy; converged steps: no limit]");
-    app.add_flag("--reference", options.reference, "also run the undecomposed flow and give the distance to it");
+    app.add_flag("--reference", options.report.reference, "also run the undecomposed flow and give the distance to it");
 }
 
 void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
 {
-    app.add_option("INPUT", command.input, "mesh: .obj, .off, .ply or .stl")->required()->type_name("");
+    app.add_option("INPUT", command.input, "mesh: " + extensions_of())->required()->type_name("");
     app.add_option("OUTPUT", command.output, "smoothed mesh")->required()->type_name("");
     app.add_option("--every-step", every_step, "also write the mesh after every step; %d is its number")
         ->type_name("PATTERN");
@@ -132,6 +142,9 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
     app.add_option("--report", command.report, "write times, sizes and distances")->type_name("REPORT.json");
     app.add_option("--trace", command.trace, "write which task ran when in which thread, for ui.perfetto.dev")
         ->type_name("TRACE.json");
+    app.add_option("--task-graph", command.task_graph,
+                   "write the tasks of a step and what each waits for, for Graphviz")
+        ->type_name("GRAPH.dot");
     app.add_option("--html", command.html, "write a page that shows the surface step by step, and plots, in a browser")
         ->type_name("PAGE.html");
 }
@@ -166,40 +179,47 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
     const std::string of_sweeps =
         first_given(app, {"--conditions", "--transmission", "--p", "--p-rule", "--p-edge", "--q", "--overlap",
                           "--no-correction", "--sweep", "--coloring", "--plain"});
-    if (command.options.tolerance && !of_sweeps.empty())
+    if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
-    if (app.count("--converge") > 0 && command.options.approach == Approach::Sweep && command.limits_iterations)
+    if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep &&
+        command.limits_iterations)
         throw OptionError("--converge-iterations is for converged steps, but --converge never takes none");
     if (app.count("--p") > 0)
         if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
             throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
-    const auto extension = command.fix.extension();
-    if (app.count("--fix-property") > 0 && extension != ".ply" && extension != ".PLY")
+    if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
         throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
     require_effective(app, command);
-    if (app.count("--overlap") > 0 && command.options.conditions != Conditions::Schwarz)
+    if (app.count("--overlap") > 0 && command.options.interface.conditions != Conditions::Schwarz)
         throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
-    if (command.options.conditions == Conditions::Schwarz && command.options.sweep == Sweep::Alternating)
+    if (command.options.interface.conditions == Conditions::Schwarz &&
+        command.options.interface.sweep == Sweep::Alternating)
         throw OptionError(
             "--conditions schwarz sweeps in the same order in every step; --sweep alternating contradicts "
             "it");
-    if (command.options.conditions == Conditions::Schwarz && command.options.p)
+    if (command.options.interface.conditions == Conditions::Schwarz && command.options.interface.p)
         throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
-    if (app.count("--transmission") > 0 && command.options.conditions != Conditions::AdaptedRobin)
+    if (app.count("--transmission") > 0 && command.options.interface.conditions != Conditions::AdaptedRobin)
         throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
-    if (app.count("--plain") > 0 && command.options.sweep != FlowOptions::plain().sweep)
+    if (app.count("--plain") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)
         throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
-    if (app.count("--plain") > 0 && command.options.transmission != FlowOptions::plain().transmission)
+    if (app.count("--plain") > 0 &&
+        command.options.interface.transmission != FlowOptions::plain().interface.transmission)
         throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
-    if (command.options.rescale != Rescale::None && !command.fix.empty())
+    if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
         throw OptionError("--rescale moves every vertex, but --fix holds some: leave one of them out");
-    if (!command.trace.empty() && command.options.scheme == Scheme::ExplicitEuler)
-        throw OptionError("--trace shows the tasks of the sub-meshes; --scheme explicit has none");
-    if (command.options.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
+    for (const auto& [option, path] : {std::pair{"--trace", command.trace}, {"--task-graph", command.task_graph}})
+        if (!path.empty() && command.options.scheme == Scheme::ExplicitEuler)
+            throw OptionError(
+                std::string(option).append(" shows the tasks of the sub-meshes; --scheme explicit has none"));
+    if (app.count("--factorisation") > 0 && command.options.scheme == Scheme::ExplicitEuler &&
+        !command.options.report.reference)
+        throw OptionError("--factorisation is for backward Euler steps; --scheme explicit solves no equations");
+    if (command.options.resources.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
         throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
     if (!command.html.empty())
         require_page();
@@ -222,7 +242,7 @@ void require_usable_files(const SmoothCommand& command)
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
-    for (const auto& path : {command.parts, command.report, command.trace, command.html})
+    for (const auto& path : {command.parts, command.report, command.trace, command.task_graph, command.html})
         if (!path.empty())
             results.push_back(path);
     for (const auto& input : {command.input, command.labels, command.fix}) {
@@ -255,8 +275,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     command.limits_iterations = app.count("--converge-iterations") > 0;
     for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
         if (app.count(of_sweeps) > 0)
-            command.options.approach = Approach::Sweep;
-    command.options.record_schedule = !command.trace.empty();
+            command.options.accuracy.approach = Approach::Sweep;
+    command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);
     require_consistent(app, command);

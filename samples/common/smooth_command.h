@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"
@@ -28,6 +28,7 @@ struct SmoothCommand {
     std::filesystem::path parts;
     std::filesystem::path report;
     std::filesystem::path trace;
+    std::filesystem::path task_graph;
     std::filesystem::path html;
     /// The property of vertices that says which are fixed, where `fix` is a PLY file.
     std::string fix_property = "fixed";

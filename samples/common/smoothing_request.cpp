@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/smoothing_amount.h"
+#include "engine/setup/smoothing_amount.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/command_line.h"

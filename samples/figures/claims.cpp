@@ -13,13 +13,13 @@ namespace seamflow {
 
 namespace {
 
-constexpr Laplacian fujiwara = Laplacian::Fujiwara;
-constexpr Laplacian alexa = Laplacian::AlexaWardetzky;
-constexpr Laplacian velho = Laplacian::PtackovaVelho;
-constexpr std::string_view robin = "adapted-robin";
-constexpr std::string_view ventcell = "adapted-ventcell";
-constexpr std::string_view schwarz = "schwarz";
-constexpr std::string_view undecomposed = "undecomposed";
+constexpr Laplacian fujiwara_laplacian = Laplacian::Fujiwara;
+constexpr Laplacian alexa_laplacian = Laplacian::AlexaWardetzky;
+constexpr Laplacian velho_laplacian = Laplacian::PtackovaVelho;
+constexpr std::string_view robin_name = "adapted-robin";
+constexpr std::string_view ventcell_name = "adapted-ventcell";
+constexpr std::string_view schwarz_name = "schwarz";
+constexpr std::string_view undecomposed_name = "undecomposed";
 
 using Laplacians = std::vector<Laplacian>;
 
@@ -78,9 +78,9 @@ class Claims {
     void add_drag(const std::string& where, const Laplacians& others, std::string_view conditions)
     {
         auto values = last_step(table_, others, conditions, drift);
-        const double drag = quantity(table_, fujiwara, conditions, table_.steps, drift);
+        const double drag = quantity(table_, fujiwara_laplacian, conditions, table_.steps, drift);
         const bool holds = at_most(values, drag / limits_.drags);
-        values.insert(values.begin(), {symbol_of(fujiwara), drag});
+        values.insert(values.begin(), {symbol_of(fujiwara_laplacian), drag});
         add("Δ_F shifts vertices tangentially" + where + ": drift of Δ_F ≥ " + written(limits_.drags) +
                 " times that of the others",
             values, holds);
@@ -89,12 +89,12 @@ class Claims {
     /// The undecomposed flow ends in a spiky mesh.
     void add_spiky(Laplacian laplacian)
     {
-        auto values = last_step(table_, {laplacian}, undecomposed, rough);
+        auto values = last_step(table_, {laplacian}, undecomposed_name, rough);
         const double input = table_.roughness.rms;
         const bool holds = values[0].value > std::max(limits_.spiky, input);
         values.push_back({"input", input});
         for (int step = 1; step <= table_.steps; ++step)
-            if (quantity(table_, laplacian, undecomposed, step, rough) > limits_.spiky) {
+            if (quantity(table_, laplacian, undecomposed_name, step, rough) > limits_.spiky) {
                 values.push_back({"first above in step", static_cast<double>(step)});
                 break;
             }
@@ -117,7 +117,7 @@ class Claims {
     /// Rougher than the input, by more than artifacts are allowed to be.
     void add_artifacts(const std::string& text, Laplacian laplacian)
     {
-        auto values = last_step(table_, {laplacian}, undecomposed, rough);
+        auto values = last_step(table_, {laplacian}, undecomposed_name, rough);
         const bool holds = values[0].value > limits_.artifacts * table_.roughness.rms;
         values.push_back({"input", table_.roughness.rms});
         add(text + ": roughness > " + written(limits_.artifacts) + " times that of the input", values, holds);
@@ -148,15 +148,17 @@ void Claims::add_authors_numbers()
         double half_digit;
     };
     constexpr Known numbers[] = {
-        {fujiwara, 1, v_mean, 0.037, 5e-4}, {fujiwara, 5, v_mean, 0.277, 5e-4}, {alexa, 1, v_mean, 0.0135, 5e-5},
-        {alexa, 5, v_mean, 0.0241, 5e-5},   {velho, 1, v_mean, 0.0109, 5e-5},   {velho, 5, v_mean, 0.0299, 5e-5},
-        {fujiwara, 1, v_max, 0.85, 5e-3},   {fujiwara, 5, v_max, 3.66, 5e-3},   {alexa, 1, v_max, 0.233, 5e-4},
-        {alexa, 5, v_max, 0.325, 5e-4},     {velho, 1, v_max, 0.199, 5e-4},     {velho, 5, v_max, 0.326, 5e-4},
+        {fujiwara_laplacian, 1, v_mean, 0.037, 5e-4}, {fujiwara_laplacian, 5, v_mean, 0.277, 5e-4},
+        {alexa_laplacian, 1, v_mean, 0.0135, 5e-5},   {alexa_laplacian, 5, v_mean, 0.0241, 5e-5},
+        {velho_laplacian, 1, v_mean, 0.0109, 5e-5},   {velho_laplacian, 5, v_mean, 0.0299, 5e-5},
+        {fujiwara_laplacian, 1, v_max, 0.85, 5e-3},   {fujiwara_laplacian, 5, v_max, 3.66, 5e-3},
+        {alexa_laplacian, 1, v_max, 0.233, 5e-4},     {alexa_laplacian, 5, v_max, 0.325, 5e-4},
+        {velho_laplacian, 1, v_max, 0.199, 5e-4},     {velho_laplacian, 5, v_max, 0.326, 5e-4},
     };
     std::vector<Measured> values;
     bool holds = true;
     for (const Known& known : numbers) {
-        const double value = quantity(table_, known.laplacian, robin, known.step, known.what);
+        const double value = quantity(table_, known.laplacian, robin_name, known.step, known.what);
         values.push_back({symbol_of(known.laplacian) + (known.what == v_max ? " V_max " : " V_mean ") + "step " +
                               std::to_string(known.step),
                           value});
@@ -167,10 +169,12 @@ void Claims::add_authors_numbers()
 
 void Claims::teaser()
 {
-    add_smoothed("two levels of detail are smoothed well with decomposition", {fujiwara, alexa, velho}, robin);
-    add_close("decomposed and undecomposed meshes stay together", {alexa, velho}, robin);
-    const std::vector<Measured> values{{"with", quantity(table_, fujiwara, robin, table_.steps, drift)},
-                                       {"without", quantity(table_, fujiwara, undecomposed, table_.steps, drift)}};
+    add_smoothed("two levels of detail are smoothed well with decomposition",
+                 {fujiwara_laplacian, alexa_laplacian, velho_laplacian}, robin_name);
+    add_close("decomposed and undecomposed meshes stay together", {alexa_laplacian, velho_laplacian}, robin_name);
+    const std::vector<Measured> values{
+        {"with", quantity(table_, fujiwara_laplacian, robin_name, table_.steps, drift)},
+        {"without", quantity(table_, fujiwara_laplacian, undecomposed_name, table_.steps, drift)}};
     add("decomposition prevents tangential shifting by Δ_F: drift with decomposition < without", values,
         values[0].value < values[1].value);
     if (table_.is_theirs)
@@ -198,63 +202,64 @@ void Claims::add_authors_last_step(std::string_view conditions)
 
 void Claims::polygons()
 {
-    add_drag("", {alexa, velho}, undecomposed);
-    add_artifacts("Δ_A quickly develops artifacts", alexa);
-    add_smoothed("Δ_P performs well", {velho}, undecomposed, limits_.artifacts);
+    add_drag("", {alexa_laplacian, velho_laplacian}, undecomposed_name);
+    add_artifacts("Δ_A quickly develops artifacts", alexa_laplacian);
+    add_smoothed("Δ_P performs well", {velho_laplacian}, undecomposed_name, limits_.artifacts);
 }
 
 void Claims::schwarz_on_polygons()
 {
-    add_at_most("Schwarz has good outcomes where the interface has small curvature: V_mean", {velho}, schwarz, v_mean,
-                limits_.close_vertices);
-    add_at_most("the same: H_mean", {velho}, schwarz, h_mean, limits_.close_surfaces);
+    add_at_most("Schwarz has good outcomes where the interface has small curvature: V_mean", {velho_laplacian},
+                schwarz_name, v_mean, limits_.close_vertices);
+    add_at_most("the same: H_mean", {velho_laplacian}, schwarz_name, h_mean, limits_.close_surfaces);
 }
 
 void Claims::hexagons()
 {
     const std::size_t first = made.size();
-    add_close("the distances of Δ_F and Δ_P are small", {fujiwara, velho}, robin);
+    add_close("the distances of Δ_F and Δ_P are small", {fujiwara_laplacian, velho_laplacian}, robin_name);
     explain(made[first],
             "The paper gives no number for \"small\". On the authors' own mesh their code ends with V_mean "
             "0.299 for Δ_F and 0.67 for Δ_P.");
-    add_spiky(alexa);
+    add_spiky(alexa_laplacian);
 }
 
 void Claims::triangles()
 {
-    add_close("the distances of Δ_F and Δ_A are small", {fujiwara, alexa}, robin);
-    add_spiky(velho);
+    add_close("the distances of Δ_F and Δ_A are small", {fujiwara_laplacian, alexa_laplacian}, robin_name);
+    add_spiky(velho_laplacian);
 }
 
 void Claims::wavy_cylinder()
 {
-    for (const Laplacian laplacian : {fujiwara, velho}) {
-        const double times = laplacian == fujiwara ? limits_.delays : limits_.delays_velho;
-        const std::vector<Measured> values{{"Schwarz", quantity(table_, laplacian, schwarz, table_.steps, v_mean)},
-                                           {"Robin", quantity(table_, laplacian, robin, table_.steps, v_mean)}};
+    for (const Laplacian laplacian : {fujiwara_laplacian, velho_laplacian}) {
+        const double times = laplacian == fujiwara_laplacian ? limits_.delays : limits_.delays_velho;
+        const std::vector<Measured> values{{"Schwarz", quantity(table_, laplacian, schwarz_name, table_.steps, v_mean)},
+                                           {"Robin", quantity(table_, laplacian, robin_name, table_.steps, v_mean)}};
         add("Schwarz delays the interface, adapted Robin does not, with " + symbol_of(laplacian) +
                 ": V_mean of Schwarz ≥ " + written(times) + " times that of Robin",
             values, values[0].value >= times * values[1].value);
     }
-    add_at_most("adapted Robin works well: V_mean", {fujiwara, velho}, robin, v_mean, limits_.alike);
-    add_drag(" without decomposition", {velho}, undecomposed);
-    add_drag(" with decomposition, too", {velho}, robin);
+    add_at_most("adapted Robin works well: V_mean", {fujiwara_laplacian, velho_laplacian}, robin_name, v_mean,
+                limits_.alike);
+    add_drag(" without decomposition", {velho_laplacian}, undecomposed_name);
+    add_drag(" with decomposition, too", {velho_laplacian}, robin_name);
     if (table_.is_theirs)
-        add_authors_last_step(robin);
+        add_authors_last_step(robin_name);
 }
 
 void Claims::texture()
 {
-    add_at_most("with and without decomposition hard to distinguish: V_mean", {fujiwara, alexa, velho}, robin, v_mean,
-                limits_.alike);
-    add_at_most("the tangential derivative (q > 0) can be employed with Δ_F without artifacts: V_mean", {fujiwara},
-                ventcell, v_mean, limits_.alike);
-    add_smoothed("the same", {fujiwara}, ventcell);
+    add_at_most("with and without decomposition hard to distinguish: V_mean",
+                {fujiwara_laplacian, alexa_laplacian, velho_laplacian}, robin_name, v_mean, limits_.alike);
+    add_at_most("the tangential derivative (q > 0) can be employed with Δ_F without artifacts: V_mean",
+                {fujiwara_laplacian}, ventcell_name, v_mean, limits_.alike);
+    add_smoothed("the same", {fujiwara_laplacian}, ventcell_name);
     std::vector<Measured> values;
     bool holds = true;
-    for (const Laplacian laplacian : {fujiwara, alexa, velho}) {
-        const double with = quantity(table_, laplacian, ventcell, table_.steps, interface_length);
-        const double without = quantity(table_, laplacian, robin, table_.steps, interface_length);
+    for (const Laplacian laplacian : {fujiwara_laplacian, alexa_laplacian, velho_laplacian}) {
+        const double with = quantity(table_, laplacian, ventcell_name, table_.steps, interface_length);
+        const double without = quantity(table_, laplacian, robin_name, table_.steps, interface_length);
         values.push_back({symbol_of(laplacian) + " with", with});
         values.push_back({"without", without});
         holds = holds && with < without;
@@ -308,7 +313,7 @@ std::vector<Claim> claims_of_many(const std::vector<Table>& tables, const ClaimL
     for (const Table& table : tables)
         for (const Variant& variant : table.flows) {
             // There is nothing to stay close to where the undecomposed flow is no smooth surface any more.
-            const double roughness = quantity(table, variant.laplacian, undecomposed, table.steps, rough);
+            const double roughness = quantity(table, variant.laplacian, undecomposed_name, table.steps, rough);
             if (variant.settings != Settings::Default || !(roughness <= limits.spiky))
                 continue;
             ++all;

@@ -201,7 +201,7 @@ Image draw(const PolygonMesh& triangles, std::span<const double> values, const P
         for (Eigen::Index k = 0; k < 3; ++k) {
             const Index v = corners[static_cast<std::size_t>(k)];
             places.row(k) = seen.row(v);
-            at_corners[k] = values[at(v)];
+            at_corners[k] = values[v];
         }
         canvas.add(places, at_corners, [&](double value) { return paint(t, value); });
     }

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "partition/io/palette.h"
+#include "partition/formats/palette.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {

@@ -51,9 +51,9 @@ std::string halves(Laplacian laplacian, Conditions conditions = robin)
     return title_of({.laplacian = laplacian, .pieces = Pieces::Halves, .conditions = conditions});
 }
 
-const std::string input(picture_of::input);
-const std::string cut(picture_of::cut);
-const std::string part(picture_of::part);
+const std::string input_picture(picture_of::input);
+const std::string cut_picture(picture_of::cut);
+const std::string part_picture(picture_of::part);
 
 Experiment teaser()
 {
@@ -71,7 +71,7 @@ Experiment teaser()
             .time_step = 0.05,
             .steps = 5,
             .variants = in_halves(all_laplacians, {robin}),
-            .pictures = {{input, halves(alexa), halves(velho), halves(fujiwara), alone(fujiwara)}},
+            .pictures = {{input_picture, halves(alexa), halves(velho), halves(fujiwara), alone(fujiwara)}},
             .theirs = {{fujiwara, robin, 0.277, 3.66}, {alexa, robin, 0.024, 0.325}, {velho, robin, 0.030, 0.326}},
             .difference = "They do not correct Γ in this figure, and neither is it corrected here on their mesh."};
 }
@@ -87,7 +87,7 @@ Experiment polygons()
             .time_step = 0.01,
             .steps = 1,
             .variants = undecomposed(all_laplacians),
-            .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)}},
+            .pictures = {{input_picture, alone(fujiwara), alone(alexa), alone(velho)}},
             .theirs = {},
             .difference = {}};
 }
@@ -107,7 +107,7 @@ Experiment schwarz_on_polygons()
             .time_step = 0.05,
             .steps = 2,
             .variants = in_halves(std::array{velho}, {schwarz}),
-            .pictures = {{input, cut}, {alone(velho), halves(velho, schwarz)}},
+            .pictures = {{input_picture, cut_picture}, {alone(velho), halves(velho, schwarz)}},
             .theirs = {},
             .difference = {}};
 }
@@ -127,8 +127,8 @@ Experiment hexagons()
         .time_step = 0.01,
         .steps = 10,
         .variants = in_halves(all_laplacians, {robin}),
-        .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)},
-                     {cut, halves(fujiwara), halves(alexa), halves(velho)}},
+        .pictures = {{input_picture, alone(fujiwara), alone(alexa), alone(velho)},
+                     {cut_picture, halves(fujiwara), halves(alexa), halves(velho)}},
         .theirs = {{fujiwara, robin, 0.299, 1.93}, {alexa, robin, 1.82, 34.0}, {velho, robin, 0.67, 3.7}},
         .difference = "Their correction of Γ takes other neighbours than edge neighbours on hexagons: from the second "
                       "step on their flow is another."};
@@ -149,8 +149,8 @@ Experiment triangles()
             .time_step = 0.05,
             .steps = 10,
             .variants = in_halves(all_laplacians, {robin}),
-            .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)},
-                         {cut, halves(fujiwara), halves(alexa), halves(velho)}},
+            .pictures = {{input_picture, alone(fujiwara), alone(alexa), alone(velho)},
+                         {cut_picture, halves(fujiwara), halves(alexa), halves(velho)}},
             .theirs = {{fujiwara, robin, 0.167, 0.55}, {alexa, robin, 0.111, 0.65}, {velho, robin, 0.85, 29.0}},
             .difference = "Their correction of Γ takes other neighbours than edge neighbours on triangles: from the "
                           "second step on their flow is another."};
@@ -173,7 +173,8 @@ Experiment wavy_tube()
         .time_step = 0.05,
         .steps = 5,
         .variants = in_halves(std::array{fujiwara, velho}, {robin, schwarz}),
-        .pictures = {{input, halves(fujiwara), halves(velho), halves(fujiwara, schwarz), halves(velho, schwarz)}},
+        .pictures = {{input_picture, halves(fujiwara), halves(velho), halves(fujiwara, schwarz),
+                      halves(velho, schwarz)}},
         .theirs = {{fujiwara, robin, 0.011, 0.20},
                    {velho, robin, 0.028, 0.30},
                    {fujiwara, schwarz, 0.201, unknown},
@@ -199,9 +200,9 @@ Experiment texture()
             .time_step = 0.05,
             .steps = 1,
             .variants = std::move(variants),
-            .pictures = {{input, alone(fujiwara), alone(alexa), alone(velho)},
-                         {part, halves(fujiwara), halves(alexa), halves(velho)},
-                         {cut, halves(fujiwara, ventcell), halves(alexa, ventcell), halves(velho, ventcell)}},
+            .pictures = {{input_picture, alone(fujiwara), alone(alexa), alone(velho)},
+                         {part_picture, halves(fujiwara), halves(alexa), halves(velho)},
+                         {cut_picture, halves(fujiwara, ventcell), halves(alexa, ventcell), halves(velho, ventcell)}},
             .theirs = {},
             .difference = {}};
 }
@@ -209,14 +210,14 @@ Experiment texture()
 /// What the authors did on their own mesh, and the cut.
 void cut_in_two(FlowOptions& options, const FigureMesh& mesh)
 {
-    options.labels = mesh.labels;
-    if (!mesh.authors || options.conditions == schwarz)
+    options.cut.labels = mesh.labels;
+    if (!mesh.authors || options.interface.conditions == schwarz)
         return;
-    options.p = mesh.authors->p;
+    options.interface.p = mesh.authors->p;
     if (!mesh.authors->uncorrected)
         return;
-    options.coloring = Coloring::Label;
-    options.correction = Correction::None;
+    options.interface.coloring = Coloring::Label;
+    options.interface.correction = Correction::None;
 }
 
 /// As many digits as it takes to tell it from any other number.
@@ -238,15 +239,15 @@ std::string plain_arguments(const FlowOptions& options)
 {
     std::string text = " --plain";
     for (const auto& [name, conditions] : conditions_choices())
-        if (conditions == options.conditions && conditions != robin)
+        if (conditions == options.interface.conditions && conditions != robin)
             text += " --conditions " + name;
-    if (options.p)
-        text += " --p " + exact(*options.p);
-    if (options.q)
-        text += " --q " + exact(*options.q);
-    if (options.coloring == Coloring::Label)
+    if (options.interface.p)
+        text += " --p " + exact(*options.interface.p);
+    if (options.interface.q)
+        text += " --q " + exact(*options.interface.q);
+    if (options.interface.coloring == Coloring::Label)
         text += " --coloring label";
-    if (options.correction == Correction::None)
+    if (options.interface.correction == Correction::None)
         text += " --no-correction";
     return text;
 }
@@ -326,13 +327,13 @@ FlowOptions options_of(const Experiment& experiment, const Variant& variant, con
     options.time_step = experiment.time_step;
     options.steps = experiment.steps;
     // What the paper shows is shown, spikes included.
-    options.largest_update = std::numeric_limits<double>::infinity();
+    options.accuracy.largest_update = std::numeric_limits<double>::infinity();
     if (variant.settings == Settings::Plain && variant.pieces != Pieces::One) {
-        options.conditions = variant.conditions;
+        options.interface.conditions = variant.conditions;
         if (variant.conditions == ventcell)
-            options.q = ventcell_q;
+            options.interface.q = ventcell_q;
     }
-    options.subdomains = variant.pieces == Pieces::Metis ? variant.subdomains : 1;
+    options.cut.subdomains = variant.pieces == Pieces::Metis ? variant.subdomains : 1;
     if (variant.pieces == Pieces::Halves)
         cut_in_two(options, mesh);
     return options;
@@ -346,7 +347,7 @@ std::string command_of(const Experiment& experiment, const Variant& variant, con
     text.append(name_of(options.laplacian)).append(" --time-step ").append(exact(options.time_step));
     text.append(" --steps ").append(std::to_string(options.steps));
     text += variant.pieces == Pieces::Halves ? " --labels " + name + "-cut.txt"
-                                             : " --subdomains " + std::to_string(options.subdomains);
+                                             : " --subdomains " + std::to_string(options.cut.subdomains);
     if (variant.settings == Settings::Plain)
         text += plain_arguments(options);
     return text;

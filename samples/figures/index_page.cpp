@@ -55,7 +55,7 @@ there. Figures 3, 4 and 6 explain terms and are left out. The texture is the hei
 go with the vertices when they slide along the surface.</p>
 )";
 
-constexpr std::string_view legend =
+constexpr std::string_view page_legend =
     R"(<p class="quiet">Tables: V_ and H_ are distances to the undecomposed flow by the same
 Laplacian after the last step, in mean edge lengths, and drift is how far the texture slid along the surface; Γ is the length of
 the interface, in lengths of the same edges of the undecomposed flow; roughness is the angle between neighbouring triangles,
@@ -215,7 +215,7 @@ std::string index_html(const std::vector<FigureResult>& results, const std::vect
         text += "<a href=\"#figure-" + number + "\">Figure " + number + "</a>";
     }
     text += "</nav>\n";
-    text += legend;
+    text += page_legend;
     for (const FigureResult& result : results)
         text += figure_section(result, with_pages);
     if (!many.empty())

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 
 namespace seamflow {
 
@@ -65,23 +65,23 @@ std::vector<Index> halves_by_rows(const PolygonMesh& mesh, Eigen::Index axis)
 
 std::vector<Index> halves_by_number(const PolygonMesh& mesh, Index first)
 {
-    std::vector<Index> labels(at(mesh.n_faces()), 1);
+    std::vector<Index> labels(mesh.n_faces(), 1);
     std::fill_n(labels.begin(), std::clamp(first, Index{0}, mesh.n_faces()), 0);
     return labels;
 }
 
 std::vector<Index> with_overlap(const PolygonMesh& mesh, const std::vector<Index>& labels, Index leading)
 {
-    std::vector<bool> touched(at(mesh.n_vertices()), false);
+    std::vector<bool> touched(mesh.n_vertices(), false);
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (const Index v : mesh.face(f))
-            touched[at(v)] = touched[at(v)] || labels[at(f)] == leading;
+            touched[v] = touched[v] || labels[f] == leading;
     std::vector<Index> grown = labels;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         const auto face = mesh.face(f);
-        const bool touches = std::any_of(face.begin(), face.end(), [&](Index v) { return touched[at(v)]; });
-        if (touches && labels[at(f)] != leading)
-            grown[at(f)] = 2;
+        const bool touches = std::any_of(face.begin(), face.end(), [&](Index v) { return touched[v]; });
+        if (touches && labels[f] != leading)
+            grown[f] = 2;
     }
     return grown;
 }

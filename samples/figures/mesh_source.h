@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -16,8 +16,8 @@ struct AuthorsRun {
     Index first_part = 0;
     /// Their Robin parameter, in 1/length. Empty: with the conditions of the figure there is none.
     std::optional<double> p;
-    /// Whether the first faces always solve first and Γ is not corrected, as in their first figure alone; else that
-    /// sub-mesh leads whose curvature is larger in sum, and Γ is corrected after every step.
+    /// Whether the first faces always solve first and Γ is not corrected, as in their first figure alone; otherwise the
+    /// sub-mesh with the larger total curvature leads, and Γ is corrected after every step.
     bool uncorrected = false;
 };
 

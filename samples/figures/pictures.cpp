@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/centre_fans.h"
 #include "samples/common/output_files.h"
 
@@ -40,16 +40,16 @@ Colour height_colour(double height)
 /// The values of the vertices, and for each centre the mean around its face.
 std::vector<double> with_centres(const PolygonMesh& mesh, const CentreFans& fans, std::vector<double> values)
 {
-    values.resize(at(fans.triangles.n_vertices()));
+    values.resize(fans.triangles.n_vertices());
     for (Index t = 0; t < fans.triangles.n_faces(); ++t) {
         const Index centre = fans.triangles.face(t)[0];
         if (centre < mesh.n_vertices())
             continue;
-        const auto face = mesh.face(fans.faces[at(t)]);
+        const auto face = mesh.face(fans.faces[t]);
         double sum = 0.0;
         for (const Index v : face)
-            sum += values[at(v)];
-        values[at(centre)] = sum / static_cast<double>(face.size());
+            sum += values[v];
+        values[centre] = sum / static_cast<double>(face.size());
     }
     return values;
 }
@@ -60,7 +60,7 @@ PolygonMesh part_of(const FigureMesh& input, Index label)
     PolygonMesh part;
     part.vertices = input.mesh.vertices;
     for (Index f = 0; f < input.mesh.n_faces(); ++f)
-        if (input.labels[at(f)] == label)
+        if (input.labels[f] == label)
             part.add_face(input.mesh.face(f));
     return part;
 }
@@ -137,7 +137,7 @@ void Pictures::draw_cut(Index leading) const
     constexpr Colour colours[] = {{0xd9, 0x8f, 0x4e}, {0x6d, 0x9f, 0xc6}, {0x9a, 0x7d, 0x9c}};
     const CentreFans fans = fans_around_centres(input_.mesh, input_.mesh.vertices);
     const std::vector<Index> labels = overlaps_ ? with_overlap(input_.mesh, input_.labels, leading) : input_.labels;
-    const auto paint = [&](Index triangle, double) { return colours[labels[at(fans.faces[at(triangle)])]]; };
+    const auto paint = [&](Index triangle, double) { return colours[labels[fans.faces[triangle]]]; };
     write_png(path(picture_of::cut, ".png"),
               draw(fans.triangles, with_centres(input_.mesh, fans, heights_), paint, viewpoint_));
 }

@@ -7,8 +7,8 @@
 #include <ostream>
 #include <utility>
 
-#include "engine/displacement_meter.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/measure/displacement_meter.h"
 #include "partition/errors.h"
 #include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"
@@ -82,7 +82,7 @@ class Run {
         {
             if (!flow_)
                 return;
-            const Points* other = undecomposed_ == nullptr ? nullptr : &(*undecomposed_)[at(state.step) - 1];
+            const Points* other = undecomposed_ == nullptr ? nullptr : &(*undecomposed_)[state.step - 1];
             flow_->add_step(state.step, state.positions, other);
             if (other != nullptr)
                 distances_.push_back(vertex_distance(run_.input_.mesh, *other, state.positions));
@@ -188,7 +188,7 @@ class Run {
             return;
         }
         PolygonMesh from = input_.mesh;
-        from.vertices = reference->second[at(row.step) - 1];
+        from.vertices = reference->second[row.step - 1];
         PolygonMesh to = input_.mesh;
         to.vertices = positions;
         const VertexDistance v = vertex_distance(from, from.vertices, positions);
@@ -219,12 +219,11 @@ class Run {
     {
         double length = 0.0;
         for (Index h = 0; h < input_.mesh.n_corners(); ++h) {
-            const Index twin = topology_.twin[at(h)];
-            if (twin < h ||
-                input_.labels[at(topology_.face_of[at(h)])] == input_.labels[at(topology_.face_of[at(twin)])])
+            const Index twin = topology_.twin[h];
+            if (twin < h || input_.labels[topology_.face_of[h]] == input_.labels[topology_.face_of[twin]])
                 continue;
-            const Index a = input_.mesh.face_vertices[at(h)];
-            const Index b = input_.mesh.face_vertices[at(topology_.next(input_.mesh, h))];
+            const Index a = input_.mesh.face_vertices[h];
+            const Index b = input_.mesh.face_vertices[topology_.next(input_.mesh, h)];
             length += (positions.row(a) - positions.row(b)).norm();
         }
         return length;

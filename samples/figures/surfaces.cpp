@@ -31,7 +31,7 @@ void jitter(PolygonMesh& mesh, double length)
     const Topology topology = make_topology(mesh);
     RandomNumbers random(1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (topology.kind[at(v)] == VertexKind::Interior)
+        if (topology.kind[v] == VertexKind::Interior)
             for (Eigen::Index axis = 0; axis < 2; ++axis)
                 mesh.vertices(v, axis) += length * random.symmetric();
 }
@@ -100,7 +100,7 @@ PolygonMesh dual_of(const PolygonMesh& mesh)
         if (!fan.closed)
             corners = {added(mesh.vertices.row(v)), midpoint(v, fan.first)};
         for (const Index corner : fan.corners)
-            corners.push_back(topology.face_of[at(corner)]);
+            corners.push_back(topology.face_of[corner]);
         if (!fan.closed)
             corners.push_back(midpoint(v, fan.last));
         dual.add_face(corners);

@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "engine/mean_curvature_flow.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
 
 namespace {
@@ -34,18 +34,18 @@ try {
     options.time_step = 5.0 * edge * edge;
     options.steps = 3;
 
-    options.subdomains = 1;
+    options.cut.subdomains = 1;
     const seamflow::Points undecomposed = flow(mesh, options, "undecomposed");
     std::cout << '\n';
     const auto print_distance = [&](const seamflow::Points& positions) {
         std::cout << ", V_max " << seamflow::vertex_distance(mesh, undecomposed, positions).max / edge << '\n';
     };
 
-    options.subdomains = std::atoi(argv[2]);
-    options.approach = seamflow::Approach::Sweep;
+    options.cut.subdomains = std::atoi(argv[2]);
+    options.accuracy.approach = seamflow::Approach::Sweep;
     print_distance(flow(mesh, options, "sweeps"));
 
-    options.tolerance = 1e-8;  // in place of a sweep
+    options.accuracy.tolerance = 1e-8;  // in place of a sweep
     print_distance(flow(mesh, options, "converged"));
 } catch (const std::exception& error) {
     std::cerr << "converged_step: " << error.what() << '\n';

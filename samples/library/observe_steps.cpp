@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "engine/mean_curvature_flow.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/vector_area.h"
 

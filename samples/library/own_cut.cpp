@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "engine/mean_curvature_flow.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
 
 namespace {
@@ -39,7 +39,7 @@ try {
     const double edge = seamflow::mean_edge_length(file.mesh);
     seamflow::FlowOptions options;
     options.time_step = edge * edge;
-    options.labels = slabs(file.mesh, std::atoi(argv[3]));
+    options.cut.labels = slabs(file.mesh, std::atoi(argv[3]));
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(file.mesh, options);
     // The parts as they were used: what was not connected, or pinched at a vertex, has been repaired.
     seamflow::write_labelled_ply(argv[2], file.mesh, report.labels);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/parallel_loop.h"
-#include "engine/surface_curvature.h"
+#include "engine/measure/surface_curvature.h"
+#include "engine/tasks/parallel_loop.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/page/shown_steps.h"
 
@@ -41,7 +41,7 @@ PageFlow::PageFlow(std::shared_ptr<const PageMesh> mesh, std::string name, Lapla
 {
     PageState& input = states_.emplace_back();
     input.surface = pack_surface(mesh_->mesh.vertices);
-    input.distance = pack_values(std::vector<double>(at(mesh_->mesh.n_vertices()), 0.0));
+    input.distance = pack_values(std::vector<double>(mesh_->mesh.n_vertices(), 0.0));
 }
 
 PageSurface PageFlow::pack_surface(const Points& positions) const

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_report.h"
+#include "engine/options/flow_report.h"
 #include "partition/topology.h"
 #include "samples/page/packed_state.h"
 #include "solvers/laplacian/laplacian.h"

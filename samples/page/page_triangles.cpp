@@ -15,9 +15,9 @@ Index half_edge_between(const PolygonMesh& mesh, Index f, Index a, Index b)
     const std::size_t n = face.size();
     const auto from = static_cast<std::size_t>(std::find(face.begin(), face.end(), a) - face.begin());
     if (face[(from + 1) % n] == b)
-        return mesh.face_offsets[at(f)] + static_cast<Index>(from);
+        return mesh.face_offsets[f] + static_cast<Index>(from);
     const std::size_t before = (from + n - 1) % n;
-    return face[before] == b ? mesh.face_offsets[at(f)] + static_cast<Index>(before) : -1;
+    return face[before] == b ? mesh.face_offsets[f] + static_cast<Index>(before) : -1;
 }
 
 std::uint8_t edge_bits(const PolygonMesh& mesh, const Topology& topology, Index f, const Triangle& triangle)
@@ -25,7 +25,7 @@ std::uint8_t edge_bits(const PolygonMesh& mesh, const Topology& topology, Index 
     std::uint8_t bits = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const Index h = half_edge_between(mesh, f, triangle[k], triangle[(k + 1) % 3]);
-        if (h >= 0 && (topology.twin[at(h)] < 0 || h < topology.twin[at(h)]))
+        if (h >= 0 && (topology.twin[h] < 0 || h < topology.twin[h]))
             bits = static_cast<std::uint8_t>(bits | 1U << k);
     }
     return bits;

@@ -12,7 +12,7 @@ double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
 {
     double sum = 0.0;
     for (const Index neighbour : sub_mesh.seam.neighbours[i])
-        sum += (positions.row(neighbour) - positions.row(sub_mesh.seam.vertices[at(i)])).norm();
+        sum += (positions.row(neighbour) - positions.row(sub_mesh.seam.vertices[i])).norm();
     return sum / static_cast<double>(sub_mesh.seam.neighbours[i].size());
 }
 
@@ -43,40 +43,40 @@ void AdaptedRobin::begin_step(const Points& positions, const Points& other_side,
     for (Index i = 0; i < sub_mesh_->interface.size(); ++i) {
         const auto own = own_conormal(*sub_mesh_, i, positions);
         const auto other = complement_conormal(*sub_mesh_, i, other_side);
-        conormals_[at(i)] = own && other ? std::optional(Conormals{*own, *other}) : std::nullopt;
+        conormals_[i] = own && other ? std::optional(Conormals{*own, *other}) : std::nullopt;
     }
 }
 
 void AdaptedRobin::left_hand_side(Index i, const Points&, std::span<double> row) const
 {
-    if (conormals_[at(i)]) {
-        normal_derivative_row(*sub_mesh_, stencils_, i, conormals_[at(i)]->own, row);
+    if (conormals_[i]) {
+        normal_derivative_row(*sub_mesh_, stencils_, i, conormals_[i]->own, row);
         for (double& coefficient : row)
             coefficient *= dt_p_;
     } else {
         std::fill(row.begin(), row.end(), 0.0);
     }
-    row[at(stencils_.centre[at(i)])] += 1.0;
+    row[stencils_.centre[i]] += 1.0;
 }
 
 Point AdaptedRobin::right_hand_side(Index i, const Points& positions, const Points& other_side) const
 {
-    const Point v = positions.row(sub_mesh_->interface.vertices[at(i)]);
-    if (!conormals_[at(i)])
+    const Point v = positions.row(sub_mesh_->interface.vertices[i]);
+    if (!conormals_[i])
         return v;
-    return v - dt_p_ * complement_normal_derivative(*sub_mesh_, i, conormals_[at(i)]->other, other_side);
+    return v - dt_p_ * complement_normal_derivative(*sub_mesh_, i, conormals_[i]->other, other_side);
 }
 
 bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
 {
     constexpr double most_aligned = -0.5;
     constexpr double shortest_tangent = 0.3;
-    if (!conormals_[at(i)])
+    if (!conormals_[i])
         return false;
-    const auto& [own, other] = *conormals_[at(i)];
+    const auto& [own, other] = *conormals_[i];
     const auto& interface = sub_mesh_->interface;
     const double edge = mean_edge_at(*sub_mesh_, i, positions);
-    const double tangent = (positions.row(interface.after[at(i)]) - positions.row(interface.before[at(i)])).norm();
+    const double tangent = (positions.row(interface.after[i]) - positions.row(interface.before[i])).norm();
     return own.direction.dot(other.direction) < most_aligned && tangent > shortest_tangent * edge &&
            is_in_proportion(interface.own_faces[i], sub_mesh_->face_vertices, own, edge) &&
            is_in_proportion(interface.complement_faces[i], interface.halo_faces, other, edge);

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "solvers/conditions/derivatives.h"
 #include "solvers/conditions/transmission_condition.h"
-#include "solvers/interface/derivatives.h"
 
 namespace seamflow {
 

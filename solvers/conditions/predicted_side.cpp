@@ -6,7 +6,7 @@
 
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/remainder.h"
-#include "solvers/interface/star_laplacian.h"
+#include "solvers/conditions/star_laplacian.h"
 
 namespace seamflow {
 
@@ -37,7 +37,7 @@ class PredictedSide final : public TransmissionCondition {
     {
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             list_columns(i);
-            yields_[at(i)] =
+            yields_[i] =
                 reach_of(laplacian) == Reach::Edges || (reach_of(laplacian) == Reach::Faces && has_only_triangles(i));
         }
     }
@@ -50,13 +50,13 @@ class PredictedSide final : public TransmissionCondition {
         star_.assemble(positions);
         robin_.begin_step(positions, other_side, time_step, p);
         for (Index i = 0; i < sub_mesh_->interface.size(); ++i)
-            kinds_[at(i)] = choose_kind(i, positions);
+            kinds_[i] = choose_kind(i, positions);
     }
 
     void left_hand_side(Index i, const Points& positions, std::span<double> row) const override
     {
         std::fill(row.begin(), row.end(), 0.0);
-        if (kinds_[at(i)] == RowKind::Robin)
+        if (kinds_[i] == RowKind::Robin)
             return robin_left_hand_side(i, positions, row);
         const auto star = star_.row(i);
         const auto columns = star_.columns()[i];
@@ -66,16 +66,16 @@ class PredictedSide final : public TransmissionCondition {
                 row[place_of(i, columns[k])] += time_step_ * star[k];
             else
                 diagonal += time_step_ * star[k] * yielding(i, columns[k], positions);
-        row[place_of(i, sub_mesh_->interface.vertices[at(i)])] += diagonal;
+        row[place_of(i, sub_mesh_->interface.vertices[i])] += diagonal;
     }
 
     [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points& other_side) const override
     {
-        if (kinds_[at(i)] == RowKind::Robin)
+        if (kinds_[i] == RowKind::Robin)
             return robin_.right_hand_side(i, positions, other_side);
         const auto star = star_.row(i);
         const auto columns = star_.columns()[i];
-        const Point v = positions.row(sub_mesh_->interface.vertices[at(i)]);
+        const Point v = positions.row(sub_mesh_->interface.vertices[i]);
         Point sum = v;
         for (std::size_t k = 0; k < columns.size(); ++k)
             if (columns[k] >= sub_mesh_->n_vertices)
@@ -109,17 +109,17 @@ class PredictedSide final : public TransmissionCondition {
 
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
     {
-        if (!yields_[at(i)])
+        if (!yields_[i])
             return robin_.is_well_defined(i, positions) ? RowKind::Robin : RowKind::Held;
         return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Yielding : RowKind::Held;
     }
 
-    /// What the Laplacian's diagonal keeps when the other side yields. Obtuse triangles can make it negative.
+    /// What remains of the Laplacian's diagonal when the other side yields. Obtuse triangles can make it negative.
     [[nodiscard]] double remaining_diagonal(Index i, const Points& positions) const
     {
         const auto star = star_.row(i);
         const auto columns = star_.columns()[i];
-        const Index vertex = sub_mesh_->interface.vertices[at(i)];
+        const Index vertex = sub_mesh_->interface.vertices[i];
         double sum = 0.0;
         for (std::size_t k = 0; k < columns.size(); ++k)
             if (columns[k] == vertex)
@@ -137,8 +137,7 @@ class PredictedSide final : public TransmissionCondition {
     /// ρ of a vertex beyond Γ in row i; 0 where the other side is held.
     [[nodiscard]] double yielding(Index i, Index beyond, const Points& positions) const
     {
-        return kinds_[at(i)] == RowKind::Yielding ? remainder(sub_mesh_->interface.vertices[at(i)], beyond, positions)
-                                                  : 0.0;
+        return kinds_[i] == RowKind::Yielding ? remainder(sub_mesh_->interface.vertices[i], beyond, positions) : 0.0;
     }
 
     [[nodiscard]] std::size_t place_of(Index i, Index column) const

@@ -8,8 +8,8 @@
 
 namespace seamflow {
 
-/// Robin conditions that make good use of a prediction of the other side: positions Ŵ of its vertices that belong to Vᵏ
-/// on Γ. What Γ moves by on top of that is felt on the other side as a disturbance that dies away over √dt.
+/// Robin conditions with a prediction of the other side: positions Ŵ of its vertices for Γ held at Vᵏ. The movement of
+/// Γ then acts on the other side as a disturbance that dies away over √dt.
 ///
 /// Where the Laplacian allows (it reaches along edges alone: Δ_F; Δ_A where all faces at the vertex are triangles) the
 /// row is that of the undecomposed step, V_v + dt Σⱼ aⱼ Vⱼ = V_v^k, with each vertex w beyond Γ replaced by Ŵ_w + ρ_w

@@ -3,14 +3,13 @@
 #include <span>
 
 #include "partition/index_lists.h"
-#include "solvers/geometry.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
-/// The rows of a sub-mesh at those vertices of its Γ where it takes over nobody's result. They stand for the sub-meshes
-/// on the other side, of which no more is known than their latest state: Vᵏ, a prediction, or, where every sub-mesh has
-/// a copy of Γ of its own, that copy. Vertices are local, row i is that of the i-th vertex of Γ (see
-/// SubMeshInterface).
+/// The rows of a sub-mesh at those vertices of its Γ where it solves first. They stand for the sub-meshes on the other
+/// side, of which only the latest state is known: Vᵏ, a prediction, or, where every sub-mesh has its own copy of Γ,
+/// that copy. Vertices are local, row i is that of the i-th vertex of Γ (see SubMeshInterface).
 class TransmissionCondition {
   public:
     virtual ~TransmissionCondition() = default;
@@ -18,7 +17,7 @@ class TransmissionCondition {
     /// The own vertices on which each row may depend, the vertex itself among them; ascending, the same in every step.
     [[nodiscard]] virtual const IndexLists& columns() const = 0;
 
-    /// Takes over the geometry of a new step; to be called before the other two.
+    /// Reads the geometry of a new step; called before the other two.
     /// @param positions #local by 3, the halo included: Vᵏ.
     /// @param other_side #local by 3: Vᵏ as the other side has it, on Γ and in the halo.
     /// @param time_step dt, in length².

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solvers/conditions/adapted_ventcell.h"
-#include "solvers/interface/derivatives.h"
+#include "solvers/conditions/derivatives.h"
 
 namespace seamflow {
 
@@ -17,7 +17,7 @@ class Ventcell final : public TransmissionCondition {
         : sub_mesh_(&sub_mesh)
         , adapted_(make_adapted_ventcell(sub_mesh, q))
         , q_(q)
-        , others_weights_(at(sub_mesh.interface.size()))
+        , others_weights_(sub_mesh.interface.size())
     {
     }
 
@@ -28,7 +28,7 @@ class Ventcell final : public TransmissionCondition {
         adapted_->begin_step(positions, other_side, time_step, p);
         dt_q_ = time_step * q_;
         for (Index i = 0; i < sub_mesh_->interface.size(); ++i)
-            others_weights_[at(i)] = tangential_weights(*sub_mesh_, i, other_side);
+            others_weights_[i] = tangential_weights(*sub_mesh_, i, other_side);
     }
 
     void left_hand_side(Index i, const Points& positions, std::span<double> row) const override
@@ -41,7 +41,7 @@ class Ventcell final : public TransmissionCondition {
         const Point robin = adapted_->right_hand_side(i, other_side, other_side);
         if (dt_q_ == 0.0)
             return robin;
-        return robin + dt_q_ * tangential_derivative(*sub_mesh_, i, others_weights_[at(i)], other_side);
+        return robin + dt_q_ * tangential_derivative(*sub_mesh_, i, others_weights_[i], other_side);
     }
 
   private:

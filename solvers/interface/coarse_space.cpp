@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "solvers/elimination_order.h"
-#include "solvers/wide.h"
+#include "solvers/direct/simd.h"
+#include "solvers/sparse/elimination_order.h"
 
 namespace seamflow {
 
@@ -23,12 +23,12 @@ IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
     IndexLists lists;
     lists.offsets.assign(at(n_lists) + 1, 0);
     for (const Index list : list_of)
-        ++lists.offsets[at(list) + 1];
+        ++lists.offsets[list + 1];
     std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
     std::vector<Index> next(lists.offsets.begin(), lists.offsets.end() - 1);
     lists.values.resize(list_of.size());
     for (std::size_t i = 0; i < list_of.size(); ++i)
-        lists.values[at(next[at(list_of[i])]++)] = static_cast<Index>(i);
+        lists.values[next[list_of[i]]++] = static_cast<Index>(i);
     return lists;
 }
 
@@ -38,35 +38,35 @@ std::ptrdiff_t place_in(std::span<const Index> ascending, Index value)
 }
 
 // By name, because compilers do not find sums in loops. Rows are used eight at a time.
-using Four [[gnu::vector_size(32)]] = double;
+using FourDoubles [[gnu::vector_size(32)]] = double;
 using FourFloats [[gnu::vector_size(16)]] = float;
 static_assert(DenseFactor::lanes == 8);
 
-inline double sum_of(const Four& low, const Four& high)
+inline double sum_of(const FourDoubles& low, const FourDoubles& high)
 {
-    const Four sums = low + high;
+    const FourDoubles sums = low + high;
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-inline void load(const double* from, Four& numbers)
+inline void load(const double* from, FourDoubles& numbers)
 {
     std::memcpy(&numbers, from, sizeof numbers);
 }
 
-inline void load(const float* from, Four& numbers)
+inline void load(const float* from, FourDoubles& numbers)
 {
     FourFloats narrow;
     std::memcpy(&narrow, from, sizeof narrow);
-    numbers = __builtin_convertvector(narrow, Four);
+    numbers = __builtin_convertvector(narrow, FourDoubles);
 }
 
 /// The next numbers of two vectors, multiplied and added to eight sums, which are single numbers: GCC keeps arrays of
 /// them in memory.
 template <class Number>
-[[gnu::always_inline]] inline void add_products(const Number* a, const double* b, Four& low, Four& high)
+[[gnu::always_inline]] inline void add_products(const Number* a, const double* b, FourDoubles& low, FourDoubles& high)
 {
-    Four of_a;
-    Four of_b;
+    FourDoubles of_a;
+    FourDoubles of_b;
     load(a, of_a);
     load(b, of_b);
     low += of_a * of_b;
@@ -75,17 +75,17 @@ template <class Number>
     high += of_a * of_b;
 }
 
-/// In numbers: how far before they are used products are asked for, which have left the caches since the last time.
+/// How many numbers ahead of their use products are prefetched; they have left the caches since the last time.
 constexpr std::size_t products_ahead = 2048;
 constexpr std::size_t cache_line = 64 / sizeof(float);
 
-/// column · v for three columns. What comes a certain way after the column is asked for.
+/// column · v for three columns. Prefetches what comes a certain distance after the column.
 /// @param v DenseFactor::room by 3.
 SEAMFLOW_WIDE void multiply_column(const float* column, const Columns& v, Point& result)
 {
     // The last ones ask for what is after the products, which does no harm.
     const std::uintptr_t ahead = reinterpret_cast<std::uintptr_t>(column) + products_ahead * sizeof(float);
-    Four x_low{}, x_high{}, y_low{}, y_high{}, z_low{}, z_high{};
+    FourDoubles x_low{}, x_high{}, y_low{}, y_high{}, z_low{}, z_high{};
     const double* x = v.data();
     const double* y = x + v.rows();
     const double* z = y + v.rows();
@@ -106,7 +106,7 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
     const Eigen::Index n = columns.rows();
     for (Eigen::Index f = 0; f < columns.cols(); ++f)
         for (Eigen::Index g = 0; g <= f; ++g) {
-            Four low{}, high{};
+            FourDoubles low{}, high{};
             for (Eigen::Index i = 0; i < n; i += DenseFactor::lanes)
                 add_products(columns.data() + f * n + i, columns.data() + g * n + i, low, high);
             product(f, g) = product(g, f) = sum_of(low, high);
@@ -117,9 +117,9 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
 
 CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
     : copies_(copies)
-    , products_(at(copies.n_sub_meshes()))
-    , scales_(at(copies.n_sub_meshes()))
-    , energies_(at(copies.n_sub_meshes()))
+    , products_(copies.n_sub_meshes())
+    , scales_(copies.n_sub_meshes())
+    , energies_(copies.n_sub_meshes())
 {
     find_functions();
     list_functions();
@@ -130,24 +130,24 @@ CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
 
 void CoarseSpace::find_functions()
 {
-    function_.resize(at(copies_.n_copies()));
+    function_.resize(copies_.n_copies());
     Index n_functions = 0;
     std::map<std::vector<Index>, std::vector<Index>> stretches;
     // Vertices with the same first sub-mesh follow each other.
     for (Index begin = 0, end = 0; begin < copies_.n_vertices(); begin = end) {
-        const auto first_at = [this](Index v) { return copies_.sub_mesh[at(copies_.of_vertex[v].front())]; };
+        const auto first_at = [this](Index v) { return copies_.sub_mesh[copies_.of_vertex[v].front()]; };
         stretches.clear();
         for (; end < copies_.n_vertices() && first_at(end) == first_at(begin); ++end) {
             std::vector<Index> sharing;
             for (const Index copy : copies_.of_vertex[end])
-                sharing.push_back(copies_.sub_mesh[at(copy)]);
+                sharing.push_back(copies_.sub_mesh[copy]);
             stretches[std::move(sharing)].push_back(end);
         }
         for (const auto& [sharing, vertices] : stretches) {
             const bool is_single = vertices.size() == 1;
             for (const Index v : vertices)
                 for (std::size_t k = 0; k < sharing.size(); ++k)
-                    function_[at(copies_.of_vertex[v][k])] = n_functions + (is_single ? 0 : static_cast<Index>(k));
+                    function_[copies_.of_vertex[v][k]] = n_functions + (is_single ? 0 : static_cast<Index>(k));
             n_functions += is_single ? 1 : static_cast<Index>(sharing.size());
         }
     }
@@ -160,15 +160,13 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Loop& loo
 {
     for_each(loop, size(), [&](Index f) {
         const auto copies = copies_in_[f];
-        const auto is_first = [this](Index copy) {
-            return copies_.of_vertex[copies_.vertex[at(copy)]].front() == copy;
-        };
+        const auto is_first = [this](Index copy) { return copies_.of_vertex[copies_.vertex[copy]].front() == copy; };
         const bool is_constant = std::any_of(copies.begin(), copies.end(), is_first);
         double mean = 0.0;
         for (const Index copy : copies)
-            mean += weights[at(copy)] / static_cast<double>(copies.size());
+            mean += weights[copy] / static_cast<double>(copies.size());
         for (const Index copy : copies)
-            values_at_[at(copy)] = is_constant ? (is_first(copy) ? 1.0 : 0.0) : weights[at(copy)] - mean;
+            values_at_[copy] = is_constant ? (is_first(copy) ? 1.0 : 0.0) : weights[copy] - mean;
     });
 }
 
@@ -177,9 +175,9 @@ void CoarseSpace::list_functions()
     std::vector<Index> found;
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
         found.clear();
-        for (Index copy = copies_.first[at(s)]; copy < copies_.first[at(s) + 1]; ++copy)
-            for (const Index other : copies_.of_vertex[copies_.vertex[at(copy)]])
-                found.push_back(function_[at(other)]);
+        for (Index copy = copies_.first[s]; copy < copies_.first[s + 1]; ++copy)
+            for (const Index other : copies_.of_vertex[copies_.vertex[copy]])
+                found.push_back(function_[other]);
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
         functions_at_.values.insert(functions_at_.values.end(), found.begin(), found.end());
@@ -195,24 +193,24 @@ std::vector<MatrixEntry> CoarseSpace::entries() const
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
         for (const Index f : functions_at_[s])
             for (const Index g : functions_at_[s])
-                if (unknown_of_[at(f)] <= unknown_of_[at(g)])
-                    entries.push_back({unknown_of_[at(g)], unknown_of_[at(f)]});
+                if (unknown_of_[f] <= unknown_of_[g])
+                    entries.push_back({unknown_of_[g], unknown_of_[f]});
     return entries;
 }
 
 void CoarseSpace::analyse()
 {
-    unknown_of_.resize(at(size()));
+    unknown_of_.resize(size());
     std::iota(unknown_of_.begin(), unknown_of_.end(), 0);
     if (size() == 0)
         return;
     const std::vector<Index> order = elimination_order(make_pattern(size(), entries()));
     for (std::size_t i = 0; i < order.size(); ++i)
-        unknown_of_[at(order[i])] = static_cast<Index>(i);
+        unknown_of_[order[i]] = static_cast<Index>(i);
     const std::vector<MatrixEntry> places = entries();
     const SparsePattern upper = make_pattern(size(), places);
     solver_.emplace(upper);
-    values_.resize(at(upper.n_entries()));
+    values_.resize(upper.n_entries());
     for (const MatrixEntry& entry : places)
         slots_.push_back(upper.slot(entry));
     for (Index u = 0; u < size(); ++u)
@@ -226,7 +224,7 @@ void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::sp
     if (size() == 0)
         return;
     set_functions(weights, loop);
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, systems[at(s)]->schur()); });
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, systems[s]->schur()); });
     assemble();
     is_factorised_ = solver_->factorise(values_, memory_, workspace_);
 }
@@ -240,21 +238,20 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     AlignedFloats columns;
     columns.assign(n_columns * room);
     for (Index i = 0; i < copies_.n_in(s); ++i)
-        for (const Index copy : copies_.of_vertex[copies_.vertex[at(copies_.first[at(s)] + i)]]) {
-            const auto column = static_cast<std::size_t>(place_in(functions, function_[at(copy)]));
-            columns.data()[column * room + at(i)] += static_cast<float>(values_at_[at(copy)]);
+        for (const Index copy : copies_.of_vertex[copies_.vertex[copies_.first[s] + i]]) {
+            const auto column = static_cast<std::size_t>(place_in(functions, function_[copy]));
+            columns.data()[column * room + at(i)] += static_cast<float>(values_at_[copy]);
         }
-    products_[at(s)].assign(n_columns * room);
+    products_[s].assign(n_columns * room);
     for (std::size_t c = 0; c < n_columns; c += 3)
-        schur.multiply(columns_at(columns.data() + c * room, room),
-                       columns_at(products_[at(s)].data() + c * room, room));
+        schur.multiply(columns_at(columns.data() + c * room, room), columns_at(products_[s].data() + c * room, room));
     const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(room),
                                                                     static_cast<Eigen::Index>(functions.size()))
                                       .cast<double>();
-    energies_[at(s)].resize(roots.cols(), roots.cols());
-    multiply_by_itself(roots, energies_[at(s)]);
-    scales_[at(s)] = schur.scale();
-    energies_[at(s)] *= scales_[at(s)];
+    energies_[s].resize(roots.cols(), roots.cols());
+    multiply_by_itself(roots, energies_[s]);
+    scales_[s] = schur.scale();
+    energies_[s] *= scales_[s];
 }
 
 /// In the order of `entries`.
@@ -266,13 +263,12 @@ void CoarseSpace::assemble()
         const auto functions = functions_at_[s];
         for (std::size_t f = 0; f < functions.size(); ++f)
             for (std::size_t g = 0; g < functions.size(); ++g)
-                if (unknown_of_[at(functions[f])] <= unknown_of_[at(functions[g])])
-                    values_[at(*slot++)] +=
-                        energies_[at(s)](static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
+                if (unknown_of_[functions[f]] <= unknown_of_[functions[g]])
+                    values_[*slot++] += energies_[s](static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
     }
     // Where all weights are the same, a function is none.
     for (const Index diagonal : diagonal_slots_)
-        values_[at(diagonal)] = values_[at(diagonal)] > 0.0 ? (1.0 + regularisation) * values_[at(diagonal)] : 1.0;
+        values_[diagonal] = values_[diagonal] > 0.0 ? (1.0 + regularisation) * values_[diagonal] : 1.0;
 }
 
 void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
@@ -283,15 +279,15 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
     for_each(loop, size(), [&](Index f) {
         Point sum = Point::Zero();
         for (const Index copy : copies_in_[f])
-            sum += values_at_[at(copy)] * residual.row(copies_.vertex[at(copy)]);
+            sum += values_at_[copy] * residual.row(copies_.vertex[copy]);
         for (const Index place : places_[f])
             sum -= shares_.row(place);
-        coefficients_.row(unknown_of_[at(f)]) = sum;
+        coefficients_.row(unknown_of_[f]) = sum;
     });
     solver_->solve(coefficients_, coefficients_, workspace_);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
-            y.row(v) += values_at_[at(copy)] * coefficients_.row(unknown_of_[at(function_[at(copy)])]);
+            y.row(v) += values_at_[copy] * coefficients_.row(unknown_of_[function_[copy]]);
     });
 }
 
@@ -301,17 +297,17 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
     const Index n = copies_.n_in(s);
     const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
     if (s + 1 < copies_.n_sub_meshes())
-        for (std::size_t i = 0; i < std::min(products_[at(s + 1)].size(), products_ahead); i += cache_line)
-            __builtin_prefetch(products_[at(s + 1)].data() + i);
+        for (std::size_t i = 0; i < std::min(products_[s + 1].size(), products_ahead); i += cache_line)
+            __builtin_prefetch(products_[s + 1].data() + i);
     Columns local(room, 3);
     local.bottomRows(room - n).setZero();
     for (Index i = 0; i < n; ++i)
-        local.row(i) = y.row(copies_.vertex[at(copies_.first[at(s)] + i)]);
-    const float* product = products_[at(s)].data();
-    for (Index place = functions_at_.offsets[at(s)]; place < functions_at_.offsets[at(s) + 1]; ++place) {
+        local.row(i) = y.row(copies_.vertex[copies_.first[s] + i]);
+    const float* product = products_[s].data();
+    for (Index place = functions_at_.offsets[s]; place < functions_at_.offsets[s + 1]; ++place) {
         Point share;
         multiply_column(product, local, share);
-        shares_.row(place) = scales_[at(s)] * share;
+        shares_.row(place) = scales_[s] * share;
         product += room;
     }
 }

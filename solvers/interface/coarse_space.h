@@ -6,21 +6,21 @@
 
 #include "partition/index_lists.h"
 #include "partition/loop.h"
-#include "solvers/columns.h"
-#include "solvers/factor_memory.h"
+#include "solvers/direct/columns.h"
+#include "solvers/direct/factor_memory.h"
+#include "solvers/direct/ldl_solver.h"
 #include "solvers/interface/interface_copies.h"
-#include "solvers/ldl_solver.h"
 #include "solvers/systems/neumann_system.h"
 
 namespace seamflow {
 
-/// What the sub-meshes cannot settle each for itself, as few unknowns. On each stretch of Γ, the vertices that the same
-/// sub-meshes share, the functions that are a sub-mesh's weights W there, and 0 elsewhere, are the columns of Z, in a
-/// basis that is sound where weights hardly differ: the constant, and the weights of all but the first sub-mesh without
-/// their mean; of a single vertex the constant alone. Balances the Neumann-Neumann preconditioner (Mandel, "Balancing
-/// domain decomposition", 1993, with one function for all stretches of a sub-mesh) in the form in which an iteration
-/// needs no second product with S (A-DEF2 of Tang, Nabben, Vuik and Erlangga 2009): y becomes
-/// y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
+/// The coarse space: few unknowns for the part of the error that single sub-meshes cannot reduce. A stretch of Γ is the
+/// set of vertices that the same sub-meshes share. On each stretch, the columns of Z are the functions that equal a
+/// sub-mesh's weights W there, and 0 elsewhere. Their basis is well conditioned where weights hardly differ: the
+/// constant, and the weights of all but the first sub-mesh without their mean; for a single vertex the constant alone.
+/// Balances the Neumann-Neumann preconditioner (Mandel, "Balancing domain decomposition", 1993, with one function for
+/// all stretches of a sub-mesh) in the form in which an iteration needs no second product with S (A-DEF2 of Tang,
+/// Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
 class CoarseSpace {
   public:
     /// @param copies must outlive the space.

@@ -17,7 +17,7 @@ struct InterfaceCopies {
     [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(first.size()) - 1; }
 
     /// How many copies sub-mesh s has.
-    [[nodiscard]] Index n_in(Index s) const { return first[at(s) + 1] - first[at(s)]; }
+    [[nodiscard]] Index n_in(Index s) const { return first[s + 1] - first[s]; }
 
     /// Per sub-mesh its first copy, and one more.
     std::vector<Index> first{0};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,32 +8,20 @@
 #include "partition/loop.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
+#include "solvers/krylov/conjugate_gradients.h"
 #include "solvers/systems/neumann_system.h"
 
 namespace seamflow {
 
-/// When the iteration for the interface equation ends.
-struct InterfaceStop {
-    /// Residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
-    double tolerance = 0.0;
-    /// Most iterations.
-    int iterations = 0;
-};
-
-/// How it ended.
-struct InterfaceResult {
-    int iterations = 0;
-    /// Largest of the three relative residuals.
-    double residual = 0.0;
-    /// Whether it ended because iterations no longer made the residual smaller.
-    bool stagnated = false;
+/// How the iteration for the interface equation ended; the residual is the largest of those of x, y and z.
+struct InterfaceResult : IterationResult {
     /// Largest row of the preconditioned residual, scaled like the last iteration: an estimate of the largest distance
     /// to the solution, in units of length.
     double estimated_distance = 0.0;
 };
 
-/// Whether the preconditioner is balanced by a CoarseSpace: fewer iterations, but each costs more, and so does the
-/// beginning of each solution. Pays where sub-meshes are narrow against √dt.
+/// Whether the preconditioner is balanced by a CoarseSpace. There are fewer iterations then, but each iteration and the
+/// start of each solution cost more. It pays where sub-meshes are narrow against √dt.
 enum class Balancing {
     None,
     Coarse,
@@ -61,31 +48,29 @@ class InterfaceEquation {
     /// Solves.
     /// @param systems factorised.
     /// @param right_hand_sides one row per copy: each sub-mesh's share g_i.
+    /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
     /// @param guess one row per vertex of Γ: a direction in which the solution may be expected, or no rows.
     /// @param x receives the solution, one row per vertex of Γ.
     /// @throws ComputationError if the right-hand side or the result is not finite.
     InterfaceResult solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
-                          const Points& guess, const InterfaceStop& stop, Points& x, const Loop& loop);
+                          const Points& guess, const IterationStop& stop, Points& x, const Loop& loop);
 
   private:
-    using Sums = std::array<double, 3>;
-
     void weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop);
     void sum_copies(const Points& copies, Points& sums, const Loop& loop);
-    void measure_residual(std::span<const NeumannSystem* const> systems, const Points& x, const Loop& loop);
-    void start(std::span<const NeumannSystem* const> systems, const Points& guess, Points& x, const Loop& loop);
-    int iterate(std::span<const NeumannSystem* const> systems, const Sums& goals, int most, Points& x,
-                const Loop& loop);
+    void measure_residual(std::span<const NeumannSystem* const> systems, const Points& x, Points& residual,
+                          const Loop& loop);
+    template <class Multiply>
+    void start(const Multiply& multiply, const Points& guess, Points& x, const Loop& loop);
     Point measure_right_hand_side();
-    double estimate_distance(std::span<const NeumannSystem* const> systems, const Point& unit, const Loop& loop);
-    void advance(std::span<const NeumannSystem* const> systems, Points& x, const Loop& loop);
-    void multiply(std::span<const NeumannSystem* const> systems, const Loop& loop);
-    void precondition(std::span<const NeumannSystem* const> systems, const Loop& loop);
+    [[nodiscard]] double estimate_distance(const Point& unit) const;
+    void multiply(std::span<const NeumannSystem* const> systems, const Points& direction, Points& product,
+                  const Loop& loop);
+    void precondition(std::span<const NeumannSystem* const> systems, const Points& residual, Points& preconditioned,
+                      const Loop& loop);
     template <class Apply>
     void on_each(std::span<const NeumannSystem* const> systems, const Points& source, bool weighted, Points& target,
                  const Loop& loop, Apply&& apply);
-    Sums dot(const Points& a, const Points& b, const Loop& loop);
-    Sums norms(const Loop& loop);
 
     InterfaceCopies copies_;
     std::optional<CoarseSpace> coarse_;
@@ -96,15 +81,7 @@ class InterfaceEquation {
     std::vector<std::size_t> first_product_;
     Points residual_copies_;
     Points right_hand_side_;
-    Points residual_;
-    Points direction_;
-    Points product_;
-    Points preconditioned_;
-    /// Of the present direction with its product.
-    Sums curvature_{};
-    /// Of the latest direction, as a multiple of it.
-    Point step_length_;
-    std::vector<Sums> partial_;
+    ConjugateGradientVectors vectors_;
 };
 
 }  // namespace seamflow

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solvers/restarted_gmres.h"
-#include "solvers/set_rows.h"
+#include "solvers/direct/columns.h"
+#include "solvers/krylov/gmres.h"
 
 namespace seamflow {
 
@@ -35,20 +35,20 @@ double longest_row(const Points& a)
 
 TraceEquation::TraceEquation(std::span<SchwarzBlock* const> blocks, Index n_vertices)
     : ends_(blocks.size())
-    , gmres_(0)
+    , basis_(0)
 {
     constexpr Index unmarked = -1;
-    std::vector<Index> number_of(at(n_vertices), unmarked);
+    std::vector<Index> number_of(n_vertices, unmarked);
     for (const SchwarzBlock* block : blocks)
         for (const Index v : block->beyond())
-            number_of[at(block->sub_mesh().local_to_global[at(v)])] = 0;
+            number_of[block->sub_mesh().local_to_global[v]] = 0;
     Index n = 0;
     for (std::size_t s = 0; s < blocks.size(); ++s) {
         const SubMesh& sub_mesh = blocks[s]->sub_mesh();
         const std::vector<Index>& unknowns = blocks[s]->unknowns();
         for (std::size_t u = 0; u < unknowns.size(); ++u) {
-            Index& number = number_of[at(sub_mesh.local_to_global[at(unknowns[u])])];
-            if (number == unmarked || sub_mesh.owned[at(unknowns[u])] == 0)
+            Index& number = number_of[sub_mesh.local_to_global[unknowns[u]]];
+            if (number == unmarked || sub_mesh.owned[unknowns[u]] == 0)
                 continue;
             number = n++;
             ends_[s].outputs.push_back(static_cast<Index>(u));
@@ -57,49 +57,48 @@ TraceEquation::TraceEquation(std::span<SchwarzBlock* const> blocks, Index n_vert
     }
     for (std::size_t s = 0; s < blocks.size(); ++s)
         for (const Index v : blocks[s]->beyond())
-            ends_[s].inputs.push_back(number_of[at(blocks[s]->sub_mesh().local_to_global[at(v)])]);
+            ends_[s].inputs.push_back(number_of[blocks[s]->sub_mesh().local_to_global[v]]);
     traces_.resize(n, 3);
     residual_.resize(n, 3);
-    gmres_ = Gmres(n);
+    basis_ = KrylovBasis(n);
 }
 
-TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const TraceStop& stop, Points& x,
+TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const IterationStop& stop, Points& x,
                                  const Threads& threads)
 {
     for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
-        const SchwarzBlock& block = *blocks[at(s)];
-        for (std::size_t i = 0; i < ends_[at(s)].outputs.size(); ++i)
-            traces_.row(first_[at(s)] + static_cast<Index>(i)) =
-                x.row(block.sub_mesh().local_to_global[at(block.unknowns()[at(ends_[at(s)].outputs[i])])]);
+        const SchwarzBlock& block = *blocks[s];
+        for (std::size_t i = 0; i < ends_[s].outputs.size(); ++i)
+            traces_.row(first_[s] + static_cast<Index>(i)) =
+                x.row(block.sub_mesh().local_to_global[block.unknowns()[ends_[s].outputs[i]]]);
     });
     renew(blocks, x, threads);
     const Loop& loop = threads.loop;
     const double unit = std::max(norm(residual_, loop), rounding * norm(traces_, loop) / stop.tolerance);
-    const RestartedEquation equation{
-        .multiply = [&](const Points& p, Points& product) { multiply(blocks, p, product, threads); },
-        .measure = [&] { renew(blocks, x, threads); }};
-    const RestartResult found = solve_restarted(
-        equation, {stop.tolerance * unit, stop.iterations, most_directions(size())}, gmres_, traces_, residual_, loop);
-    return {.iterations = found.iterations,
-            .residual = unit > 0.0 ? found.residual / unit : 0.0,
-            .stagnated = found.stagnated,
-            .distance = std::max(1.0, amplified_share * found.amplification) * longest_row(residual_)};
+    const auto multiply = [&](const Points& p, Points& product) { this->multiply(blocks, p, product, threads); };
+    const auto measure = [&] { renew(blocks, x, threads); };
+    const GmresResult found = gmres(multiply, measure, {stop.tolerance * unit, stop.iterations},
+                                    most_directions(size()), basis_, traces_, residual_, loop);
+    TraceResult result{found};
+    result.residual = unit > 0.0 ? found.residual / unit : 0.0;
+    result.estimated_distance = std::max(1.0, amplified_share * found.amplification) * longest_row(residual_);
+    return result;
 }
 
 /// All vertices from the traces, and the traces' residual T g + c - g.
 void TraceEquation::renew(std::span<SchwarzBlock* const> blocks, Points& x, const Threads& threads)
 {
     for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
-        SchwarzBlock& block = *blocks[at(s)];
+        SchwarzBlock& block = *blocks[s];
         SolverWorkspace& workspace = threads.workspace();
-        solve_block(block, ends_[at(s)], traces_, SchwarzBlock::RightHandSide::Step, workspace);
+        solve_block(block, ends_[s], traces_, SchwarzBlock::RightHandSide::Step, workspace);
         const SubMesh& sub_mesh = block.sub_mesh();
         for (std::size_t u = 0; u < block.unknowns().size(); ++u)
-            if (sub_mesh.owned[at(block.unknowns()[u])] != 0)
-                x.row(sub_mesh.local_to_global[at(block.unknowns()[u])]) =
+            if (sub_mesh.owned[block.unknowns()[u]] != 0)
+                x.row(sub_mesh.local_to_global[block.unknowns()[u]]) =
                     workspace.solution.row(static_cast<Eigen::Index>(u));
-        Index trace = first_[at(s)];
-        for (const Index u : ends_[at(s)].outputs) {
+        Index trace = first_[s];
+        for (const Index u : ends_[s].outputs) {
             residual_.row(trace) = workspace.solution.row(u) - traces_.row(trace);
             ++trace;
         }
@@ -112,9 +111,9 @@ void TraceEquation::multiply(std::span<SchwarzBlock* const> blocks, const Points
 {
     for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
         SolverWorkspace& workspace = threads.workspace();
-        solve_block(*blocks[at(s)], ends_[at(s)], p, SchwarzBlock::RightHandSide::Zero, workspace);
-        Index trace = first_[at(s)];
-        for (const Index u : ends_[at(s)].outputs) {
+        solve_block(*blocks[s], ends_[s], p, SchwarzBlock::RightHandSide::Zero, workspace);
+        Index trace = first_[s];
+        for (const Index u : ends_[s].outputs) {
             product.row(trace) = p.row(trace) - workspace.solution.row(u);
             ++trace;
         }

@@ -5,30 +5,17 @@
 #include <vector>
 
 #include "partition/loop.h"
-#include "solvers/gmres.h"
+#include "solvers/krylov/gmres.h"
 #include "solvers/systems/schwarz_block.h"
 
 namespace seamflow {
 
-/// When the iteration for the trace equation ends.
-struct TraceStop {
-    /// Residual relative to that at the beginning, in the Euclidean norm over x, y and z; or to what rounding alone
-    /// makes of the positions, whatever is larger. Positive.
-    double tolerance = 0.0;
-    /// Most iterations.
-    int iterations = 0;
-};
-
-/// How it ended.
-struct TraceResult {
-    int iterations = 0;
-    /// Relative, as in TraceStop.
-    double residual = 0.0;
-    /// Whether it ended because iterations no longer made the residual smaller.
-    bool stagnated = false;
-    /// The longest row of the residual, as amplified (see Gmres) as residuals typically are, in length: about how far a
-    /// vertex is from where the exact step takes it, or less: the blocks' last solve lessens what is left.
-    double distance = 0.0;
+/// How the iteration for the trace equation ended.
+struct TraceResult : IterationResult {
+    /// The longest row of the residual, in length, times the typical amplification of residuals (see GmresCycle). It
+    /// estimates the largest distance to the exact step, rather too high, since the blocks' last solve reduces the
+    /// error further.
+    double estimated_distance = 0.0;
 };
 
 /// The whole backward Euler step as an equation on traces: g are the positions of those vertices that occur in the
@@ -54,9 +41,12 @@ class TraceEquation {
 
     /// Solves.
     /// @param blocks factorised.
+    /// @param stop residual relative to that at the beginning, in the Euclidean norm over x, y and z; or to what
+    ///        rounding alone makes of the positions, whatever is larger. The tolerance is positive.
     /// @param x #V by 3. In: Vᵏ, where the iteration starts. Out: Vᵏ⁺¹.
     /// @throws ComputationError if a result is not finite.
-    TraceResult solve(std::span<SchwarzBlock* const> blocks, const TraceStop& stop, Points& x, const Threads& threads);
+    TraceResult solve(std::span<SchwarzBlock* const> blocks, const IterationStop& stop, Points& x,
+                      const Threads& threads);
 
   private:
     /// What a block takes from the traces and gives to them.
@@ -78,7 +68,7 @@ class TraceEquation {
     std::vector<Index> first_{0};
     Points traces_;
     Points residual_;
-    Gmres gmres_;
+    KrylovBasis basis_;
 };
 
 }  // namespace seamflow

@@ -1,13 +1,138 @@
 #pragma once
 
-#include <memory>
+#include <array>
+#include <span>
+#include <vector>
 
-#include "solvers/laplacian/laplacian_assembler.h"
+#include "solvers/laplacian/geometry.h"
+#include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
-/// Δ_A = W_V d0ᵀ R W1 Rᵀ d0 (paper, eq. 15), without a stabilisation term. Per face, d0ᵀ R W1 Rᵀ d0 = B Bᵀ / |f|
-/// with the corner bisectors bₖ as rows of B (see corner_bisector).
-std::unique_ptr<LaplacianAssembler> make_alexa_wardetzky_assembler(const FaceView& faces);
+/// Δ_A = W_V d0ᵀ R W1 Rᵀ d0 (paper, eq. 15), without a stabilisation term. Per face, K = d0ᵀ R W1 Rᵀ d0 = B Bᵀ / |f|
+/// with the corner bisectors bₖ as rows of B (see corner_bisector); M = W_V⁻¹ has the areas of the vertices (eq. 11).
+struct AlexaWardetzky {
+    static constexpr LaplacianTraits traits{Laplacian::AlexaWardetzky, "alexa-wardetzky", Reach::Faces,
+                                            Divisor::FaceAreas, true};
+
+    /// |f|.
+    static double size(std::span<const Index> corners, const Points& positions) { return area(corners, positions); }
+
+    /// The bisectors of a polygon, computed when they are asked for.
+    struct ComputedBisectors {
+        std::span<const Index> corners;
+        const Points& positions;
+        Point operator()(std::size_t k) const { return corner_bisector(corners, k, positions); }
+    };
+
+    /// Those of a polygon of which all rows are wanted, computed once.
+    struct StoredBisectors {
+        const Point* bisectors;
+        const Point& operator()(std::size_t k) const { return bisectors[k]; }
+    };
+    using Scratch = std::vector<Point>;
+
+    /// What one face contributes: see kernels.h.
+    template <class Bisectors>
+    class Face {
+      public:
+        /// Row i of scale · B Bᵀ.
+        struct Row {
+            Point scaled;
+            Bisectors bisectors;
+            double operator()(std::size_t k) const { return scaled.dot(bisectors(k)); }
+        };
+
+        Face(std::span<const Index> corners, const Points& positions, double face_area, Bisectors bisectors)
+            : corners_(corners)
+            , positions_(positions)
+            , area_(face_area)
+            , bisectors_(bisectors)
+        {
+        }
+
+        [[nodiscard]] std::size_t size() const { return corners_.size(); }
+        [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
+        /// |f| / p (eq. 11).
+        [[nodiscard]] double mass(std::size_t) const { return corner_area(area_, size()); }
+        /// |f|: W1 of eq. 15 divides by it.
+        [[nodiscard]] double divisor() const { return area_; }
+        [[nodiscard]] Point divided(const Point& product) const { return product / area_; }
+        [[nodiscard]] Row row(std::size_t i, double scale) const { return {scale * bisectors_(i), bisectors_}; }
+        [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
+        {
+            return positions_.row(corners_[k]) - positions_.row(corners_[i]);
+        }
+
+      private:
+        std::span<const Index> corners_;
+        const Points& positions_;
+        double area_;
+        Bisectors bisectors_;
+    };
+
+    static Face<ComputedBisectors> polygon(std::span<const Index> corners, const Points& positions, double size)
+    {
+        return {corners, positions, size, {corners, positions}};
+    }
+
+    static Face<StoredBisectors> whole_polygon(std::span<const Index> corners, const Points& positions, double size,
+                                               Scratch& scratch)
+    {
+        scratch.resize(corners.size());
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            scratch[k] = corner_bisector(corners, k, positions);
+        return {corners, positions, size, {scratch.data()}};
+    }
+
+    /// The same of a triangle: its bisectors are half the opposite edges, so that K has half the cotangents of the
+    /// angles opposite to its edges, and each row of K sums to zero.
+    class Triangle {
+      public:
+        /// Row i: minus the cotangents opposite to the edges ik, and their sum on the diagonal.
+        struct Row {
+            std::array<double, 3> opposite;
+            std::size_t i;
+            double operator()(std::size_t k) const
+            {
+                return k == i ? opposite[i == 0 ? 1 : 0] + opposite[i == 2 ? 1 : 2] : -opposite[3 - i - k];
+            }
+        };
+
+        Triangle(const std::array<Index, 3>& corners, const Points& positions)
+            : corners_(corners)
+            , edges_(edges_of(corners, positions))
+            , double_area_(edges_[0].cross(edges_[1]).norm())
+            , dots_{edges_[0].dot(edges_[1]), edges_[0].dot(edges_[0] - edges_[1]), edges_[1].dot(edges_[2])}
+        {
+        }
+
+        [[nodiscard]] static constexpr std::size_t size() { return 3; }
+        [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
+        [[nodiscard]] double mass(std::size_t) const { return double_area_ / 6.0; }
+        [[nodiscard]] double divisor() const { return 2.0 * double_area_; }
+        [[nodiscard]] Point divided(const Point& product) const { return 1.0 / divisor() * product; }
+        [[nodiscard]] Row row(std::size_t i, double scale) const
+        {
+            return {{scale * dots_[0], scale * dots_[1], scale * dots_[2]}, i};
+        }
+        [[nodiscard]] const Point& difference(std::size_t i, std::size_t k) const { return edges_[i + k - 1]; }
+
+      private:
+        static std::array<Point, 3> edges_of(const std::array<Index, 3>& corners, const Points& positions)
+        {
+            const Point first = positions.row(corners[1]) - positions.row(corners[0]);
+            const Point second = positions.row(corners[2]) - positions.row(corners[0]);
+            return {first, second, second - first};
+        }
+
+        std::array<Index, 3> corners_;
+        /// From corner 0 to 1, from 0 to 2, from 1 to 2.
+        std::array<Point, 3> edges_;
+        double double_area_;
+        /// Scalar products of the two edges at each corner.
+        std::array<double, 3> dots_;
+    };
+};
 
 }  // namespace seamflow

@@ -1,13 +1,33 @@
 #pragma once
 
-#include <memory>
-
-#include "solvers/laplacian/laplacian_assembler.h"
+#include "solvers/laplacian/geometry.h"
+#include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
-/// Δ_F (paper, eq. 14; see method of Fujiwara 1995). Rows: (nᵥ / Σ‖e‖) Σⱼ (v - vⱼ) / ‖v - vⱼ‖, sums over
-/// the edges at v, those on the boundary counted half, nᵥ their number.
-std::unique_ptr<LaplacianAssembler> make_fujiwara_assembler(const FaceView& faces);
+/// Δ_F (paper, eq. 14; see method of Fujiwara 1995). Rows: (nᵥ / Σ‖e‖) Σⱼ (v - vⱼ) / ‖v - vⱼ‖, sums over the edges at
+/// v, those on the boundary counted half, nᵥ their number. So the edge e has K = [1 -1; -1 1] / ‖e‖, and M_v is the
+/// mean of ‖e‖ over the edges at v.
+struct Fujiwara {
+    static constexpr LaplacianTraits traits{Laplacian::Fujiwara, "fujiwara", Reach::Edges, Divisor::EdgeLengths, true};
+
+    /// What one edge contributes: see kernels.h.
+    class Edge {
+      public:
+        explicit Edge(const Point& difference)
+            : length_(difference.norm())
+        {
+        }
+
+        /// factor · (-K) of its two ends (eq. 14), in 1/length.
+        [[nodiscard]] double weight(double factor) const { return factor / length_; }
+
+        /// Of which M_v is the mean, in length.
+        [[nodiscard]] double mass() const { return length_; }
+
+      private:
+        double length_;
+    };
+};
 
 }  // namespace seamflow

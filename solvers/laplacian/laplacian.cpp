@@ -3,27 +3,24 @@
 #include <array>
 
 #include "partition/errors.h"
+#include "solvers/laplacian/kernels.h"
 
 namespace seamflow {
 
 namespace {
 
-constexpr std::array traits{
-    LaplacianTraits{Laplacian::Fujiwara, "fujiwara", Reach::Edges, Divisor::EdgeLengths, true},
-    LaplacianTraits{Laplacian::AlexaWardetzky, "alexa-wardetzky", Reach::Faces, Divisor::FaceAreas, true},
-    LaplacianTraits{Laplacian::PtackovaVelho, "ptackova-velho", Reach::TwoRings, Divisor::FaceAreas, false},
-};
+constexpr std::array all_traits{Fujiwara::traits, AlexaWardetzky::traits, PtackovaVelho::traits};
 
 }  // namespace
 
 std::span<const LaplacianTraits> all_laplacian_traits()
 {
-    return traits;
+    return all_traits;
 }
 
 const LaplacianTraits& traits_of(Laplacian laplacian)
 {
-    for (const LaplacianTraits& candidate : traits)
+    for (const LaplacianTraits& candidate : all_traits)
         if (candidate.laplacian == laplacian)
             return candidate;
     throw OptionError("no such Laplacian");
@@ -34,12 +31,9 @@ std::string_view name_of(Laplacian laplacian)
     return traits_of(laplacian).name;
 }
 
-std::optional<Laplacian> laplacian_named(std::string_view name)
+bool is_symmetric(Laplacian laplacian)
 {
-    for (const LaplacianTraits& candidate : traits)
-        if (candidate.name == name)
-            return candidate.laplacian;
-    return std::nullopt;
+    return traits_of(laplacian).is_symmetric;
 }
 
 }  // namespace seamflow

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -68,7 +67,7 @@ const LaplacianTraits& traits_of(Laplacian laplacian);
 /// "fujiwara", "alexa-wardetzky" or "ptackova-velho".
 std::string_view name_of(Laplacian laplacian);
 
-/// The Laplacian of that name, if there is one.
-std::optional<Laplacian> laplacian_named(std::string_view name);
+/// Whether a Laplacian is M⁻¹ K.
+bool is_symmetric(Laplacian laplacian);
 
 }  // namespace seamflow

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "solvers/geometry.h"
+#include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
-#include "solvers/sparse_pattern.h"
+#include "solvers/sparse/sparse_pattern.h"
 
 namespace seamflow {
 
@@ -26,20 +26,12 @@ class LaplacianAssembler {
     /// @param slots one place per entry. Entries that are not wanted all point to one place that nobody reads.
     virtual void add(const Points& positions, double factor, std::span<const Index> slots,
                      std::span<double> values) = 0;
+
+    /// M_v of the positions last added: row v times this is the sum of what edges or faces contribute.
+    [[nodiscard]] virtual double mass(Index v) const = 0;
 };
 
 /// The assembler of one Laplacian on the given faces, which must outlive it.
 std::unique_ptr<LaplacianAssembler> make_assembler(Laplacian laplacian, const FaceView& faces);
-
-/// A Laplacian as a matrix.
-struct LaplacianMatrix {
-    SparsePattern pattern;
-    /// One per entry of the pattern, in 1/length².
-    std::vector<double> values;
-};
-
-/// The Laplacian of all vertices, boundary vertices included (there with the paper's half-edge weights; a flow that
-/// holds the boundary fixed never uses these rows). Rows sum to zero.
-LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FaceView& faces, const Points& positions);
 
 }  // namespace seamflow

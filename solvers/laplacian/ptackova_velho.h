@@ -1,15 +1,61 @@
 #pragma once
 
-#include <memory>
+#include <span>
 
-#include "solvers/laplacian/laplacian_assembler.h"
+#include "partition/topology.h"
+#include "solvers/laplacian/geometry.h"
+#include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
 /// Δ_P = -W_V fvᵀ d1 A W1 Rᵀ d0 (paper, eq. 16). W1 Rᵀ d0 x is, for each half-edge h of a face, the flux
 /// w_h = ⟨e_h, Σₖ bₖ xₖ⟩ / |f| of x across it (bₖ: see corner_bisector). The fluxes of one face sum to zero, so that A
 /// leaves per face f: Φ_f = ½ (Σ over edges shared with a face g of w in g - Σ over edges without of w in f), and Δ_P x
-/// = W_V fvᵀ Φ.
-std::unique_ptr<LaplacianAssembler> make_ptackova_velho_assembler(const FaceView& faces);
+/// = W_V fvᵀ Φ. Its rows reach two rings, so that the one face that has a K is one with all those around it.
+struct PtackovaVelho {
+    static constexpr LaplacianTraits traits{Laplacian::PtackovaVelho, "ptackova-velho", Reach::TwoRings,
+                                            Divisor::FaceAreas, false};
+
+    /// The half-edge whose flux counts at an edge of a face, and with which sign.
+    struct Across {
+        Index halfedge;
+        double sign;
+    };
+
+    /// That on the other side, or the face's own on the boundary.
+    static Across across(Index halfedge, Index twin) { return twin >= 0 ? Across{twin, 1.0} : Across{halfedge, -1.0}; }
+
+    /// ± ½ w_h as a row: its coefficient at a corner k of the face of h is the scalar product with bₖ.
+    static Point half_flux(const Point& edge, double sign, double face_area) { return sign * 0.5 / face_area * edge; }
+
+    /// Σₖ bₖᵀ xₖ / |f|: the map from e_h to w_h of given x.
+    /// @param positions, x at least #V by 3: b is that of the former.
+    static Eigen::Matrix3d flux_map(std::span<const Index> corners, const Points& positions, const Points& x,
+                                    double face_area)
+    {
+        const Point origin = x.row(corners[0]);
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        for (std::size_t k = 1; k < corners.size(); ++k)
+            sum += corner_bisector(corners, k, positions).transpose() * (x.row(corners[k]) - origin);
+        return sum / face_area;
+    }
+
+    /// Φ_f / p, what each of the p corners of face f has of M Δ_P x.
+    /// @param flux_map_of the flux map of any face next to f, and of f itself on the boundary.
+    template <class FluxMapOf>
+    static Point corner_share(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index f,
+                              FluxMapOf&& flux_map_of)
+    {
+        Point sum = Point::Zero();
+        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
+            const auto [across_h, sign] = across(h, topology.twin[h]);
+            const Point edge = positions.row(mesh.face_vertices[topology.next(mesh, across_h)]) -
+                               positions.row(mesh.face_vertices[across_h]);
+            const Point flux = edge * flux_map_of(topology.face_of[across_h]);
+            sum += sign * flux;
+        }
+        return sum / (2.0 * static_cast<double>(mesh.face(f).size()));
+    }
+};
 
 }  // namespace seamflow

@@ -1,25 +1,172 @@
 #include "solvers/laplacian/symmetric_laplacian.h"
 
+#include <algorithm>
+#include <array>
+
 #include "partition/errors.h"
+#include "solvers/laplacian/edge_lists.h"
+#include "solvers/laplacian/kernels.h"
 
 namespace seamflow {
 
-bool is_symmetric(Laplacian laplacian)
+namespace {
+
+/// Calls assemble_with(add), where add(v, w, c) adds c = factor · K_vw (V_w - V_v) to row v of the product, if it is
+/// wanted, and takes it from row w.
+template <class AssembleWith>
+void with_product(Points* product, AssembleWith&& assemble_with)
 {
-    return traits_of(laplacian).is_symmetric;
+    if (product == nullptr)
+        return assemble_with([](Index, Index, const Point&) {});
+    product->setZero();
+    assemble_with([&](Index v, Index w, const Point& change) {
+        product->row(v) += change;
+        product->row(w) -= change;
+    });
 }
+
+/// K from edges. Half of an edge on the boundary counts, as one of its two half-edges does.
+template <EdgeKernel Kernel>
+class SymmetricEdges final : public SymmetricLaplacian {
+  public:
+    explicit SymmetricEdges(const FacesOnBothSides& faces)
+        : inverse_degree_(faces.n_vertices, 0.0)
+    {
+        edges_.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
+        append_own_edges(faces, false, edges_);
+        const OuterEdges outer = list_outer_edges(faces);
+        count_edges(edges_, 1.0);
+        count_edges(outer.inner, 1.0);
+        count_edges(outer.rim, 0.5);
+        for (double& degree : inverse_degree_)
+            degree = degree > 0.0 ? 1.0 / degree : 0.0;
+        if (faces.contributions == Contributions::BothSides)
+            edges_.insert(edges_.end(), outer.inner.begin(), outer.inner.end());
+        n_whole_ = edges_.size();
+        if (faces.contributions == Contributions::BothSides)
+            edges_.insert(edges_.end(), outer.rim.begin(), outer.rim.end());
+        else
+            append_own_edges(faces, true, edges_);
+        edges_.shrink_to_fit();
+    }
+
+    [[nodiscard]] bool uses_faces() const override { return false; }
+
+    [[nodiscard]] std::vector<VertexPair> pairs() const override { return edges_; }
+
+    void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
+                  std::span<double> diagonal, std::span<double> mass, Points* product) override
+    {
+        std::fill(diagonal.begin(), diagonal.end(), 0.0);
+        std::fill(mass.begin(), mass.end(), 0.0);
+        with_product(product, [&](auto&& add_change) {
+            const auto add = [&](std::size_t begin, std::size_t end, double share) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const VertexPair& e = edges_[i];
+                    const Point difference = positions.row(e.second) - positions.row(e.first);
+                    const typename Kernel::Edge edge(difference);
+                    const double weight = edge.weight(share * factor);
+                    add_change(e.first, e.second, -weight * difference);
+                    values[slots[i]] -= weight;
+                    for (const Index v : {e.first, e.second}) {
+                        diagonal[v] += weight;
+                        mass[v] += share * edge.mass();
+                    }
+                }
+            };
+            add(0, n_whole_, 1.0);
+            add(n_whole_, edges_.size(), 0.5);
+        });
+        for (std::size_t v = 0; v < inverse_degree_.size(); ++v)
+            mass[v] *= inverse_degree_[v];
+    }
+
+  private:
+    void count_edges(const std::vector<VertexPair>& edges, double share)
+    {
+        for (const VertexPair& e : edges) {
+            inverse_degree_[e.first] += share;
+            inverse_degree_[e.second] += share;
+        }
+    }
+
+    /// First those that count whole, then those of which half counts.
+    std::vector<VertexPair> edges_;
+    std::size_t n_whole_ = 0;
+    /// Per vertex: 1 / number of edges, those on the boundary counted half.
+    std::vector<double> inverse_degree_;
+};
+
+/// K from faces.
+template <FaceKernel Kernel>
+class SymmetricFaces final : public SymmetricLaplacian {
+  public:
+    explicit SymmetricFaces(const FacesOnBothSides& faces)
+        : lists_{&faces.own}
+    {
+        if (faces.contributions == Contributions::BothSides)
+            lists_.push_back(&faces.beyond);
+    }
+
+    [[nodiscard]] bool uses_faces() const override { return true; }
+
+    [[nodiscard]] std::vector<VertexPair> pairs() const override
+    {
+        std::vector<VertexPair> pairs;
+        for (const IndexLists* faces : lists_)
+            for (Index f = 0; f < faces->size(); ++f) {
+                const auto corners = (*faces)[f];
+                for (std::size_t i = 0; i < corners.size(); ++i)
+                    for (std::size_t k = i + 1; k < corners.size(); ++k)
+                        pairs.push_back({corners[i], corners[k]});
+            }
+        return pairs;
+    }
+
+    void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
+                  std::span<double> diagonal, std::span<double> mass, Points* product) override
+    {
+        std::fill(diagonal.begin(), diagonal.end(), 0.0);
+        std::fill(mass.begin(), mass.end(), 0.0);
+        const Index* slot = slots.data();
+        with_product(product, [&](auto&& add_change) {
+            const auto add = [&](const auto& face) {
+                const double scale = factor / face.divisor();
+                for (std::size_t i = 0; i < face.size(); ++i) {
+                    const Index v = face.corner(i);
+                    const auto row = face.row(i, scale);
+                    diagonal[v] += row(i);
+                    mass[v] += face.mass(i);
+                    for (std::size_t k = i + 1; k < face.size(); ++k) {
+                        const double coefficient = row(k);
+                        add_change(v, face.corner(k), coefficient * face.difference(i, k));
+                        values[*slot++] += coefficient;
+                    }
+                }
+            };
+            for (const IndexLists* faces : lists_)
+                for (Index f = 0; f < faces->size(); ++f)
+                    measure_face<Kernel>((*faces)[f], positions, scratch_, add);
+        });
+    }
+
+  private:
+    std::vector<const IndexLists*> lists_;
+    typename Kernel::Scratch scratch_;
+};
+
+}  // namespace
 
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces)
 {
-    switch (laplacian) {
-    case Laplacian::Fujiwara:
-        return make_symmetric_fujiwara(faces);
-    case Laplacian::AlexaWardetzky:
-        return make_symmetric_alexa_wardetzky(faces);
-    default:
-        break;
-    }
-    throw OptionError("the Laplacian is not symmetric");
+    return with_kernel(laplacian, [&]<class Kernel>(Kernel) -> std::unique_ptr<SymmetricLaplacian> {
+        if constexpr (EdgeKernel<Kernel>)
+            return std::make_unique<SymmetricEdges<Kernel>>(faces);
+        else if constexpr (FaceKernel<Kernel>)
+            return std::make_unique<SymmetricFaces<Kernel>>(faces);
+        else
+            throw OptionError("the Laplacian is not symmetric");
+    });
 }
 
 }  // namespace seamflow

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "partition/index_lists.h"
-#include "solvers/geometry.h"
+#include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -61,15 +61,8 @@ struct FacesOnBothSides {
     Contributions contributions = Contributions::BothSides;
 };
 
-/// Whether a Laplacian is M⁻¹ K.
-bool is_symmetric(Laplacian laplacian);
-
 /// @param laplacian one that is symmetric.
 /// @param faces their lists must outlive the result if it uses them, the twins need not.
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces);
-
-/// See make_symmetric_laplacian.
-std::unique_ptr<SymmetricLaplacian> make_symmetric_fujiwara(const FacesOnBothSides& faces);
-std::unique_ptr<SymmetricLaplacian> make_symmetric_alexa_wardetzky(const FacesOnBothSides& faces);
 
 }  // namespace seamflow

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/laplacian_assembler.h"
-#include "solvers/sub_mesh_system.h"
-#include "solvers/unsymmetric_solver.h"
+#include "solvers/systems/sub_mesh_system.h"
 
 namespace seamflow {
 
@@ -18,11 +18,13 @@ class GeneralSystem final : public SubMeshSystem {
     /// @param sub_mesh must outlive the system.
     /// @param condition what stands on Γ where the sub-mesh leads.
     /// @throws ComputationError if the analysis fails.
-    GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition);
+    GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian, std::unique_ptr<TransmissionCondition> condition,
+                  Factorisation factorisation);
 
     void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
+    [[nodiscard]] Factorisation factorisation() const override { return solver_->kind(); }
     void factorise(SolverWorkspace& workspace) override;
     [[nodiscard]] Index n_nearly_singular() const override { return n_nearly_singular_; }
     void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) override;
@@ -54,7 +56,7 @@ class GeneralSystem final : public SubMeshSystem {
     std::vector<double> row_;
     Columns right_hand_side_;
     Columns solution_;
-    std::unique_ptr<UnsymmetricSolver> solver_;
+    std::unique_ptr<DirectSolver> solver_;
     Index n_nearly_singular_ = 0;
 };
 

@@ -29,27 +29,29 @@ bool yields_everywhere(const SubMesh& sub_mesh, Laplacian laplacian)
 }  // namespace
 
 std::unique_ptr<SubMeshSystem> make_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                           std::unique_ptr<TransmissionCondition> condition, SolverWorkspace& workspace)
+                                           std::unique_ptr<TransmissionCondition> condition, SolverWorkspace& workspace,
+                                           Factorisation factorisation)
 {
     if (sub_mesh.interface.vertices.empty())
-        return make_following_system(sub_mesh, laplacian, workspace);
-    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, std::move(condition));
+        return make_following_system(sub_mesh, laplacian, workspace, factorisation);
+    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, std::move(condition), factorisation);
 }
 
 std::unique_ptr<SubMeshSystem> make_predicted_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                                     SolverWorkspace& workspace)
+                                                     SolverWorkspace& workspace, Factorisation factorisation)
 {
-    if (yields_everywhere(sub_mesh, laplacian))
-        return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::Yielding, workspace);
-    return make_system(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian), workspace);
+    if (factorisation != Factorisation::Umfpack && yields_everywhere(sub_mesh, laplacian))
+        return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::Yielding, factorisation,
+                                                 workspace);
+    return make_system(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian), workspace, factorisation);
 }
 
 std::unique_ptr<SubMeshSystem> make_following_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                                     SolverWorkspace& workspace)
+                                                     SolverWorkspace& workspace, Factorisation factorisation)
 {
-    if (is_symmetric(laplacian))
-        return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::None, workspace);
-    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, make_dirichlet(sub_mesh));
+    if (factorisation != Factorisation::Umfpack && is_symmetric(laplacian))
+        return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::None, factorisation, workspace);
+    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, make_dirichlet(sub_mesh), factorisation);
 }
 
 }  // namespace seamflow

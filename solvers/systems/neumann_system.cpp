@@ -6,11 +6,11 @@
 #include <numeric>
 
 #include "partition/errors.h"
-#include "solvers/elimination_order.h"
-#include "solvers/set_rows.h"
+#include "solvers/direct/columns.h"
+#include "solvers/direct/simd.h"
+#include "solvers/sparse/elimination_order.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
-#include "solvers/wide.h"
 
 namespace seamflow {
 
@@ -67,29 +67,29 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, Laplacian laplacian)
 /// @returns the pattern of the upper triangle.
 SparsePattern NeumannSystem::number_unknowns()
 {
-    std::vector<bool> on_interface(at(sub_mesh_->n_vertices), false);
+    std::vector<bool> on_interface(sub_mesh_->n_vertices, false);
     for (const Index v : sub_mesh_->interface.vertices)
-        on_interface[at(v)] = true;
-    std::vector<Index> unknown_of(at(sub_mesh_->n_vertices), -1);
+        on_interface[v] = true;
+    std::vector<Index> unknown_of(sub_mesh_->n_vertices, -1);
     std::vector<Index> vertices;
     std::vector<bool> is_last;
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (sub_mesh_->fixed[at(v)] == 0) {
-            unknown_of[at(v)] = static_cast<Index>(vertices.size());
+        if (sub_mesh_->fixed[v] == 0) {
+            unknown_of[v] = static_cast<Index>(vertices.size());
             vertices.push_back(v);
-            is_last.push_back(on_interface[at(v)]);
+            is_last.push_back(on_interface[v]);
         }
     const PairsOfUnknowns pairs_of =
         pairs_of_unknowns(laplacian_->pairs(), unknown_of, static_cast<Index>(vertices.size()));
     std::vector<Index> order(vertices.size());
     std::iota(order.begin(), order.end(), 0);
     order = elimination_order(upper_pattern(pairs_of, order).pattern, is_last);
-    std::erase_if(order, [&](Index u) { return is_last[at(u)]; });
+    std::erase_if(order, [&](Index u) { return is_last[u]; });
     for (const Index v : sub_mesh_->interface.vertices)
-        order.push_back(unknown_of[at(v)]);
+        order.push_back(unknown_of[v]);
     vertex_of_.reserve(order.size());
     for (const Index u : order)
-        vertex_of_.push_back(vertices[at(u)]);
+        vertex_of_.push_back(vertices[u]);
     auto [pattern, slots] = upper_pattern(pairs_of, order);
     slots_ = std::move(slots);
     return std::move(pattern);
@@ -99,15 +99,15 @@ void NeumannSystem::assemble(const Points& positions, double time_step, SolverWo
 {
     const Index n_vertices = sub_mesh_->n_vertices + sub_mesh_->n_halo;
     workspace.values.assign(at(n_entries()) + 1, 0.0);
-    workspace.diagonal.resize(at(n_vertices));
-    workspace.mass.resize(at(n_vertices));
+    workspace.diagonal.resize(n_vertices);
+    workspace.mass.resize(n_vertices);
     set_rows(workspace.product, n_vertices);
     laplacian_->assemble(positions, time_step, slots_, workspace.values, workspace.diagonal, workspace.mass,
                          &workspace.product);
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
         const Index v = vertex_of_[u];
-        workspace.values[at(diagonal_slot(column_offsets_, static_cast<Index>(u)))] =
-            workspace.mass[at(v)] + workspace.diagonal[at(v)];
+        workspace.values[diagonal_slot(column_offsets_, static_cast<Index>(u))] =
+            workspace.mass[v] + workspace.diagonal[v];
     }
 }
 
@@ -122,7 +122,7 @@ void NeumannSystem::factorise_again(SolverWorkspace& workspace)
 {
     if (vertex_of_.empty())
         return;
-    const auto values = std::span<const double>(workspace.values).first(at(n_entries()));
+    const auto values = std::span<const double>(workspace.values).first(n_entries());
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
     FactorMemory& memory = borrows_memory_ ? *workspace.factors : memory_;

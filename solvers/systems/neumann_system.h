@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
-#include "solvers/factor_memory.h"
-#include "solvers/interface/dense_factor.h"
+#include "solvers/direct/dense_factor.h"
+#include "solvers/direct/factor_memory.h"
+#include "solvers/direct/ldl_solver.h"
+#include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
-#include "solvers/ldl_solver.h"
-#include "solvers/solver_workspace.h"
-#include "solvers/sub_mesh_system.h"
+#include "solvers/systems/sub_mesh_system.h"
 #include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {

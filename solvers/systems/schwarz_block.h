@@ -1,14 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "partition/decomposition/grown_part.h"
-#include "solvers/columns.h"
+#include "solvers/direct/columns.h"
+#include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/laplacian_assembler.h"
-#include "solvers/solver_workspace.h"
-#include "solvers/unsymmetric_solver.h"
 
 namespace seamflow {
 
@@ -22,7 +22,7 @@ class SchwarzBlock {
 
     /// @param part must outlive the block.
     /// @throws ComputationError if the analysis fails.
-    SchwarzBlock(const GrownPart& part, Laplacian laplacian);
+    SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation = Factorisation::Automatic);
 
     /// The vertices of the equations, and those others that may move and occur in them, local to the part; ascending.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return part_->unknowns; }
@@ -32,6 +32,12 @@ class SchwarzBlock {
 
     /// What the factor takes, in bytes; of UMFPACK's an estimate.
     [[nodiscard]] std::size_t factor_bytes() const { return solver_ ? solver_->factor_bytes() : 0; }
+
+    /// Whose the factorisation is (see DirectSolver::kind); nothing without unknowns.
+    [[nodiscard]] std::optional<Factorisation> factorisation() const
+    {
+        return solver_ ? std::optional(solver_->kind()) : std::nullopt;
+    }
 
     /// Fills in all that follows from Vᵏ, and factorises.
     /// @param positions #local by 3: Vᵏ.
@@ -84,7 +90,7 @@ class SchwarzBlock {
     /// #unknowns by 3, what fixed vertices contribute included.
     Columns right_hand_side_;
     /// Nothing without unknowns.
-    std::unique_ptr<UnsymmetricSolver> solver_;
+    std::unique_ptr<DirectSolver> solver_;
     Index n_nearly_singular_ = 0;
 };
 

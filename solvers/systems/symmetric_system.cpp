@@ -6,15 +6,15 @@
 
 #include "partition/errors.h"
 #include "solvers/conditions/remainder.h"
-#include "solvers/elimination_order.h"
-#include "solvers/set_rows.h"
+#include "solvers/direct/columns.h"
+#include "solvers/sparse/elimination_order.h"
 #include "solvers/systems/messages.h"
 #include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
 
 SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows,
-                                 SolverWorkspace& workspace)
+                                 Factorisation factorisation, SolverWorkspace& workspace)
     : sub_mesh_(&sub_mesh)
     , laplacian_(make_symmetric_laplacian(laplacian, {sub_mesh.face_vertices, sub_mesh.interface.halo_faces,
                                                       sub_mesh.twin, sub_mesh.n_vertices + sub_mesh.n_halo}))
@@ -29,23 +29,23 @@ SymmetricSystem::SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, S
     if (rows == SymmetricRows::Yielding)
         list_interface(upper, unknown_of);
     mass_.resize(vertex_of_.size());
-    solver_ = std::make_unique<SymmetricSolver>(std::move(upper), workspace, tree);
+    solver_ = make_symmetric_solver(std::move(upper), factorisation, workspace, tree);
 }
 
 /// In the order of the vertices.
 /// @param unknown_of receives one entry per own vertex, -1 where it is none.
 void SymmetricSystem::number_unknowns(SymmetricRows rows, std::vector<Index>& unknown_of)
 {
-    unknown_of.assign(at(sub_mesh_->n_vertices), 0);
+    unknown_of.assign(sub_mesh_->n_vertices, 0);
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (sub_mesh_->fixed[at(v)] != 0)
-            unknown_of[at(v)] = -1;
+        if (sub_mesh_->fixed[v] != 0)
+            unknown_of[v] = -1;
     if (rows == SymmetricRows::None)
         for (const Index v : sub_mesh_->interface.vertices)
-            unknown_of[at(v)] = -1;
+            unknown_of[v] = -1;
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (unknown_of[at(v)] == 0) {
-            unknown_of[at(v)] = static_cast<Index>(vertex_of_.size());
+        if (unknown_of[v] == 0) {
+            unknown_of[v] = static_cast<Index>(vertex_of_.size());
             vertex_of_.push_back(v);
         }
 }
@@ -59,11 +59,11 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
     Elimination elimination = eliminate(neighbours_of(pairs_of));
     tree = std::move(elimination.tree);
     const std::vector<Index>& order = elimination.order;
-    std::vector<Index> vertex_of(at(n));
-    std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return vertex_of_[at(u)]; });
+    std::vector<Index> vertex_of(n);
+    std::transform(order.begin(), order.end(), vertex_of.begin(), [&](Index u) { return vertex_of_[u]; });
     vertex_of_ = std::move(vertex_of);
     for (Index u = 0; u < n; ++u)
-        unknown_of[at(vertex_of_[at(u)])] = u;
+        unknown_of[vertex_of_[u]] = u;
     UpperPattern upper = upper_pattern(pairs_of, order);
     slots_ = std::move(upper.slots);
     return std::move(upper.pattern);
@@ -72,7 +72,7 @@ SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs
 /// What is no entry of the matrix; what is beyond Γ by the vertices of Γ.
 void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const std::vector<Index>& unknown_of)
 {
-    const auto is_unknown = [&](Index v) { return v < sub_mesh_->n_vertices && unknown_of[at(v)] >= 0; };
+    const auto is_unknown = [&](Index v) { return v < sub_mesh_->n_vertices && unknown_of[v] >= 0; };
     const auto unknown_first = [&](VertexPair pair) {
         return is_unknown(pair.first) ? pair : VertexPair{pair.second, pair.first};
     };
@@ -93,12 +93,12 @@ void SymmetricSystem::list_couplings(const std::vector<VertexPair>& pairs, const
     for (const std::size_t i : at_fixed) {
         const auto [a, b] = unknown_first(pairs[i]);
         slots_[i] = slot++;
-        fixed_.push_back({unknown_of[at(a)], b, 0.0});
+        fixed_.push_back({unknown_of[a], b, 0.0});
     }
     std::sort(at_beyond.begin(), at_beyond.end());
     for (const auto& [a, i] : at_beyond) {
         slots_[i] = slot++;
-        beyond_.push_back({unknown_of[at(a)], unknown_first(pairs[i]).second, 0.0});
+        beyond_.push_back({unknown_of[a], unknown_first(pairs[i]).second, 0.0});
     }
     std::replace(slots_.begin(), slots_.end(), Index{-1}, slot);
 }
@@ -111,18 +111,18 @@ void SymmetricSystem::list_interface(const SparsePattern& upper, const std::vect
     std::vector<std::vector<InterfaceEntry>> entries(vertices.size());
     std::vector<Index> interface_index(vertex_of_.size(), -1);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        interface_unknowns_.push_back(unknown_of[at(vertices[i])]);
-        interface_index[at(interface_unknowns_[i])] = static_cast<Index>(i);
+        interface_unknowns_.push_back(unknown_of[vertices[i]]);
+        interface_index[interface_unknowns_[i]] = static_cast<Index>(i);
     }
     for (Index column = 0; column < upper.n(); ++column)
-        for (Index slot = upper.column_offsets[at(column)]; slot < upper.column_offsets[at(column) + 1]; ++slot) {
-            const Index row = upper.rows[at(slot)];
+        for (Index slot = upper.column_offsets[column]; slot < upper.column_offsets[column + 1]; ++slot) {
+            const Index row = upper.rows[slot];
             if (row == column)
                 continue;
-            if (interface_index[at(row)] >= 0)
-                entries[at(interface_index[at(row)])].push_back({slot, column});
-            if (interface_index[at(column)] >= 0)
-                entries[at(interface_index[at(column)])].push_back({slot, row});
+            if (interface_index[row] >= 0)
+                entries[interface_index[row]].push_back({slot, column});
+            if (interface_index[column] >= 0)
+                entries[interface_index[column]].push_back({slot, row});
         }
     std::size_t beyond = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -143,14 +143,13 @@ void SymmetricSystem::assemble(const Points& positions, const Points& other_side
     const auto n_matrix = at(n_entries());
     auto& values = workspace.values;
     values.assign(n_matrix + fixed_.size() + beyond_.size() + 1, 0.0);
-    workspace.diagonal.resize(at(sub_mesh_->n_vertices + sub_mesh_->n_halo));
+    workspace.diagonal.resize(sub_mesh_->n_vertices + sub_mesh_->n_halo);
     workspace.mass.resize(workspace.diagonal.size());
     laplacian_->assemble(positions, time_step, slots_, values, workspace.diagonal, workspace.mass);
 
     for (std::size_t u = 0; u < vertex_of_.size(); ++u) {
-        mass_[u] = workspace.mass[at(vertex_of_[u])];
-        values[at(diagonal_slot(column_offsets_, static_cast<Index>(u)))] =
-            mass_[u] + workspace.diagonal[at(vertex_of_[u])];
+        mass_[u] = workspace.mass[vertex_of_[u]];
+        values[diagonal_slot(column_offsets_, static_cast<Index>(u))] = mass_[u] + workspace.diagonal[vertex_of_[u]];
     }
     for (std::size_t c = 0; c < fixed_.size(); ++c)
         fixed_[c].value = values[n_matrix + c];
@@ -163,7 +162,7 @@ void SymmetricSystem::assemble(const Points& positions, const Points& other_side
         if (roles[i] == InterfaceRole::Follows)
             hold(i, values);
         else
-            yield(i, positions, time_step, workspace.diagonal[at(sub_mesh_->interface.vertices[i])], values);
+            yield(i, positions, time_step, workspace.diagonal[sub_mesh_->interface.vertices[i]], values);
     }
     use_other_side(positions, other_side);
 }
@@ -173,11 +172,11 @@ void SymmetricSystem::assemble(const Points& positions, const Points& other_side
 void SymmetricSystem::hold(std::size_t i, std::span<double> values)
 {
     for (Index e = interface_offsets_[i]; e < interface_offsets_[i + 1]; ++e) {
-        const InterfaceEntry& entry = interface_entries_[at(e)];
-        held_.push_back({entry.unknown, sub_mesh_->interface.vertices[i], values[at(entry.slot)]});
-        values[at(entry.slot)] = 0.0;
+        const InterfaceEntry& entry = interface_entries_[e];
+        held_.push_back({entry.unknown, sub_mesh_->interface.vertices[i], values[entry.slot]});
+        values[entry.slot] = 0.0;
     }
-    values[at(diagonal_slot(column_offsets_, interface_unknowns_[i]))] = 1.0;
+    values[diagonal_slot(column_offsets_, interface_unknowns_[i])] = 1.0;
 }
 
 /// Takes from the diagonal what the other side yields; nothing where too little would remain.
@@ -188,9 +187,9 @@ void SymmetricSystem::yield(std::size_t i, const Points& positions, double time_
     const Index v = sub_mesh_->interface.vertices[i];
     double yield = 0.0;
     for (Index c = beyond_offsets_[i]; c < beyond_offsets_[i + 1]; ++c)
-        yield += beyond_[at(c)].value * remainder_between(positions, v, beyond_[at(c)].vertex, time_step);
+        yield += beyond_[c].value * remainder_between(positions, v, beyond_[c].vertex, time_step);
     interface_rows_[i].yield = diagonal + yield >= 0.0 ? yield : 0.0;
-    values[at(diagonal_slot(column_offsets_, interface_unknowns_[i]))] += interface_rows_[i].yield;
+    values[diagonal_slot(column_offsets_, interface_unknowns_[i])] += interface_rows_[i].yield;
 }
 
 void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
@@ -201,13 +200,13 @@ void SymmetricSystem::use_other_side(const Points&, const Points& other_side)
         if (row.role == InterfaceRole::Follows)
             continue;
         for (Index c = beyond_offsets_[i]; c < beyond_offsets_[i + 1]; ++c)
-            row.beyond -= beyond_[at(c)].value * other_side.row(beyond_[at(c)].vertex);
+            row.beyond -= beyond_[c].value * other_side.row(beyond_[c].vertex);
     }
 }
 
 void SymmetricSystem::factorise(SolverWorkspace& workspace)
 {
-    const auto values = std::span<double>(workspace.values).first(at(n_entries()));
+    const auto values = std::span<double>(workspace.values).first(n_entries());
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         throw ComputationError(equations_not_finite);
     if (vertex_of_.empty() || solver_->factorise(values, workspace))
@@ -223,7 +222,7 @@ void SymmetricSystem::stop_yielding(std::span<double> values)
     for (std::size_t i = 0; i < interface_rows_.size(); ++i) {
         if (interface_rows_[i].role == InterfaceRole::Follows)
             continue;
-        values[at(diagonal_slot(column_offsets_, interface_unknowns_[i]))] -= interface_rows_[i].yield;
+        values[diagonal_slot(column_offsets_, interface_unknowns_[i])] -= interface_rows_[i].yield;
         interface_rows_[i].yield = 0.0;
     }
 }
@@ -245,7 +244,7 @@ void SymmetricSystem::solve(const Points& positions, Points& solution, SolverWor
 void SymmetricSystem::solve_with(const Points& positions, Points& solution, SolverWorkspace& workspace)
 {
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
-        if (sub_mesh_->fixed[at(v)] != 0)
+        if (sub_mesh_->fixed[v] != 0)
             solution.row(v) = positions.row(v);
     if (vertex_of_.empty())
         return;

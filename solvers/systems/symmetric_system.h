@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
-#include "solvers/sub_mesh_system.h"
-#include "solvers/symmetric_solver.h"
+#include "solvers/systems/sub_mesh_system.h"
 #include "solvers/systems/upper_pattern.h"
 
 namespace seamflow {
@@ -27,7 +27,9 @@ class SymmetricSystem final : public SubMeshSystem {
     /// @param sub_mesh must outlive the system.
     /// @param laplacian one that is symmetric; with SymmetricRows::Yielding, Alexa-Wardetzky where all faces that touch
     ///        Γ are triangles.
-    SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows, SolverWorkspace& workspace);
+    /// @param factorisation not Umfpack.
+    SymmetricSystem(const SubMesh& sub_mesh, Laplacian laplacian, SymmetricRows rows, Factorisation factorisation,
+                    SolverWorkspace& workspace);
 
     void assemble(const Points& positions, const Points& other_side, double time_step, double p,
                   std::span<const InterfaceRole> roles, SolverWorkspace& workspace) override;
@@ -36,6 +38,7 @@ class SymmetricSystem final : public SubMeshSystem {
         return laplacian_->uses_faces() ? FacesInUse::Corners : FacesInUse::None;
     }
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
+    [[nodiscard]] Factorisation factorisation() const override { return solver_->kind(); }
     void factorise(SolverWorkspace& workspace) override;
     void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
@@ -75,7 +78,7 @@ class SymmetricSystem final : public SubMeshSystem {
     std::vector<Index> vertex_of_;
     /// Of the pattern of the upper triangle, whose rows the solver has.
     std::vector<Index> column_offsets_;
-    std::unique_ptr<SymmetricSolver> solver_;
+    std::unique_ptr<DirectSolver> solver_;
     /// Per pair of the Laplacian: an entry of the pattern, then of `fixed_`, then of `beyond_`, then one that nobody
     /// reads.
     std::vector<Index> slots_;

@@ -24,7 +24,7 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
 {
     require_countable(2 * pairs.size() + at(n), n);
     const auto n_own = static_cast<Index>(unknown_of.size());
-    const auto unknown = [&](Index v) { return v < n_own ? unknown_of[at(v)] : -1; };
+    const auto unknown = [&](Index v) { return v < n_own ? unknown_of[v] : -1; };
     const auto for_each_entry = [&](auto&& action) {
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             const Index a = unknown(pairs[i].first);
@@ -39,11 +39,11 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
     of.n_pairs = pairs.size();
     // Where those of each begin stands one further, and moves on to where they end.
     of.offsets.assign(at(n) + 2, 0);
-    for_each_entry([&](Index u, Index, std::size_t) { ++of.offsets[at(u) + 2]; });
+    for_each_entry([&](Index u, Index, std::size_t) { ++of.offsets[u + 2]; });
     std::partial_sum(of.offsets.begin(), of.offsets.end(), of.offsets.begin());
-    of.entries.resize(at(of.offsets.back()));
+    of.entries.resize(of.offsets.back());
     for_each_entry([&](Index u, Index other, std::size_t pair) {
-        of.entries[at(of.offsets[at(u) + 1]++)] = {other, static_cast<Index>(pair)};
+        of.entries[of.offsets[u + 1]++] = {other, static_cast<Index>(pair)};
     });
     of.offsets.pop_back();
     return of;
@@ -54,17 +54,17 @@ SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
     SparsePattern neighbours;
     neighbours.column_offsets.reserve(pairs.offsets.size());
     neighbours.rows.resize(pairs.entries.size());
-    std::vector<Index> seen_in(at(pairs.n()), -1);
+    std::vector<Index> seen_in(pairs.n(), -1);
     Index end = 0;
     for (Index u = 0; u < pairs.n(); ++u) {
-        for (Index k = pairs.offsets[at(u)]; k < pairs.offsets[at(u) + 1]; ++k) {
-            const Index other = pairs.entries[at(k)].other;
-            neighbours.rows[at(end)] = other;
-            end += std::exchange(seen_in[at(other)], u) != u ? 1 : 0;
+        for (Index k = pairs.offsets[u]; k < pairs.offsets[u + 1]; ++k) {
+            const Index other = pairs.entries[k].other;
+            neighbours.rows[end] = other;
+            end += std::exchange(seen_in[other], u) != u ? 1 : 0;
         }
         neighbours.column_offsets.push_back(end);
     }
-    neighbours.rows.resize(at(end));
+    neighbours.rows.resize(end);
     return neighbours;
 }
 
@@ -72,17 +72,17 @@ SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order)
 {
     const Index n = pairs.n();
-    std::vector<Index> number_of(at(n));
+    std::vector<Index> number_of(n);
     for (Index u = 0; u < n; ++u)
-        number_of[at(order[at(u)])] = u;
+        number_of[order[u]] = u;
     const auto for_each_entry_above_diagonal = [&](auto&& action) {
-        std::vector<Index> last_row_of(at(n), -1);
+        std::vector<Index> last_row_of(n, -1);
         for (Index row = 0; row < n; ++row)
-            for (Index k = pairs.offsets[at(order[at(row)])]; k < pairs.offsets[at(order[at(row)]) + 1]; ++k) {
-                const auto& entry = pairs.entries[at(k)];
-                const Index column = number_of[at(entry.other)];
+            for (Index k = pairs.offsets[order[row]]; k < pairs.offsets[order[row] + 1]; ++k) {
+                const auto& entry = pairs.entries[k];
+                const Index column = number_of[entry.other];
                 if (column > row)
-                    action(row, column, entry.pair, std::exchange(last_row_of[at(column)], row) != row);
+                    action(row, column, entry.pair, std::exchange(last_row_of[column], row) != row);
             }
     };
     // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
@@ -94,17 +94,17 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
     offsets.assign(at(n) + 2, 1);
     offsets[0] = offsets[1] = 0;
     for_each_entry_above_diagonal(
-        [&](Index, Index column, Index, bool is_new) { offsets[at(column) + 2] += is_new ? 1 : 0; });
+        [&](Index, Index column, Index, bool is_new) { offsets[column + 2] += is_new ? 1 : 0; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    rows.resize(at(offsets.back()));
+    rows.resize(offsets.back());
     for_each_entry_above_diagonal([&](Index row, Index column, Index pair, bool is_new) {
-        Index& end = offsets[at(column) + 1];
+        Index& end = offsets[column + 1];
         end += is_new ? 1 : 0;
-        rows[at(end) - 1] = row;
-        upper.slots[at(pair)] = end - 1;
+        rows[end - 1] = row;
+        upper.slots[pair] = end - 1;
     });
     for (Index u = 0; u < n; ++u)
-        rows[at(offsets[at(u) + 1]++)] = u;
+        rows[offsets[u + 1]++] = u;
     offsets.pop_back();
     return upper;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/laplacian/symmetric_laplacian.h"
-#include "solvers/sparse_pattern.h"
+#include "solvers/sparse/sparse_pattern.h"
 
 namespace seamflow {
 
@@ -53,7 +53,7 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
 /// @param column_offsets those of the upper triangle.
 inline Index diagonal_slot(std::span<const Index> column_offsets, Index unknown)
 {
-    return column_offsets[at(unknown) + 1] - 1;
+    return column_offsets[unknown + 1] - 1;
 }
 
 }  // namespace seamflow

@@ -37,12 +37,6 @@ if(SEAMFLOW_SOURCE)
             message(SEND_ERROR "the target ${target} came along")
         endif()
     endforeach()
-    # Compiling the library once more takes half the time where what most files include is read once.
-    foreach(component IN ITEMS partition solvers engine)
-        target_precompile_headers(seamflow_${component} PRIVATE
-            <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory> <numeric> <optional>
-            <span> <string> <string_view> <utility> <vector>)
-    endforeach()
     return()
 endif()
 

@@ -34,7 +34,7 @@ int main()
     seamflow::FlowOptions options;
     options.time_step = 1.0;
     options.steps = 3;
-    options.subdomains = 4;
+    options.cut.subdomains = 4;
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(mesh, options);
     const double after = mesh.vertices.col(2).maxCoeff();
     std::cout << "seamflow " << seamflow::version << ": " << report.subdomains << " sub-meshes, height from " << before

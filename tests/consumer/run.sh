@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and runs the consumer in one of the ways in which a program comes by the library.
 #
-#     tests/consumer/run.sh install|find_package|pkg-config|destdir|add_subdirectory BUILD WORK [CMAKE_ARGUMENT…]
+#     tests/consumer/run.sh install|headers|find_package|pkg-config|destdir|add_subdirectory BUILD WORK [CMAKE_ARGUMENT…]
 #
 # BUILD is a build folder of the project. WORK is for what is made here; `install` installs into WORK/static, from where
 # find_package and pkg-config take it. add_subdirectory builds the library once more, with shared libraries and without
@@ -43,7 +43,21 @@ with_pkg_config() {
     LD_LIBRARY_PATH="$(dirname "$(dirname "$file")")" "$work/$name/consumer"
 }
 
+# check_headers PREFIX: what an installed header includes is installed, too. (That each compiles by itself is seen where
+# its .cpp file includes it first.)
+check_headers() {
+    local include="$1/include/seamflow" header missing=0
+    [[ -f $include/engine/mean_curvature_flow.h ]] || { echo "there are no headers in $include" >&2; return 1; }
+    while read -r header; do
+        [[ -f $include/$header ]] || { echo "$header is included by an installed header and not installed" >&2; missing=1; }
+    done < <(grep -rhoE '^#include "[^"]+"' "$include" | sed -E 's/.*"(.*)"/\1/' | sort -u)
+    return "$missing"
+}
+
 case "$way" in
+headers)
+    check_headers "$work/static"
+    ;;
 install)
     rm -rf "$work/static"
     cmake --install "$build" --prefix "$work/static"
@@ -68,7 +82,7 @@ destdir)
     ;;
 add_subdirectory)
     configure_consumer "with sources" -DSEAMFLOW_SOURCE="$root" -DBUILD_SHARED_LIBS=ON -DSEAMFLOW_INSTALL=ON \
-        -DCMAKE_CXX_FLAGS=-O0 "$@"
+        -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_CXX_FLAGS="-O0 -w" "$@"
     cmake --build "$work/with sources"
     "$work/with sources/consumer"
     rm -rf "$work/shared"

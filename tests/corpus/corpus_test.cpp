@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/topology.h"
 #include "tests/support/flows.h"
 #include "tests/support/temporary_directory.h"
@@ -39,13 +39,13 @@ void check_flow(const PolygonMesh& mesh, Laplacian laplacian, Index subdomains)
     FlowOptions options;
     options.laplacian = laplacian;
     options.time_step = mean_edge_length(mesh) * mean_edge_length(mesh);
-    options.subdomains = subdomains;
+    options.cut.subdomains = subdomains;
     const Points result = test::flowed(mesh, options);
     CHECK(result.rows() == mesh.vertices.rows());
     CHECK(result.allFinite());
     const Topology topology = make_topology(mesh);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (topology.kind[at(v)] != VertexKind::Interior)
+        if (topology.kind[v] != VertexKind::Interior)
             REQUIRE(result.row(v) == mesh.vertices.row(v));
 }
 

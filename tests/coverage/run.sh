@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Measures which lines of partition/, solvers/, engine/ and samples/ the tests run, and fails if they are less than 90 %.
-# Prints the percentage of each folder; in build-coverage/coverage/ are uncovered.txt (the lines of each file that no test
-# runs), index.html (the same as pages) and coverage.json.
+# Measures which lines of partition/, solvers/, engine/ and samples/ the tests run, and fails if they are less than
+# 90 %. Prints the percentage of each folder; in build-coverage/coverage/ are uncovered.txt (the lines of each file that
+# no test runs), index.html (the same as pages) and coverage.json.
 #
 #     tests/coverage/run.sh
 #
-# What is left out: the tests of the browser and of an installed library, which run code that is built elsewhere, and the
-# corpus, so that all machines have the same figure.
+# What is left out: the tests of the browser and of an installed library, which run code that is built elsewhere, and
+# the corpus, so that all machines have the same figure.
 
 set -euo pipefail
 # shellcheck source=samples/common/setup.sh

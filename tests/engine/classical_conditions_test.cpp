@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -12,26 +11,21 @@
 
 using namespace seamflow;
 using test::flowed;
+using test::same_bits;
 
 namespace {
 
-FlowOptions options_for(Conditions conditions, Laplacian laplacian, Index subdomains)
+FlowOptions classical_options(Conditions conditions, Laplacian laplacian, Index subdomains)
 {
     FlowOptions options;
     options.laplacian = laplacian;
-    options.conditions = conditions;
+    options.interface.conditions = conditions;
     if (conditions == Conditions::Ventcell)
-        options.q = 0.2;
+        options.interface.q = 0.2;
     options.time_step = 0.001;
     options.steps = 3;
-    options.subdomains = subdomains;
+    options.cut.subdomains = subdomains;
     return options;
-}
-
-bool same_bits(const Points& a, const Points& b)
-{
-    return a.rows() == b.rows() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
 constexpr std::array classical{Conditions::Robin, Conditions::Ventcell};
@@ -47,7 +41,7 @@ TEST_CASE("with classical conditions a flat mesh stays flat")
             mesh.vertices.col(2).setZero();
             for (const Laplacian laplacian : test::all_laplacians) {
                 CAPTURE(name_of(laplacian));
-                const Points moved = flowed(mesh, options_for(conditions, laplacian, subdomains));
+                const Points moved = flowed(mesh, classical_options(conditions, laplacian, subdomains));
                 CHECK(moved.col(2).cwiseAbs().maxCoeff() == 0.0);
             }
         }
@@ -60,8 +54,8 @@ TEST_CASE("a flat grid cut along a straight line rests, and its copies of the li
     for (const Conditions conditions : classical)
         for (const Laplacian laplacian : test::all_laplacians) {
             CAPTURE(name_of(laplacian));
-            FlowOptions options = options_for(conditions, laplacian, 0);
-            options.labels = cut.labels;
+            FlowOptions options = classical_options(conditions, laplacian, 0);
+            options.cut.labels = cut.labels;
             options.time_step = 0.5;
             PolygonMesh mesh = cut.mesh;
             const FlowReport report = mean_curvature_flow(mesh, options);
@@ -75,10 +69,10 @@ TEST_CASE("classical conditions in one sub-mesh are the undecomposed flow to the
     const PolygonMesh mesh = make_mixed_polygons(900);
     for (const Conditions conditions : classical)
         for (const Laplacian laplacian : test::all_laplacians) {
-            FlowOptions undecomposed = options_for(Conditions::AdaptedRobin, laplacian, 1);
+            FlowOptions undecomposed = classical_options(Conditions::AdaptedRobin, laplacian, 1);
             PolygonMesh moved = mesh;
-            FlowOptions options = options_for(conditions, laplacian, 1);
-            options.keep_gaps = true;
+            FlowOptions options = classical_options(conditions, laplacian, 1);
+            options.report.keep_gaps = true;
             const FlowReport report = mean_curvature_flow(moved, options);
             CHECK(same_bits(moved.vertices, flowed(mesh, undecomposed)));
             CHECK(report.steps.back().gap->max == 0.0);
@@ -93,8 +87,8 @@ TEST_CASE("the result has the mean of the copies, and the gap is the largest dis
     for (const Conditions conditions : classical)
         for (const Index subdomains : {2, 9}) {
             PolygonMesh moved = mesh;
-            FlowOptions options = options_for(conditions, Laplacian::Fujiwara, subdomains);
-            options.keep_gaps = true;
+            FlowOptions options = classical_options(conditions, Laplacian::Fujiwara, subdomains);
+            options.report.keep_gaps = true;
             Points pieces_seen;
             const FlowReport report = mean_curvature_flow(
                 moved, options, [&](const StepState& state) { pieces_seen = state.pieces->vertices; });
@@ -103,18 +97,18 @@ TEST_CASE("the result has the mean of the copies, and the gap is the largest dis
             REQUIRE(pieces.n_faces() == mesh.n_faces());
             REQUIRE(pieces.n_vertices() > mesh.n_vertices());
 
-            std::vector<std::vector<Index>> copies(at(mesh.n_vertices()));
+            std::vector<std::vector<Index>> copies(mesh.n_vertices());
             for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
-                auto& of_vertex = copies[at(mesh.face_vertices[c])];
+                auto& of_vertex = copies[mesh.face_vertices[c]];
                 if (std::find(of_vertex.begin(), of_vertex.end(), pieces.face_vertices[c]) == of_vertex.end())
                     of_vertex.push_back(pieces.face_vertices[c]);
             }
             double largest = 0.0;
             for (Index v = 0; v < mesh.n_vertices(); ++v) {
                 Point mean = Point::Zero();
-                for (const Index a : copies[at(v)]) {
-                    mean += pieces.vertices.row(a) / static_cast<double>(copies[at(v)].size());
-                    for (const Index b : copies[at(v)])
+                for (const Index a : copies[v]) {
+                    mean += pieces.vertices.row(a) / static_cast<double>(copies[v].size());
+                    for (const Index b : copies[v])
                         largest = std::max(largest, (pieces.vertices.row(a) - pieces.vertices.row(b)).norm());
                 }
                 CHECK((mean - moved.vertices.row(v)).norm() < 1e-14);
@@ -129,11 +123,11 @@ TEST_CASE("classical conditions give the same bits for every number of threads")
 {
     const PolygonMesh mesh = make_mixed_polygons(3000);
     for (const Conditions conditions : classical) {
-        FlowOptions options = options_for(conditions, Laplacian::PtackovaVelho, 24);
-        options.threads = 1;
+        FlowOptions options = classical_options(conditions, Laplacian::PtackovaVelho, 24);
+        options.resources.threads = 1;
         const Points expected = flowed(mesh, options);
-        for (options.threads = 2; options.threads <= 5; ++options.threads) {
-            CAPTURE(options.threads);
+        for (options.resources.threads = 2; options.resources.threads <= 5; ++options.resources.threads) {
+            CAPTURE(options.resources.threads);
             CHECK(same_bits(flowed(mesh, options), expected));
         }
     }
@@ -142,20 +136,20 @@ TEST_CASE("classical conditions give the same bits for every number of threads")
 TEST_CASE("classical conditions refuse what means nothing with them")
 {
     PolygonMesh mesh = make_quads(100);
-    FlowOptions options = options_for(Conditions::Robin, Laplacian::Fujiwara, 2);
-    options.correction = Correction::Centroid;
+    FlowOptions options = classical_options(Conditions::Robin, Laplacian::Fujiwara, 2);
+    options.interface.correction = Correction::Centroid;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = options_for(Conditions::Robin, Laplacian::Fujiwara, 2);
-    options.q = 0.1;
+    options = classical_options(Conditions::Robin, Laplacian::Fujiwara, 2);
+    options.interface.q = 0.1;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = options_for(Conditions::Ventcell, Laplacian::Fujiwara, 2);
-    options.q.reset();
+    options = classical_options(Conditions::Ventcell, Laplacian::Fujiwara, 2);
+    options.interface.q.reset();
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = options_for(Conditions::AdaptedRobin, Laplacian::Fujiwara, 2);
-    options.keep_gaps = true;
+    options = classical_options(Conditions::AdaptedRobin, Laplacian::Fujiwara, 2);
+    options.report.keep_gaps = true;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
-    options = options_for(Conditions::Robin, Laplacian::Fujiwara, 2);
-    options.keep_gaps = true;
+    options = classical_options(Conditions::Robin, Laplacian::Fujiwara, 2);
+    options.report.keep_gaps = true;
     options.scheme = Scheme::ExplicitEuler;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
 }

@@ -10,7 +10,7 @@
 #include <oneapi/tbb/task_scheduler_observer.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/parallel_loop.h"
+#include "engine/tasks/parallel_loop.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 
@@ -28,11 +28,11 @@ Case make_case(PolygonMesh mesh, Laplacian laplacian, int subdomains, Conditions
 {
     Case made{.mesh = std::move(mesh), .options = {}, .expected = {}};
     made.options.laplacian = laplacian;
-    made.options.conditions = conditions;
+    made.options.interface.conditions = conditions;
     made.options.time_step = 0.001;
     made.options.steps = 2;
-    made.options.subdomains = subdomains;
-    made.options.threads = 1;
+    made.options.cut.subdomains = subdomains;
+    made.options.resources.threads = 1;
     return made;
 }
 
@@ -44,22 +44,22 @@ std::vector<Case> all_kinds()
     cases.push_back(make_case(make_mixed_polygons(1500), Laplacian::PtackovaVelho, 6, Conditions::Robin));
     cases.push_back(make_case(make_noisy_sphere(1200), Laplacian::AlexaWardetzky, 9, Conditions::Schwarz));
     cases.push_back(make_case(make_triangles(1500), Laplacian::AlexaWardetzky, 10));
-    cases.back().options.tolerance = 1e-6;
+    cases.back().options.accuracy.tolerance = 1e-6;
     cases.push_back(make_case(make_quads(800), Laplacian::PtackovaVelho, 4));
-    cases.back().options.tolerance = 1e-6;
+    cases.back().options.accuracy.tolerance = 1e-6;
     cases.push_back(make_case(make_quads(900), Laplacian::Fujiwara, 1));
     cases.back().options.scheme = Scheme::ExplicitEuler;
     cases.back().options.time_step = 1e-6;
     cases.push_back(make_case(make_hexagons(1200), Laplacian::Fujiwara, 8, Conditions::AdaptedVentcell));
-    cases.back().options.q = 0.1;
+    cases.back().options.interface.q = 0.1;
     cases.push_back(make_case(make_triangles(1000), Laplacian::Fujiwara, 7));
-    cases.back().options.boundary = Boundary::Free;
-    cases.back().options.rescale = Rescale::Area;
+    cases.back().options.motion.boundary = Boundary::Free;
+    cases.back().options.motion.rescale = Rescale::Area;
     cases.push_back(make_case(make_mixed_polygons(1200), Laplacian::AlexaWardetzky, 5));
-    cases.back().options.labels = test::random_labels(cases.back().mesh.n_faces(), 6, 1);
-    cases.back().options.fixed_vertices = {100, 300, 301, 700};
+    cases.back().options.cut.labels = test::random_labels(cases.back().mesh.n_faces(), 6, 1);
+    cases.back().options.motion.fixed_vertices = {100, 300, 301, 700};
     cases.push_back(make_case(make_cylinder(1300), Laplacian::PtackovaVelho, 11));
-    cases.back().options.memory_limit = std::size_t{64} << 20U;
+    cases.back().options.resources.memory_limit = std::size_t{64} << 20U;
     for (Case& c : cases)
         c.expected = test::flowed(c.mesh, c.options);
     return cases;
@@ -68,7 +68,7 @@ std::vector<Case> all_kinds()
 bool gives_the_same(const Case& c, int threads)
 {
     FlowOptions options = c.options;
-    options.threads = threads;
+    options.resources.threads = threads;
     const Points found = test::flowed(c.mesh, options);
     return found.rows() == c.expected.rows() &&
            std::memcmp(found.data(), c.expected.data(), static_cast<std::size_t>(found.size()) * sizeof(double)) == 0;
@@ -99,8 +99,8 @@ void check_one_thread(const std::vector<Case>& cases, int threads)
 {
     const Helpers helpers;
     for (Case c : cases) {
-        c.options.threads = threads;
-        c.options.record_schedule = true;
+        c.options.resources.threads = threads;
+        c.options.report.record_schedule = true;
         const FlowReport report = mean_curvature_flow(c.mesh, c.options);
         CHECK(report.threads == 1);
         CHECK(c.mesh.vertices == c.expected);
@@ -139,7 +139,7 @@ TEST_CASE("flows inside the caller's own parallel loop give what each gives alon
         std::atomic<Index> n_same = 0;
         const auto run_all = [&] {
             for_each(run_in_parallel, n,
-                     [&](Index i) { n_same += gives_the_same(cases[at(i) % cases.size()], i % 3) ? 1 : 0; });
+                     [&](Index i) { n_same += gives_the_same(cases[i % cases.size()], i % 3) ? 1 : 0; });
         };
         tbb::task_arena(concurrency).execute(run_all);
         CHECK(n_same == n);
@@ -164,8 +164,8 @@ TEST_CASE("no more threads work than the caller's arena has")
 {
     tbb::task_arena arena(2);
     Case c = make_case(make_quads(3000), Laplacian::Fujiwara, 24);
-    c.options.threads = 0;
-    c.options.record_schedule = true;
+    c.options.resources.threads = 0;
+    c.options.report.record_schedule = true;
     const FlowReport report = arena.execute([&] { return mean_curvature_flow(c.mesh, c.options); });
     CHECK(report.threads <= 2);
     for (const TaskRecord& record : report.schedule->records)

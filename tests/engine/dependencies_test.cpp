@@ -8,15 +8,15 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/factor_window.h"
 #include "engine/mean_curvature_flow.h"
-#include "engine/sub_mesh_options.h"
-#include "engine/sweep_order.h"
+#include "engine/memory/factor_window.h"
+#include "engine/setup/sub_mesh_options.h"
+#include "engine/steppers/sweep_order.h"
 #include "partition/decomposition/narrow_order.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
-#include "solvers/laplacian/symmetric_laplacian.h"
+#include "solvers/laplacian/laplacian.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
 #include "tests/support/test_meshes.h"
@@ -26,7 +26,7 @@ using namespace seamflow;
 namespace {
 
 /// A task of one sweep by what it does for which sub-mesh.
-using Task = std::pair<Phase, Index>;
+using Task = std::pair<TaskKind, Index>;
 /// What waits for what: the first of each pair comes before the second. In ascending order.
 using Waits = std::vector<std::pair<Task, Task>>;
 
@@ -41,12 +41,12 @@ std::vector<Task> tasks_of(const SweepPlan& plan, bool predicts)
 {
     std::vector<Task> tasks;
     for (Index s = 0; s < static_cast<Index>(plan.rank.size()); ++s) {
-        for (const Phase phase : {Phase::AssembleAndFactorise, Phase::Solve, Phase::Accept})
+        for (const TaskKind phase : {TaskKind::AssembleAndFactorise, TaskKind::Solve, TaskKind::Accept})
             tasks.emplace_back(phase, s);
-        if (predicts && !plan.traces[at(s)].empty())
-            tasks.emplace_back(Phase::Predict, s);
-        if (predicts && !plan.predictions[at(s)].empty())
-            tasks.emplace_back(Phase::UsePredictions, s);
+        if (predicts && !plan.traces[s].empty())
+            tasks.emplace_back(TaskKind::Predict, s);
+        if (predicts && !plan.predictions[s].empty())
+            tasks.emplace_back(TaskKind::UsePredictions, s);
     }
     std::ranges::sort(tasks);
     return tasks;
@@ -57,36 +57,36 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
                bool predicts)
 {
     const std::vector<Task> tasks = tasks_of(plan, predicts);
-    const auto has = [&](Phase phase, Index s) { return std::ranges::binary_search(tasks, Task(phase, s)); };
+    const auto has = [&](TaskKind phase, Index s) { return std::ranges::binary_search(tasks, Task(phase, s)); };
     Waits waits;
-    const auto add = [&](Phase before, Index s, Phase after, Index t) {
+    const auto add = [&](TaskKind before, Index s, TaskKind after, Index t) {
         waits.emplace_back(Task(before, s), Task(after, t));
     };
     for (Index s = 0; s < static_cast<Index>(plan.rank.size()); ++s) {
-        add(Phase::AssembleAndFactorise, s, Phase::Solve, s);
+        add(TaskKind::AssembleAndFactorise, s, TaskKind::Solve, s);
         // Everyone around looks at the positions of before until it has solved, and at the solution to be corrected.
-        add(Phase::Solve, s, Phase::Accept, s);
-        for (const Index t : adjacency[at(s)])
-            add(Phase::Solve, t, Phase::Accept, s);
-        for (const Transfer& trace : plan.traces[at(s)])
-            add(Phase::Solve, trace.from, Phase::Solve, s);
-        for (const Transfer& copies : plan.copies[at(s)])
-            if (plan.rank[at(copies.from)] < plan.rank[at(s)])
-                add(Phase::Solve, copies.from, Phase::Solve, s);
-        for (const Phase phase : {Phase::Predict, Phase::UsePredictions})
+        add(TaskKind::Solve, s, TaskKind::Accept, s);
+        for (const Index t : adjacency[s])
+            add(TaskKind::Solve, t, TaskKind::Accept, s);
+        for (const Transfer& trace : plan.traces[s])
+            add(TaskKind::Solve, trace.from, TaskKind::Solve, s);
+        for (const Transfer& copies : plan.copies[s])
+            if (plan.rank[copies.from] < plan.rank[s])
+                add(TaskKind::Solve, copies.from, TaskKind::Solve, s);
+        for (const TaskKind phase : {TaskKind::Predict, TaskKind::UsePredictions})
             if (has(phase, s)) {
-                add(Phase::AssembleAndFactorise, s, phase, s);
-                add(phase, s, Phase::Solve, s);
+                add(TaskKind::AssembleAndFactorise, s, phase, s);
+                add(phase, s, TaskKind::Solve, s);
             }
-        if (has(Phase::Predict, s) && has(Phase::UsePredictions, s))
-            add(Phase::Predict, s, Phase::UsePredictions, s);
-        if (has(Phase::UsePredictions, s))
-            for (const Transfer& prediction : plan.predictions[at(s)])
-                add(Phase::Predict, prediction.from, Phase::UsePredictions, s);
+        if (has(TaskKind::Predict, s) && has(TaskKind::UsePredictions, s))
+            add(TaskKind::Predict, s, TaskKind::UsePredictions, s);
+        if (has(TaskKind::UsePredictions, s))
+            for (const Transfer& prediction : plan.predictions[s])
+                add(TaskKind::Predict, prediction.from, TaskKind::UsePredictions, s);
     }
     // A factor takes the place of one that is gone.
     for (std::size_t i = at(window.size); i < window.order.size(); ++i)
-        add(Phase::Solve, window.order[i - at(window.size)], Phase::AssembleAndFactorise, window.order[i]);
+        add(TaskKind::Solve, window.order[i - at(window.size)], TaskKind::AssembleAndFactorise, window.order[i]);
     return ascending(std::move(waits));
 }
 
@@ -94,28 +94,28 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
 Decomposition decomposed(const PolygonMesh& mesh, const FlowOptions& options, const FlowReport& report)
 {
     const Topology topology = make_topology(mesh);
-    if (options.conditions != Conditions::Schwarz)
+    if (options.interface.conditions != Conditions::Schwarz)
         return decompose(mesh, topology, report.labels, report.subdomains);
-    const Overlap overlap{report.labels, report.subdomain_colors, options.overlap};
+    const Overlap overlap{report.labels, report.subdomain_colors, options.interface.overlap};
     auto faces = faces_by_label(report.labels, report.subdomains);
     std::vector<SubMesh> sub_meshes;
     for (Index s = 0; s < report.subdomains; ++s)
-        sub_meshes.push_back(make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[at(s)])));
+        sub_meshes.push_back(make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[s])));
     return connect_overlapping(std::move(sub_meshes), topology, overlap);
 }
 
 /// What a flow has recorded of the tasks from `first` on, as many as there are in a sweep.
-struct Recorded {
+struct RecordedWaits {
     std::vector<Task> tasks;
     Waits waits;
 };
 
-Recorded recorded_from(const Schedule& schedule, std::size_t first, std::size_t n)
+RecordedWaits recorded_from(const Schedule& schedule, std::size_t first, std::size_t n)
 {
     REQUIRE(first + n <= schedule.tasks.size());
-    const auto task = [&](std::size_t i) { return Task(schedule.tasks[i].phase, schedule.tasks[i].sub_mesh); };
+    const auto task = [&](std::size_t i) { return Task(schedule.tasks[i].kind, schedule.tasks[i].sub_mesh); };
     const auto is_here = [&](Index i) { return at(i) >= first && at(i) < first + n; };
-    Recorded recorded;
+    RecordedWaits recorded;
     for (std::size_t i = first; i < first + n; ++i)
         recorded.tasks.push_back(task(i));
     std::ranges::sort(recorded.tasks);
@@ -152,12 +152,12 @@ void check_same(const Waits& found, const Waits& expected)
 FlowOptions recorded_options(Index subdomains)
 {
     FlowOptions options;
-    options.approach = Approach::Sweep;
+    options.accuracy.approach = Approach::Sweep;
     options.time_step = 1e-6;
-    options.subdomains = subdomains;
-    options.threads = 1;
-    options.largest_update = std::numeric_limits<double>::infinity();
-    options.record_schedule = true;
+    options.cut.subdomains = subdomains;
+    options.resources.threads = 1;
+    options.accuracy.largest_update = std::numeric_limits<double>::infinity();
+    options.report.record_schedule = true;
     return options;
 }
 
@@ -177,7 +177,7 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     for (const std::vector<Index>& rank : ranks) {
         const SweepPlan plan = make_plan(decomposition, options, rank);
         const std::vector<Task> tasks = tasks_of(plan, predicts(options));
-        const Recorded recorded = recorded_from(schedule, first, tasks.size());
+        const RecordedWaits recorded = recorded_from(schedule, first, tasks.size());
         CHECK(recorded.tasks == tasks);
         check_same(recorded.waits, waits_of(plan, decomposition.adjacency, window, predicts(options)));
         first += tasks.size();
@@ -189,7 +189,7 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
 /// The lowest limit of memory with which the flow runs: the refusal of a lower one says it.
 std::size_t least_memory(PolygonMesh mesh, FlowOptions options)
 {
-    options.memory_limit = 1;
+    options.resources.memory_limit = 1;
     try {
         mean_curvature_flow(mesh, options);
     } catch (const OptionError& error) {
@@ -223,10 +223,10 @@ TEST_CASE("the graph of a sweep has the dependencies that plan, adjacency and wi
                     CAPTURE(static_cast<int>(conditions));
                     CAPTURE(static_cast<int>(transmission));
                     FlowOptions options = recorded_options(subdomains);
-                    options.conditions = conditions;
-                    options.transmission = transmission;
+                    options.interface.conditions = conditions;
+                    options.interface.transmission = transmission;
                     if (conditions == Conditions::AdaptedVentcell)
-                        options.q = 0.1;
+                        options.interface.q = 0.1;
                     has_waited_for_room |= check_graphs(mesh.mesh, options) < subdomains;
                 }
     CHECK(has_waited_for_room);
@@ -240,14 +240,14 @@ TEST_CASE("so has that of sweeps in an order of their own, without correction, a
             CAPTURE(name_of(laplacian));
             FlowOptions options = recorded_options(24);
             options.laplacian = laplacian;
-            options.sweep = sweep;
-            options.coloring = Coloring::Label;
-            options.correction = Correction::None;
+            options.interface.sweep = sweep;
+            options.interface.coloring = Coloring::Label;
+            options.interface.correction = Correction::None;
             check_graphs(mesh, options);
         }
     FlowOptions options = recorded_options(24);
     const Index without_limit = check_graphs(mesh, options);
-    options.memory_limit = least_memory(mesh, options);
+    options.resources.memory_limit = least_memory(mesh, options);
     CHECK(check_graphs(mesh, options) < without_limit);
 }
 
@@ -258,16 +258,16 @@ TEST_CASE("in converged steps the interface waits for all sub-meshes, and they f
         CAPTURE(name_of(laplacian));
         FlowOptions options = recorded_options(12);
         options.laplacian = laplacian;
-        options.tolerance = 1e-2;
+        options.accuracy.tolerance = 1e-2;
         PolygonMesh moved = mesh;
         const FlowReport report = mean_curvature_flow(moved, options);
         Waits expected;
         for (Index s = 0; s < report.subdomains; ++s) {
             const bool is_condensed = is_symmetric(laplacian);
-            expected.push_back(
-                {{is_condensed ? Phase::Eliminate : Phase::AssembleAndFactorise, s}, {Phase::SolveInterface, -1}});
+            expected.push_back({{is_condensed ? TaskKind::Condense : TaskKind::AssembleAndFactorise, s},
+                                {TaskKind::SolveInterface, -1}});
             if (is_condensed)
-                expected.push_back({{Phase::SolveInterface, -1}, {Phase::FillIn, s}});
+                expected.push_back({{TaskKind::SolveInterface, -1}, {TaskKind::BackSubstitute, s}});
         }
         const Schedule& schedule = report.schedule.value();
         check_same(recorded_from(schedule, 0, schedule.tasks.size()).waits, ascending(std::move(expected)));
@@ -278,10 +278,10 @@ TEST_CASE("converged steps whose factors do not all fit take turns, in both halv
 {
     const PolygonMesh mesh = make_mixed_polygons(2000);
     FlowOptions options = recorded_options(24);
-    options.tolerance = 1e-2;
-    options.threads = 2;
+    options.accuracy.tolerance = 1e-2;
+    options.resources.threads = 2;
     PolygonMesh moved = mesh;
-    options.memory_limit = mean_curvature_flow(moved, options).factor_memory_bytes * 6 / 10;
+    options.resources.memory_limit = mean_curvature_flow(moved, options).factor_memory_bytes * 6 / 10;
     const FlowReport report = mean_curvature_flow(moved, options);
     REQUIRE(report.live_factors < report.subdomains);
     const Schedule& schedule = report.schedule.value();
@@ -289,7 +289,7 @@ TEST_CASE("converged steps whose factors do not all fit take turns, in both halv
     std::vector<std::pair<Index, Index>> filled_in;
     for (const auto& [before, after] : recorded_from(schedule, 0, schedule.tasks.size()).waits)
         if (before.first == after.first)
-            (before.first == Phase::Eliminate ? eliminated : filled_in).emplace_back(before.second, after.second);
+            (before.first == TaskKind::Condense ? eliminated : filled_in).emplace_back(before.second, after.second);
     CHECK(eliminated == filled_in);
     // One less for each place, which somebody has first.
     CHECK(static_cast<Index>(eliminated.size()) == report.subdomains - report.live_factors);

@@ -19,7 +19,7 @@ FlowOptions two_steps()
     FlowOptions options;
     options.time_step = 0.002;
     options.steps = 2;
-    options.subdomains = 4;
+    options.cut.subdomains = 4;
     return options;
 }
 

@@ -5,11 +5,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/sub_mesh_state.h"
-#include "engine/sweep_order.h"
+#include "engine/steppers/sub_mesh_state.h"
+#include "engine/steppers/sweep_order.h"
 #include "partition/cut/cut.h"
 #include "partition/decomposition/overlap.h"
-#include "partition/decomposition/unjoined.h"
+#include "partition/decomposition/separated_sub_meshes.h"
 #include "samples/common/meshes.h"
 #include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
@@ -29,18 +29,18 @@ class Machines {
         : options_(options)
         , mesh_(mesh)
         , topology_(make_topology(mesh))
-        , cut_(cut_into(mesh, topology_, options.subdomains))
+        , cut_(cut_into(mesh, topology_, options.cut.subdomains))
         , decomposition_(decompose(mesh, topology_, cut_.labels, cut_.n_parts))
     {
-        const std::vector<double> no_curvature(at(mesh.n_vertices()), 0.0);
-        const auto rank = rank_sub_meshes(decomposition_, options.coloring, no_curvature);
-        if (options.conditions == Conditions::Schwarz)
+        const std::vector<double> no_curvature(mesh.n_vertices(), 0.0);
+        const auto rank = rank_sub_meshes(decomposition_, options.interface.coloring, no_curvature);
+        if (options.interface.conditions == Conditions::Schwarz)
             grow_sub_meshes(mesh, rank);
         else
             plan_ = mutual() ? plan_mutual_sweep(decomposition_, rank) : plan_sweep(decomposition_, rank);
         for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
             SubMeshState& state = states_.emplace_back(sub_mesh, system_for(sub_mesh, options), mesh.vertices);
-            state.p = options.p ? *options.p : 0.7 / std::sqrt(options.time_step);
+            state.p = options.interface.p ? *options.interface.p : 0.7 / std::sqrt(options.time_step);
         }
     }
 
@@ -49,43 +49,43 @@ class Machines {
     {
         for (Index s = 0; s < n(); ++s) {
             forget_others(s);
-            states_[at(s)].solved.setConstant(unknown);
+            states_[s].solved.setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
             if (mutual())
-                assemble_and_factorise_mutual(states_, s, decomposition_.halo[at(s)], plan_, options_.time_step,
+                assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan_, options_.time_step,
                                               workspace_);
             else
-                assemble_and_factorise(states_, s, decomposition_.halo[at(s)], plan_.roles[at(s)], options_.time_step,
+                assemble_and_factorise(states_, s, decomposition_.halo[s], plan_.roles[s], options_.time_step,
                                        workspace_);
-        if (options_.conditions == Conditions::AdaptedRobin)
+        if (options_.interface.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
         for (Index rank = 0; rank < n(); ++rank)
             for (Index s = 0; s < n(); ++s)
-                if (plan_.rank[at(s)] == rank)
-                    mutual() ? solve_mutual(states_, s, decomposition_.halo[at(s)], plan_, workspace_)
-                             : solve(states_, s, plan_.traces[at(s)], workspace_);
+                if (plan_.rank[s] == rank)
+                    mutual() ? solve_mutual(states_, s, decomposition_.halo[s], plan_, workspace_)
+                             : solve(states_, s, plan_.traces[s], workspace_);
         for (Index s = 0; s < n(); ++s)
-            options_.correction == Correction::None || mutual()
+            options_.interface.correction == Correction::None || mutual()
                 ? accept(states_, s)
-                : accept_corrected(states_, s, decomposition_.halo[at(s)]);
+                : accept_corrected(states_, s, decomposition_.halo[s]);
     }
 
     /// Checks that pieces that were kept apart have the same bits.
     void check_pieces(const PolygonMesh& pieces) const
     {
-        const Unjoined expected = take_apart(mesh_, decomposition_);
+        const SeparatedSubMeshes expected = separate(mesh_, decomposition_);
         REQUIRE(pieces.face_vertices == expected.mesh.face_vertices);
         for_each_own([&](Index s, Index v) {
-            CHECK(pieces.vertices.row(expected.vertex_of[at(s)][at(v)]) == states_[at(s)].position.row(v));
+            CHECK(pieces.vertices.row(expected.vertex_of[s][v]) == states_[s].position.row(v));
         });
     }
 
     /// The positions, #V by 3, from all sub-meshes; every copy of a vertex must have the same bits.
     [[nodiscard]] Points joined(Points positions) const
     {
-        for_each_own([&](Index s, Index v) { positions.row(global(s, v)) = states_[at(s)].position.row(v); });
-        for_each_own([&](Index s, Index v) { CHECK(positions.row(global(s, v)) == states_[at(s)].position.row(v)); });
+        for_each_own([&](Index s, Index v) { positions.row(global(s, v)) = states_[s].position.row(v); });
+        for_each_own([&](Index s, Index v) { CHECK(positions.row(global(s, v)) == states_[s].position.row(v)); });
         return positions;
     }
 
@@ -94,58 +94,55 @@ class Machines {
     {
         for (Index s = 0; s < n(); ++s) {
             predict(states_, s, workspace_);
-            states_[at(s)].solved.bottomRows(decomposition_.sub_meshes[at(s)].n_halo).setConstant(unknown);
+            states_[s].solved.bottomRows(decomposition_.sub_meshes[s].n_halo).setConstant(unknown);
         }
         for (Index s = 0; s < n(); ++s)
-            use_predictions(states_, s, plan_.predictions[at(s)], workspace_);
+            use_predictions(states_, s, plan_.predictions[s], workspace_);
     }
 
-    [[nodiscard]] bool mutual() const { return is_classical(options_.conditions); }
+    [[nodiscard]] bool mutual() const { return is_classical(options_.interface.conditions); }
 
     std::unique_ptr<SubMeshSystem> system_for(const SubMesh& sub_mesh, const FlowOptions& options)
     {
-        if (options.conditions == Conditions::Schwarz)
+        if (options.interface.conditions == Conditions::Schwarz)
             return make_following_system(sub_mesh, options.laplacian, workspace_);
-        if (options.conditions == Conditions::Robin)
+        if (options.interface.conditions == Conditions::Robin)
             return make_system(sub_mesh, options.laplacian, make_robin(sub_mesh), workspace_);
-        if (options.conditions == Conditions::Ventcell)
-            return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh, options.q.value()), workspace_);
+        if (options.interface.conditions == Conditions::Ventcell)
+            return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh, options.interface.q.value()),
+                               workspace_);
         return make_predicted_system(sub_mesh, options.laplacian, workspace_);
     }
 
     [[nodiscard]] Index n() const { return cut_.n_parts; }
-    [[nodiscard]] Index global(Index s, Index v) const
-    {
-        return decomposition_.sub_meshes[at(s)].local_to_global[at(v)];
-    }
+    [[nodiscard]] Index global(Index s, Index v) const { return decomposition_.sub_meshes[s].local_to_global[v]; }
     [[nodiscard]] bool is_own(Index s, Index v) const
     {
         const auto corners = topology_.corners_at(global(s, v));
         return std::any_of(corners.begin(), corners.end(),
-                           [&](Index corner) { return cut_.labels[at(topology_.face_of[at(corner)])] == s; });
+                           [&](Index corner) { return cut_.labels[topology_.face_of[corner]] == s; });
     }
     template <class Action>
     void for_each_own(Action&& action) const
     {
         for (Index s = 0; s < n(); ++s)
-            for (Index v = 0; v < decomposition_.sub_meshes[at(s)].n_vertices; ++v)
+            for (Index v = 0; v < decomposition_.sub_meshes[s].n_vertices; ++v)
                 if (is_own(s, v))
                     action(s, v);
     }
     void forget_others(Index s)
     {
-        Points& positions = states_[at(s)].position;
+        Points& positions = states_[s].position;
         for (Index v = 0; v < static_cast<Index>(positions.rows()); ++v)
             if (!is_own(s, v))
                 positions.row(v).setConstant(unknown);
     }
     void grow_sub_meshes(const PolygonMesh& mesh, const std::vector<Index>& rank)
     {
-        const Overlap overlap{cut_.labels, rank, options_.overlap};
+        const Overlap overlap{cut_.labels, rank, options_.interface.overlap};
         std::vector<SubMesh> grown;
         for (Index s = 0; s < n(); ++s)
-            grown.push_back(
-                make_overlapping_sub_mesh(mesh, topology_, overlap, s, decomposition_.sub_meshes[at(s)].faces));
+            grown.push_back(make_overlapping_sub_mesh(mesh, topology_, overlap, s, decomposition_.sub_meshes[s].faces));
         decomposition_ = connect_overlapping(std::move(grown), topology_, overlap);
         plan_ = plan_overlapping_sweep(decomposition_, rank);
     }
@@ -170,19 +167,19 @@ void compare_machines(const PolygonMesh& mesh, const FlowOptions& options)
     CHECK(machines.joined(mesh.vertices) == expected);
 }
 
-FlowOptions options_for(Laplacian laplacian)
+FlowOptions fixed_sweep_options(Laplacian laplacian)
 {
     FlowOptions options;
     options.laplacian = laplacian;
     options.time_step = 0.001;
     options.steps = 3;
-    options.subdomains = 7;
-    options.coloring = Coloring::Label;
-    options.sweep = Sweep::Fixed;
+    options.cut.subdomains = 7;
+    options.interface.coloring = Coloring::Label;
+    options.interface.sweep = Sweep::Fixed;
     return options;
 }
 
-std::vector<PolygonMesh> meshes()
+std::vector<PolygonMesh> exchange_meshes()
 {
     return {make_triangles(900), make_hexagons(900), make_mixed_polygons(900), make_noisy_sphere(900)};
 }
@@ -191,39 +188,39 @@ std::vector<PolygonMesh> meshes()
 
 TEST_CASE("transfers carry all that crosses an interface: sub-meshes that know nothing else get the same bits")
 {
-    for (const PolygonMesh& mesh : meshes())
+    for (const PolygonMesh& mesh : exchange_meshes())
         for (const Laplacian laplacian : test::all_laplacians) {
             CAPTURE(name_of(laplacian));
-            compare_machines(mesh, options_for(laplacian));
+            compare_machines(mesh, fixed_sweep_options(laplacian));
         }
 }
 
 TEST_CASE("the same holds for sub-meshes that overlap, corrected and not")
 {
-    for (const PolygonMesh& mesh : meshes())
+    for (const PolygonMesh& mesh : exchange_meshes())
         for (const Laplacian laplacian : test::all_laplacians)
             for (const Correction correction : {Correction::None, Correction::Centroid}) {
                 CAPTURE(name_of(laplacian));
-                FlowOptions options = options_for(laplacian);
-                options.conditions = Conditions::Schwarz;
-                options.overlap = 2;
-                options.correction = correction;
+                FlowOptions options = fixed_sweep_options(laplacian);
+                options.interface.conditions = Conditions::Schwarz;
+                options.interface.overlap = 2;
+                options.interface.correction = correction;
                 compare_machines(mesh, options);
             }
 }
 
 TEST_CASE("the same holds where every sub-mesh keeps a copy of the interface of its own")
 {
-    for (PolygonMesh mesh : meshes())
+    for (PolygonMesh mesh : exchange_meshes())
         for (const Laplacian laplacian : test::all_laplacians)
             for (const Conditions conditions : {Conditions::Robin, Conditions::Ventcell}) {
                 CAPTURE(name_of(laplacian));
-                FlowOptions options = options_for(laplacian);
-                options.conditions = conditions;
-                options.keep_gaps = true;
-                options.p = 0.7 / std::sqrt(options.time_step);
+                FlowOptions options = fixed_sweep_options(laplacian);
+                options.interface.conditions = conditions;
+                options.report.keep_gaps = true;
+                options.interface.p = 0.7 / std::sqrt(options.time_step);
                 if (conditions == Conditions::Ventcell)
-                    options.q = 0.3;
+                    options.interface.q = 0.3;
                 Machines machines(mesh, options);
                 for (int step = 0; step < options.steps; ++step)
                     machines.step();

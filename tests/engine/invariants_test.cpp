@@ -6,13 +6,14 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/topology.h"
 #include "samples/common/meshes.h"
-#include "solvers/geometry.h"
+#include "solvers/laplacian/geometry.h"
 #include "tests/support/flows.h"
 #include "tests/support/random_meshes.h"
 
 using namespace seamflow;
 using test::all_laplacians;
 using test::flowed;
+using test::height_fields;
 using test::largest_difference;
 
 namespace {
@@ -21,12 +22,6 @@ PolygonMesh flat(PolygonMesh mesh)
 {
     mesh.vertices.col(2).setZero();
     return mesh;
-}
-
-/// A bumpy height field of each kind.
-std::vector<PolygonMesh> height_fields()
-{
-    return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900)};
 }
 
 /// Bricks, three of which meet at their corners.
@@ -41,14 +36,14 @@ std::vector<Index> labels_of_tiles(const PolygonMesh& mesh)
     return labels;
 }
 
-FlowOptions options_for(Laplacian laplacian, Index subdomains)
+FlowOptions sweep_options(Laplacian laplacian, Index subdomains)
 {
     FlowOptions options;
-    options.approach = Approach::Sweep;
+    options.accuracy.approach = Approach::Sweep;
     options.laplacian = laplacian;
     options.time_step = 0.002;
     options.steps = 3;
-    options.subdomains = subdomains;
+    options.cut.subdomains = subdomains;
     return options;
 }
 
@@ -61,7 +56,7 @@ TEST_CASE("a flat mesh stays flat whatever the cut")
             for (const Index subdomains : {1, 2, 5, 16}) {
                 CAPTURE(name_of(laplacian));
                 CAPTURE(subdomains);
-                const Points result = flowed(flat(mesh), options_for(laplacian, subdomains));
+                const Points result = flowed(flat(mesh), sweep_options(laplacian, subdomains));
                 CHECK(result.allFinite());
                 CHECK(result.col(2).cwiseAbs().maxCoeff() == 0.0);
             }
@@ -71,8 +66,8 @@ TEST_CASE("with Alexa-Wardetzky a flat mesh of triangles does not move at all wi
 {
     const PolygonMesh mesh = flat(make_triangles(900));
     for (const Index subdomains : {1, 2, 5, 16}) {
-        FlowOptions options = options_for(Laplacian::AlexaWardetzky, subdomains);
-        options.correction = Correction::None;
+        FlowOptions options = sweep_options(Laplacian::AlexaWardetzky, subdomains);
+        options.interface.correction = Correction::None;
         CHECK(largest_difference(flowed(mesh, options), mesh.vertices) <= 1e-12);
     }
 }
@@ -86,7 +81,7 @@ TEST_CASE("moving the input rigidly moves the result alike")
     for (const PolygonMesh& mesh : height_fields())
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(name_of(laplacian));
-            const FlowOptions options = options_for(laplacian, 6);
+            const FlowOptions options = sweep_options(laplacian, 6);
             PolygonMesh moved_mesh = mesh;
             moved_mesh.vertices = moved(mesh.vertices);
             CHECK(largest_difference(flowed(moved_mesh, options), moved(flowed(mesh, options))) <= 1e-9);
@@ -100,13 +95,13 @@ TEST_CASE("scaling by s, with dt s² and p / s, scales the result")
             for (const Laplacian laplacian : all_laplacians) {
                 CAPTURE(name_of(laplacian));
                 CAPTURE(s);
-                FlowOptions options = options_for(laplacian, 6);
-                options.p = 20.0;
+                FlowOptions options = sweep_options(laplacian, 6);
+                options.interface.p = 20.0;
                 const Points expected = s * flowed(mesh, options);
                 PolygonMesh scaled = mesh;
                 scaled.vertices *= s;
                 options.time_step *= s * s;
-                options.p = 20.0 / s;
+                options.interface.p = 20.0 / s;
                 CHECK(largest_difference(flowed(scaled, options), expected) <= 1e-9 * s);
             }
 }
@@ -119,14 +114,14 @@ TEST_CASE("other numbers of the vertices and faces move the result by rounding a
         const auto old_face = test::random_permutation(mesh.n_faces(), random);
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(name_of(laplacian));
-            FlowOptions options = options_for(laplacian, 0);
-            options.coloring = Coloring::Label;
-            options.labels = labels_of_tiles(mesh);
+            FlowOptions options = sweep_options(laplacian, 0);
+            options.interface.coloring = Coloring::Label;
+            options.cut.labels = labels_of_tiles(mesh);
             const Points result = flowed(mesh, options);
             std::vector<Index> labels;
             for (const Index f : old_face)
-                labels.push_back(options.labels[at(f)]);
-            options.labels = labels;
+                labels.push_back(options.cut.labels[f]);
+            options.cut.labels = labels;
             const Points renumbered = flowed(test::renumbered(mesh, new_vertex, old_face), options);
             CHECK(largest_difference(renumbered(new_vertex, Eigen::all), result) <= 1e-11);
         }
@@ -140,10 +135,10 @@ TEST_CASE("boundary vertices and vertices without faces stay to the bit")
         mesh.vertices.row(mesh.n_vertices() - 1) << 0.1, 0.2, 0.3;
         const Topology topology = make_topology(mesh);
         for (const Laplacian laplacian : all_laplacians) {
-            const Points result = flowed(mesh, options_for(laplacian, 6));
+            const Points result = flowed(mesh, sweep_options(laplacian, 6));
             int moved = 0;
             for (Index v = 0; v < mesh.n_vertices(); ++v)
-                if (topology.kind[at(v)] == VertexKind::Interior)
+                if (topology.kind[v] == VertexKind::Interior)
                     moved += (result.row(v) - mesh.vertices.row(v)).norm() > 0.0 ? 1 : 0;
                 else
                     CHECK(result.row(v) == mesh.vertices.row(v));
@@ -158,11 +153,11 @@ TEST_CASE("components that nothing joins flow as they do alone")
     const PolygonMesh second = make_hexagons(400);
     const PolygonMesh both = test::side_by_side({first, second});
     for (const Laplacian laplacian : all_laplacians) {
-        const Points result = flowed(both, options_for(laplacian, 2));
+        const Points result = flowed(both, sweep_options(laplacian, 2));
         const Points offset_first = both.vertices.topRows(first.n_vertices());
         PolygonMesh alone = first;
         alone.vertices = offset_first;
-        CHECK(largest_difference(result.topRows(first.n_vertices()), flowed(alone, options_for(laplacian, 1))) <=
+        CHECK(largest_difference(result.topRows(first.n_vertices()), flowed(alone, sweep_options(laplacian, 1))) <=
               1e-12);
     }
 }
@@ -173,8 +168,8 @@ TEST_CASE("the flow shrinks the height of a bump, decomposed and not, to about t
         for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::PtackovaVelho}) {
             CAPTURE(name_of(laplacian));
             const double before = mesh.vertices.col(2).norm();
-            const double undecomposed = flowed(mesh, options_for(laplacian, 1)).col(2).norm();
-            const double decomposed = flowed(mesh, options_for(laplacian, 4)).col(2).norm();
+            const double undecomposed = flowed(mesh, sweep_options(laplacian, 1)).col(2).norm();
+            const double decomposed = flowed(mesh, sweep_options(laplacian, 4)).col(2).norm();
             CHECK(undecomposed < 0.8 * before);
             CHECK(decomposed == doctest::Approx(undecomposed).epsilon(0.05));
         }

@@ -47,7 +47,7 @@ std::vector<test::RandomFlow> small_flows()
         if (flow.input.mesh.n_vertices() > 100)
             continue;
         // An arena of more threads is oneTBB's until one of its workers has had the time to leave it.
-        flow.options.threads = static_cast<int>(seed % 2);
+        flow.options.resources.threads = static_cast<int>(seed % 2);
         flows.push_back(std::move(flow));
     }
     return flows;

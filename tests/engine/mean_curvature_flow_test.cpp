@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/surface_curvature.h"
+#include "engine/measure/surface_curvature.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
@@ -14,12 +14,12 @@ using namespace seamflow;
 
 namespace {
 
-FlowOptions options_for(Index subdomains)
+FlowOptions two_step_options(Index subdomains)
 {
     FlowOptions options;
     options.time_step = 0.001;
     options.steps = 2;
-    options.subdomains = subdomains;
+    options.cut.subdomains = subdomains;
     return options;
 }
 
@@ -28,8 +28,8 @@ FlowOptions options_for(Index subdomains)
 TEST_CASE("the report tells what was done")
 {
     PolygonMesh mesh = make_quads(2000);
-    FlowOptions options = options_for(6);
-    options.reference = true;
+    FlowOptions options = two_step_options(6);
+    options.report.reference = true;
     int calls = 0;
     const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
         CHECK(state.step == ++calls);
@@ -72,9 +72,9 @@ TEST_CASE("one sub-mesh is the undecomposed flow to the bit")
 {
     const PolygonMesh mesh = make_hexagons(1000);
     for (const Laplacian laplacian : test::all_laplacians) {
-        FlowOptions options = options_for(1);
+        FlowOptions options = two_step_options(1);
         options.laplacian = laplacian;
-        options.reference = true;
+        options.report.reference = true;
         PolygonMesh flowing = mesh;
         const FlowReport report = mean_curvature_flow(flowing, options);
         CHECK(report.colors == 1);
@@ -86,8 +86,8 @@ TEST_CASE("sweeps alternate with more than two sub-meshes, unless told otherwise
 {
     const PolygonMesh mesh = make_triangles(2000);
     const auto result = [&](Index subdomains, Sweep sweep) {
-        FlowOptions options = options_for(subdomains);
-        options.sweep = sweep;
+        FlowOptions options = two_step_options(subdomains);
+        options.interface.sweep = sweep;
         return test::flowed(mesh, options);
     };
     CHECK(result(8, Sweep::Automatic) == result(8, Sweep::Alternating));
@@ -98,15 +98,15 @@ TEST_CASE("sweeps alternate with more than two sub-meshes, unless told otherwise
 
 TEST_CASE("the plain options are the paper's: a fixed sweep")
 {
-    CHECK(FlowOptions::plain().sweep == Sweep::Fixed);
-    CHECK(FlowOptions::plain().correction == Correction::Automatic);
-    CHECK_FALSE(FlowOptions::plain().p);
+    CHECK(FlowOptions::plain().interface.sweep == Sweep::Fixed);
+    CHECK(FlowOptions::plain().interface.correction == Correction::Automatic);
+    CHECK_FALSE(FlowOptions::plain().interface.p);
 }
 
 TEST_CASE("zero steps leave the mesh as it is")
 {
     const PolygonMesh mesh = make_triangles(400);
-    FlowOptions options = options_for(4);
+    FlowOptions options = two_step_options(4);
     options.steps = 0;
     CHECK(test::flowed(mesh, options) == mesh.vertices);
 }
@@ -114,17 +114,17 @@ TEST_CASE("zero steps leave the mesh as it is")
 TEST_CASE("meshes with nothing to move come out as they went in")
 {
     PolygonMesh nothing;
-    CHECK(mean_curvature_flow(nothing, options_for(4)).subdomains == 0);
+    CHECK(mean_curvature_flow(nothing, two_step_options(4)).subdomains == 0);
 
     PolygonMesh points;
     points.vertices = Points::Random(5, 3);
-    CHECK(test::flowed(points, options_for(4)) == points.vertices);
+    CHECK(test::flowed(points, two_step_options(4)) == points.vertices);
 
     PolygonMesh triangle;
     triangle.vertices = Points::Random(3, 3);
     triangle.add_face(std::vector<Index>{0, 1, 2});
     for (const Index subdomains : {0, 1, 2, 100})
-        CHECK(test::flowed(triangle, options_for(subdomains)) == triangle.vertices);
+        CHECK(test::flowed(triangle, two_step_options(subdomains)) == triangle.vertices);
 }
 
 TEST_CASE("non-manifold meshes flow, with their non-manifold vertices fixed, and the report says so")
@@ -132,10 +132,10 @@ TEST_CASE("non-manifold meshes flow, with their non-manifold vertices fixed, and
     for (PolygonMesh mesh : {test::hourglass(), test::three_wings(), test::bow_tie()}) {
         const Points before = mesh.vertices;
         const Topology topology = make_topology(mesh);
-        FlowReport report = mean_curvature_flow(mesh, options_for(2));
+        FlowReport report = mean_curvature_flow(mesh, two_step_options(2));
         CHECK(mesh.vertices.allFinite());
         for (Index v = 0; v < mesh.n_vertices(); ++v)
-            if (topology.kind[at(v)] == VertexKind::NonManifold)
+            if (topology.kind[v] == VertexKind::NonManifold)
                 CHECK(mesh.vertices.row(v) == before.row(v));
         CHECK((report.non_manifold_vertices > 0) ==
               (report.remarks.size() > 0 && report.remarks.back().find("manifold") != std::string::npos));
@@ -146,7 +146,7 @@ TEST_CASE("options outside their limits are refused by name")
 {
     PolygonMesh mesh = make_triangles(400);
     const auto refused = [&](auto change, const char* name) {
-        FlowOptions options = options_for(2);
+        FlowOptions options = two_step_options(2);
         change(options);
         CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains(name), OptionError);
     };
@@ -154,24 +154,24 @@ TEST_CASE("options outside their limits are refused by name")
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {0.0, -1.0, nan, infinity}) {
         refused([&](FlowOptions& o) { o.time_step = bad; }, "time_step");
-        refused([&](FlowOptions& o) { o.p = bad; }, "p is");
+        refused([&](FlowOptions& o) { o.interface.p = bad; }, "p is");
     }
     refused([](FlowOptions& o) { o.steps = -1; }, "steps");
-    refused([](FlowOptions& o) { o.subdomains = -1; }, "subdomains");
-    refused([](FlowOptions& o) { o.threads = -1; }, "threads");
-    refused([](FlowOptions& o) { o.threads = 1025; }, "threads");
+    refused([](FlowOptions& o) { o.cut.subdomains = -1; }, "subdomains");
+    refused([](FlowOptions& o) { o.resources.threads = -1; }, "threads");
+    refused([](FlowOptions& o) { o.resources.threads = 1025; }, "threads");
     refused([](FlowOptions& o) { o.steps = 2'000'000'000; }, "steps");
-    refused([](FlowOptions& o) { o.overlap = 0; }, "overlap");
+    refused([](FlowOptions& o) { o.interface.overlap = 0; }, "overlap");
     refused(
         [](FlowOptions& o) {
-            o.conditions = Conditions::Schwarz;
-            o.sweep = Sweep::Alternating;
+            o.interface.conditions = Conditions::Schwarz;
+            o.interface.sweep = Sweep::Alternating;
         },
         "sweep");
     refused(
         [](FlowOptions& o) {
-            o.conditions = Conditions::Schwarz;
-            o.p = 20.0;
+            o.interface.conditions = Conditions::Schwarz;
+            o.interface.p = 20.0;
         },
         "p is given");
 }
@@ -179,11 +179,11 @@ TEST_CASE("options outside their limits are refused by name")
 TEST_CASE("labels that do not fit the mesh are refused")
 {
     PolygonMesh mesh = make_triangles(400);
-    FlowOptions options = options_for(0);
-    options.labels = {0, 1, 2};
+    FlowOptions options = two_step_options(0);
+    options.cut.labels = {0, 1, 2};
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), InputError);
-    options.labels.assign(at(mesh.n_faces()), 0);
-    options.labels[7] = -3;
+    options.cut.labels.assign(mesh.n_faces(), 0);
+    options.cut.labels[7] = -3;
     CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("face 7"), InputError);
 }
 
@@ -191,12 +191,12 @@ TEST_CASE("geometry that a Laplacian would divide by zero on is refused by stric
 {
     PolygonMesh mesh = make_triangles(400);
     const Index v = mesh.n_vertices() / 2;
-    const Index f = make_topology(mesh).face_of[at(make_topology(mesh).corners_at(v)[0])];
+    const Index f = make_topology(mesh).face_of[make_topology(mesh).corners_at(v)[0]];
     mesh.vertices.row(mesh.face(f)[0]) = mesh.vertices.row(mesh.face(f)[1]);
     for (const Laplacian laplacian : test::all_laplacians) {
-        FlowOptions options = options_for(4);
+        FlowOptions options = two_step_options(4);
         options.laplacian = laplacian;
-        options.strict = true;
+        options.motion.strict = true;
         CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("numbered from 0"), InputError);
     }
 }
@@ -207,9 +207,9 @@ TEST_CASE("a computation that fails names the sub-mesh and leaves the last compl
     PolygonMesh mesh = make_triangles(400);
     mesh.vertices *= 1e200;
     const Points before = mesh.vertices;
-    FlowOptions options = options_for(4);
+    FlowOptions options = two_step_options(4);
     options.laplacian = Laplacian::AlexaWardetzky;
-    options.p = 1.0;
+    options.interface.p = 1.0;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), std::runtime_error);
     CHECK(mesh.vertices == before);
 }
@@ -222,10 +222,10 @@ TEST_CASE("the decomposed flow stays nearer to the undecomposed one than with th
         options.laplacian = laplacian;
         options.time_step = 0.003;
         options.steps = 4;
-        options.subdomains = 8;
-        options.reference = true;
+        options.cut.subdomains = 8;
+        options.report.reference = true;
         const auto distance = [&](Transmission transmission) {
-            options.transmission = transmission;
+            options.interface.transmission = transmission;
             PolygonMesh mesh = make_quads(2000);
             return mean_curvature_flow(mesh, options).steps.back().distance->rms;
         };
@@ -237,14 +237,14 @@ TEST_CASE("with adapted conditions the interface is corrected, unless that is no
 {
     const PolygonMesh mesh = make_quads(900);
     for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::AdaptedVentcell}) {
-        FlowOptions options = options_for(4);
-        options.conditions = conditions;
+        FlowOptions options = two_step_options(4);
+        options.interface.conditions = conditions;
         if (conditions == Conditions::AdaptedVentcell)
-            options.q = 0.2;
+            options.interface.q = 0.2;
         const Points by_default = test::flowed(mesh, options);
-        options.correction = Correction::Centroid;
+        options.interface.correction = Correction::Centroid;
         CHECK(test::flowed(mesh, options) == by_default);
-        options.correction = Correction::None;
+        options.interface.correction = Correction::None;
         CHECK(test::largest_difference(test::flowed(mesh, options), by_default) > 1e-6);
     }
 }
@@ -252,11 +252,11 @@ TEST_CASE("with adapted conditions the interface is corrected, unless that is no
 TEST_CASE("the Ventcell parameter may be 0, which leaves Robin's conditions")
 {
     const PolygonMesh mesh = make_quads(900);
-    FlowOptions options = options_for(4);
-    options.transmission = Transmission::Derivative;
+    FlowOptions options = two_step_options(4);
+    options.interface.transmission = Transmission::Derivative;
     const Points robin = test::flowed(mesh, options);
-    options.conditions = Conditions::AdaptedVentcell;
-    options.q = 0.0;
+    options.interface.conditions = Conditions::AdaptedVentcell;
+    options.interface.q = 0.0;
     CHECK(test::flowed(mesh, options) == robin);
 }
 
@@ -265,9 +265,9 @@ TEST_CASE("a converged step of a mesh at rest asks for no more than rounding lea
     PolygonMesh mesh = make_mixed_polygons(900);
     mesh.vertices.col(2).setZero();
     for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho}) {
-        FlowOptions options = options_for(5);
+        FlowOptions options = two_step_options(5);
         options.laplacian = laplacian;
-        options.tolerance = 1e-8;
+        options.accuracy.tolerance = 1e-8;
         options.time_step = 0.02;
         const FlowReport report = mean_curvature_flow(mesh, options);
         CHECK(report.steps_short_of_tolerance == 0);

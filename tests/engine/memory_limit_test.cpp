@@ -15,33 +15,33 @@ using test::same_bits;
 
 namespace {
 
-FlowOptions options_for(Conditions conditions, int threads = 1)
+FlowOptions limited_options(Conditions conditions, int threads = 1)
 {
     FlowOptions options;
-    options.approach = Approach::Sweep;
-    options.conditions = conditions;
+    options.accuracy.approach = Approach::Sweep;
+    options.interface.conditions = conditions;
     options.time_step = 0.001;
     options.steps = 3;
-    options.subdomains = 40;
-    options.threads = threads;
+    options.cut.subdomains = 40;
+    options.resources.threads = threads;
     // What comes out does not matter here; the classical conditions are rough with so many sub-meshes.
-    options.largest_update = std::numeric_limits<double>::infinity();
+    options.accuracy.largest_update = std::numeric_limits<double>::infinity();
     return options;
 }
 
-FlowOptions converged(Laplacian laplacian, int threads = 1)
+FlowOptions limited_converged(Laplacian laplacian, int threads = 1)
 {
-    FlowOptions options = options_for(Conditions::AdaptedRobin, threads);
-    options.approach = Approach::Automatic;
+    FlowOptions options = limited_options(Conditions::AdaptedRobin, threads);
+    options.accuracy.approach = Approach::Automatic;
     options.laplacian = laplacian;
-    options.tolerance = 1e-8;
+    options.accuracy.tolerance = 1e-8;
     return options;
 }
 
 /// The message with which a flow refuses this limit; empty if it does not.
 std::string complaint_about(PolygonMesh mesh, FlowOptions options, std::size_t memory_limit)
 {
-    options.memory_limit = memory_limit;
+    options.resources.memory_limit = memory_limit;
     try {
         mean_curvature_flow(mesh, options);
         return {};
@@ -64,14 +64,14 @@ TEST_CASE("no limit changes a bit of the result, nor do threads")
     const PolygonMesh mesh = make_mixed_polygons(3000);
     for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Schwarz, Conditions::Robin}) {
         CAPTURE(static_cast<int>(conditions));
-        const Points expected = test::flowed(mesh, options_for(conditions));
-        const std::size_t least = least_limit(mesh, options_for(conditions));
+        const Points expected = test::flowed(mesh, limited_options(conditions));
+        const std::size_t least = least_limit(mesh, limited_options(conditions));
         for (const int threads : {1, 4})
             for (const std::optional<std::size_t> limit :
                  {std::optional(least), std::optional(2 * least), std::optional<std::size_t>(),
                   std::optional(std::numeric_limits<std::size_t>::max())}) {
-                FlowOptions options = options_for(conditions, threads);
-                options.memory_limit = limit;
+                FlowOptions options = limited_options(conditions, threads);
+                options.resources.memory_limit = limit;
                 CHECK(same_bits(test::flowed(mesh, options), expected));
             }
     }
@@ -82,20 +82,20 @@ TEST_CASE("factors keep to the limit, and there are as many at once as it lets b
     const PolygonMesh mesh = make_mixed_polygons(3000);
     for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Schwarz, Conditions::Robin})
         for (const int threads : {1, 4}) {
-            FlowOptions options = options_for(conditions, threads);
+            FlowOptions options = limited_options(conditions, threads);
             const std::size_t least = least_limit(mesh, options);
             PolygonMesh narrow = mesh;
-            options.memory_limit = least;
+            options.resources.memory_limit = least;
             const FlowReport at_least = mean_curvature_flow(narrow, options);
             CHECK(at_least.live_factors < at_least.subdomains);
             CHECK(at_least.factor_memory_bytes <= least);
             PolygonMesh wide = mesh;
-            options.memory_limit = 2 * least;
+            options.resources.memory_limit = 2 * least;
             const FlowReport twice = mean_curvature_flow(wide, options);
             CHECK(twice.live_factors == std::min(2 * at_least.live_factors, twice.subdomains));
             CHECK(twice.factor_memory_bytes <= 2 * least);
             PolygonMesh boundless = mesh;
-            options.memory_limit = std::numeric_limits<std::size_t>::max();
+            options.resources.memory_limit = std::numeric_limits<std::size_t>::max();
             CHECK(mean_curvature_flow(boundless, options).live_factors == twice.subdomains);
         }
 }
@@ -103,7 +103,7 @@ TEST_CASE("factors keep to the limit, and there are as many at once as it lets b
 TEST_CASE("the report knows the memory that factors by Cholesky's method had")
 {
     PolygonMesh mesh = make_mixed_polygons(3000);
-    const FlowReport report = mean_curvature_flow(mesh, options_for(Conditions::AdaptedRobin));
+    const FlowReport report = mean_curvature_flow(mesh, limited_options(Conditions::AdaptedRobin));
     CHECK(report.factor_memory_bytes > 0);
     CHECK(report.live_factors >= 1);
     CHECK(report.live_factors <= report.subdomains);
@@ -112,7 +112,8 @@ TEST_CASE("the report knows the memory that factors by Cholesky's method had")
 TEST_CASE("a limit below what a step needs at once is refused with both numbers")
 {
     const PolygonMesh mesh = make_mixed_polygons(3000);
-    for (const FlowOptions& options : {options_for(Conditions::AdaptedRobin), converged(Laplacian::Fujiwara)}) {
+    for (const FlowOptions& options :
+         {limited_options(Conditions::AdaptedRobin), limited_converged(Laplacian::Fujiwara)}) {
         const std::size_t least = least_limit(mesh, options);
         CHECK(complaint_about(mesh, options, least).empty());
         const std::string complaint = complaint_about(mesh, options, least - 1);
@@ -125,9 +126,9 @@ TEST_CASE("a limit below what a step needs at once is refused with both numbers"
 TEST_CASE("the limit is for the sub-meshes, not for the undecomposed flow that they are held beside")
 {
     PolygonMesh mesh = make_mixed_polygons(3000);
-    FlowOptions options = options_for(Conditions::AdaptedRobin);
-    options.memory_limit = least_limit(mesh, options);
-    options.reference = true;
+    FlowOptions options = limited_options(Conditions::AdaptedRobin);
+    options.resources.memory_limit = least_limit(mesh, options);
+    options.report.reference = true;
     CHECK(mean_curvature_flow(mesh, options).steps.back().distance->mean > 0.0);
 }
 
@@ -137,16 +138,16 @@ TEST_CASE("converged steps keep to the limit, and what they make twice changes n
     for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky}) {
         CAPTURE(name_of(laplacian));
         PolygonMesh boundless = mesh;
-        const FlowReport expected = mean_curvature_flow(boundless, converged(laplacian));
+        const FlowReport expected = mean_curvature_flow(boundless, limited_converged(laplacian));
         const std::size_t all = expected.factor_memory_bytes;
-        const std::size_t least = least_limit(mesh, converged(laplacian));
+        const std::size_t least = least_limit(mesh, limited_converged(laplacian));
         CHECK(expected.live_factors == expected.subdomains);
         CHECK(2 * least < all);
         for (const int threads : {1, 4})
             for (const std::size_t limit : {least, 2 * least, (least + all) / 2, all - 1, all}) {
                 CAPTURE(limit);
-                FlowOptions options = converged(laplacian, threads);
-                options.memory_limit = limit;
+                FlowOptions options = limited_converged(laplacian, threads);
+                options.resources.memory_limit = limit;
                 PolygonMesh limited = mesh;
                 const FlowReport report = mean_curvature_flow(limited, options);
                 CHECK(same_bits(limited.vertices, boundless.vertices));

@@ -9,32 +9,28 @@
 
 using namespace seamflow;
 using test::flowed;
+using test::height_fields;
 
 namespace {
 
-FlowOptions options_for(Laplacian laplacian, Index subdomains, int overlap = 1)
+FlowOptions schwarz_options(Laplacian laplacian, Index subdomains, int overlap = 1)
 {
     FlowOptions options;
     options.laplacian = laplacian;
-    options.conditions = Conditions::Schwarz;
+    options.interface.conditions = Conditions::Schwarz;
     options.time_step = 0.002;
     options.steps = 3;
-    options.subdomains = subdomains;
-    options.overlap = overlap;
+    options.cut.subdomains = subdomains;
+    options.interface.overlap = overlap;
     return options;
 }
 
 /// V_mean after the last step, in mean edge lengths.
 double distance_to_undecomposed(PolygonMesh mesh, FlowOptions options)
 {
-    options.reference = true;
+    options.report.reference = true;
     const FlowReport report = mean_curvature_flow(mesh, options);
     return report.steps.back().distance->mean / report.steps.back().distance->mean_edge;
-}
-
-std::vector<PolygonMesh> height_fields()
-{
-    return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900)};
 }
 
 }  // namespace
@@ -46,11 +42,11 @@ TEST_CASE("with Schwarz a flat mesh stays flat whatever the cut, and closed ones
             CAPTURE(name_of(laplacian));
             CAPTURE(subdomains);
             for (PolygonMesh mesh : height_fields()) {
-                CHECK(flowed(mesh, options_for(laplacian, subdomains)).allFinite());
+                CHECK(flowed(mesh, schwarz_options(laplacian, subdomains)).allFinite());
                 mesh.vertices.col(2).setZero();
-                CHECK(flowed(mesh, options_for(laplacian, subdomains, 2)).col(2).cwiseAbs().maxCoeff() == 0.0);
+                CHECK(flowed(mesh, schwarz_options(laplacian, subdomains, 2)).col(2).cwiseAbs().maxCoeff() == 0.0);
             }
-            CHECK(flowed(make_noisy_sphere(900), options_for(laplacian, subdomains)).allFinite());
+            CHECK(flowed(make_noisy_sphere(900), schwarz_options(laplacian, subdomains)).allFinite());
         }
 }
 
@@ -59,16 +55,16 @@ TEST_CASE("with Alexa-Wardetzky and Schwarz a flat mesh of triangles does not mo
     PolygonMesh mesh = make_triangles(900);
     mesh.vertices.col(2).setZero();
     for (const Index subdomains : {2, 5, 16})
-        CHECK(test::largest_difference(flowed(mesh, options_for(Laplacian::AlexaWardetzky, subdomains)),
+        CHECK(test::largest_difference(flowed(mesh, schwarz_options(Laplacian::AlexaWardetzky, subdomains)),
                                        mesh.vertices) <= 1e-12);
 }
 
 TEST_CASE("Schwarz in one sub-mesh is the undecomposed flow to the bit")
 {
     for (const PolygonMesh& mesh : height_fields()) {
-        FlowOptions undecomposed = options_for(Laplacian::Fujiwara, 1);
-        undecomposed.conditions = Conditions::AdaptedRobin;
-        CHECK(flowed(mesh, options_for(Laplacian::Fujiwara, 1, 3)) == flowed(mesh, undecomposed));
+        FlowOptions undecomposed = schwarz_options(Laplacian::Fujiwara, 1);
+        undecomposed.interface.conditions = Conditions::AdaptedRobin;
+        CHECK(flowed(mesh, schwarz_options(Laplacian::Fujiwara, 1, 3)) == flowed(mesh, undecomposed));
     }
 }
 
@@ -77,12 +73,12 @@ TEST_CASE("Schwarz gives the same bits for every number of threads from 1 to 8")
     const PolygonMesh mesh = make_mixed_polygons(3000);
     for (const Laplacian laplacian : test::all_laplacians)
         for (const Correction correction : {Correction::Automatic, Correction::Centroid}) {
-            FlowOptions options = options_for(laplacian, 24, 2);
-            options.correction = correction;
-            options.threads = 1;
+            FlowOptions options = schwarz_options(laplacian, 24, 2);
+            options.interface.correction = correction;
+            options.resources.threads = 1;
             const Points expected = flowed(mesh, options);
-            for (options.threads = 2; options.threads <= 8; ++options.threads) {
-                CAPTURE(options.threads);
+            for (options.resources.threads = 2; options.resources.threads <= 8; ++options.resources.threads) {
+                CAPTURE(options.resources.threads);
                 const Points found = flowed(mesh, options);
                 CHECK(std::memcmp(found.data(), expected.data(),
                                   static_cast<std::size_t>(found.size()) * sizeof(double)) == 0);
@@ -95,9 +91,9 @@ TEST_CASE("the wider the overlap the nearer Schwarz is to the undecomposed flow"
     for (const PolygonMesh& mesh : {make_quads(2000), make_hexagons(2000), make_mixed_polygons(2000)})
         for (const Index subdomains : {2, 5, 16}) {
             CAPTURE(subdomains);
-            const double one = distance_to_undecomposed(mesh, options_for(Laplacian::Fujiwara, subdomains, 1));
-            const double two = distance_to_undecomposed(mesh, options_for(Laplacian::Fujiwara, subdomains, 2));
-            const double three = distance_to_undecomposed(mesh, options_for(Laplacian::Fujiwara, subdomains, 3));
+            const double one = distance_to_undecomposed(mesh, schwarz_options(Laplacian::Fujiwara, subdomains, 1));
+            const double two = distance_to_undecomposed(mesh, schwarz_options(Laplacian::Fujiwara, subdomains, 2));
+            const double three = distance_to_undecomposed(mesh, schwarz_options(Laplacian::Fujiwara, subdomains, 3));
             CHECK(two < 0.8 * one);
             CHECK(three < 0.8 * two);
         }
@@ -106,8 +102,8 @@ TEST_CASE("the wider the overlap the nearer Schwarz is to the undecomposed flow"
 TEST_CASE("with an overlap as wide as the mesh Schwarz is the undecomposed flow")
 {
     const PolygonMesh mesh = make_quads(900);
-    const Points undecomposed = flowed(mesh, options_for(Laplacian::Fujiwara, 1));
-    CHECK(test::largest_difference(flowed(mesh, options_for(Laplacian::Fujiwara, 4, 1000)), undecomposed) <= 1e-9);
+    const Points undecomposed = flowed(mesh, schwarz_options(Laplacian::Fujiwara, 1));
+    CHECK(test::largest_difference(flowed(mesh, schwarz_options(Laplacian::Fujiwara, 4, 1000)), undecomposed) <= 1e-9);
 }
 
 TEST_CASE("on a wavy tube cut along a peak Schwarz holds the interface back, adapted Robin does not")
@@ -117,9 +113,9 @@ TEST_CASE("on a wavy tube cut along a peak Schwarz holds the interface back, ada
     FlowOptions schwarz = FlowOptions::plain();
     schwarz.time_step = 0.05;
     schwarz.steps = 5;
-    schwarz.labels = cut.labels;
-    schwarz.coloring = Coloring::Label;
+    schwarz.cut.labels = cut.labels;
+    schwarz.interface.coloring = Coloring::Label;
     FlowOptions robin = schwarz;
-    schwarz.conditions = Conditions::Schwarz;
+    schwarz.interface.conditions = Conditions::Schwarz;
     CHECK(distance_to_undecomposed(cut.mesh, schwarz) > 5.0 * distance_to_undecomposed(cut.mesh, robin));
 }

@@ -1,4 +1,3 @@
-#include <cstring>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -9,23 +8,18 @@
 #include "tests/support/flows.h"
 
 using namespace seamflow;
+using test::same_bits;
 
 namespace {
 
-bool same_bits(const Points& a, const Points& b)
-{
-    return a.rows() == b.rows() &&
-           std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
-
-FlowOptions options_for(Laplacian laplacian, int threads)
+FlowOptions threaded_options(Laplacian laplacian, int threads)
 {
     FlowOptions options;
     options.laplacian = laplacian;
     options.time_step = 0.001;
     options.steps = 3;
-    options.subdomains = 24;
-    options.threads = threads;
+    options.cut.subdomains = 24;
+    options.resources.threads = threads;
     return options;
 }
 
@@ -36,10 +30,10 @@ TEST_CASE("every number of threads from 1 to 8, and every repetition, gives the 
     for (const PolygonMesh& mesh : {make_mixed_polygons(3000), make_noisy_sphere(3000)})
         for (const Laplacian laplacian : test::all_laplacians) {
             CAPTURE(name_of(laplacian));
-            const Points expected = test::flowed(mesh, options_for(laplacian, 1));
+            const Points expected = test::flowed(mesh, threaded_options(laplacian, 1));
             for (int threads = 1; threads <= 8; ++threads) {
                 CAPTURE(threads);
-                CHECK(same_bits(test::flowed(mesh, options_for(laplacian, threads)), expected));
+                CHECK(same_bits(test::flowed(mesh, threaded_options(laplacian, threads)), expected));
             }
         }
 }
@@ -47,7 +41,7 @@ TEST_CASE("every number of threads from 1 to 8, and every repetition, gives the 
 TEST_CASE("the report says how many threads there were")
 {
     PolygonMesh mesh = make_quads(400);
-    CHECK(mean_curvature_flow(mesh, options_for(Laplacian::Fujiwara, 3)).threads == 3);
+    CHECK(mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 3)).threads == 3);
 }
 
 TEST_CASE("without a number of its own the flow keeps to the caller's arena")
@@ -55,7 +49,7 @@ TEST_CASE("without a number of its own the flow keeps to the caller's arena")
     PolygonMesh mesh = make_quads(400);
     oneapi::tbb::task_arena arena(1);
     const FlowReport report =
-        arena.execute([&] { return mean_curvature_flow(mesh, options_for(Laplacian::Fujiwara, 0)); });
+        arena.execute([&] { return mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 0)); });
     CHECK(report.threads == 1);
 }
 
@@ -64,18 +58,18 @@ TEST_CASE("the observer is called in the thread that called the flow")
     PolygonMesh mesh = make_quads(400);
     const auto caller = std::this_thread::get_id();
     for (const int threads : {0, 1, 2, 5})
-        mean_curvature_flow(mesh, options_for(Laplacian::Fujiwara, threads),
+        mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, threads),
                             [&](const StepState&) { CHECK(std::this_thread::get_id() == caller); });
 }
 
 TEST_CASE("two flows at the same time do not disturb each other")
 {
     const PolygonMesh mesh = make_mixed_polygons(2000);
-    const Points expected = test::flowed(mesh, options_for(Laplacian::AlexaWardetzky, 1));
+    const Points expected = test::flowed(mesh, threaded_options(Laplacian::AlexaWardetzky, 1));
     Points first;
     Points second;
-    std::thread other([&] { first = test::flowed(mesh, options_for(Laplacian::AlexaWardetzky, 2)); });
-    second = test::flowed(mesh, options_for(Laplacian::AlexaWardetzky, 3));
+    std::thread other([&] { first = test::flowed(mesh, threaded_options(Laplacian::AlexaWardetzky, 2)); });
+    second = test::flowed(mesh, threaded_options(Laplacian::AlexaWardetzky, 3));
     other.join();
     CHECK(same_bits(first, expected));
     CHECK(same_bits(second, expected));

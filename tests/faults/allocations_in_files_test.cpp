@@ -1,10 +1,9 @@
 // Reading, cutting and writing with every single allocation failing.
 
-#include "engine/checkpoint.h"
+#include "engine/state/checkpoint.h"
 #include "partition/cut/cut.h"
-#include "partition/cut/labels_file.h"
-#include "partition/io/mesh_io.h"
-#include "partition/io/vertex_set.h"
+#include "partition/formats/index_files.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/topology.h"
 #include "tests/faults/every_allocation.h"
 #include "tests/faults/small_runs.h"

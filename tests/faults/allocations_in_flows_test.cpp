@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_state.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/state/flow_state.h"
 #include "tests/faults/every_allocation.h"
 #include "tests/faults/small_runs.h"
 

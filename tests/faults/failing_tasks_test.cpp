@@ -2,11 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/converged_flow.h"
-#include "engine/decomposed_flow.h"
-#include "engine/krylov_flow.h"
-#include "engine/workers.h"
-#include "solvers/mean_curvature.h"
+#include "engine/steppers/schur_stepper.h"
+#include "engine/steppers/schwarz_gmres_stepper.h"
+#include "engine/steppers/sweep_stepper.h"
+#include "engine/tasks/workers.h"
+#include "solvers/laplacian/mean_curvature.h"
 #include "tests/faults/failing_work.h"
 #include "tests/faults/small_runs.h"
 #include "tests/support/memory_limits.h"
@@ -15,7 +15,7 @@ using namespace seamflow;
 
 namespace {
 
-constexpr int n_steps = 3;
+constexpr int n_task_steps = 3;
 
 /// The states of a flow: before it and after each of its steps.
 std::vector<Points> states_of(PolygonMesh mesh, const FlowOptions& options)
@@ -39,7 +39,7 @@ bool fails_well(const FlowOptions& options, const std::vector<Points>& states, i
         caught = failure.task;
     }
     CHECK(caught == (failing.has_failed() ? task : 0));
-    CHECK((caught == 0) == (steps_done == n_steps));
+    CHECK((caught == 0) == (steps_done == n_task_steps));
     CHECK(test::same_bits(mesh.vertices, states[static_cast<std::size_t>(steps_done)]));
     return failing.has_failed();
 }
@@ -55,7 +55,7 @@ bool runs_again(const std::function<Flow(Progress&)>& make, const Points& expect
     const test::FailingTask failing(task, 2);
     Flow flow = make(progress);
     int n_thrown = 0;
-    for (int steps_done = 0; steps_done < n_steps;) {
+    for (int steps_done = 0; steps_done < n_task_steps;) {
         StepMemory memory;
         flow.save(memory);
         try {
@@ -78,7 +78,7 @@ Points flowed_by(const std::function<Flow(Progress&)>& make)
     const FlowControl control;
     Progress progress(control);
     Flow flow = make(progress);
-    for (int step = 1; step <= n_steps; ++step)
+    for (int step = 1; step <= n_task_steps; ++step)
         flow.step(Points(flow.positions()));
     return flow.positions();
 }
@@ -104,7 +104,7 @@ struct Parts {
     PolygonMesh mesh = test::small_mesh();
     Topology topology = make_topology(mesh);
     Cut cut = cut_into(mesh, topology, 3);
-    FlowOptions options = test::small_flows(n_steps, 0).front().options;
+    FlowOptions options = test::small_flows(n_task_steps, 0).front().options;
     std::vector<double> curvature = std::vector<double>(static_cast<std::size_t>(mesh.n_vertices()), 0.0);
 };
 
@@ -113,7 +113,7 @@ struct Parts {
 TEST_CASE("whichever task of a flow throws, that comes out, with any number of threads, and no step in part")
 {
     for (const int threads : {1, 2, 5})
-        for (const test::FlowKind& kind : test::small_flows(n_steps, threads)) {
+        for (const test::FlowKind& kind : test::small_flows(n_task_steps, threads)) {
             CAPTURE(kind.name);
             CAPTURE(threads);
             const std::vector<Points> states = states_of(test::small_mesh(), kind.options);
@@ -134,33 +134,33 @@ TEST_CASE("a graph one of whose tasks has thrown runs again, and gives the same 
     SUBCASE("sweeps")
     {
         for (const Transmission transmission : {Transmission::Predicted, Transmission::Derivative}) {
-            parts.options.transmission = transmission;
-            every_graph_runs_again<DecomposedFlow>([&](Progress& progress) {
-                return DecomposedFlow(parts.mesh, parts.topology, parts.cut, parts.options, parts.curvature, progress);
+            parts.options.interface.transmission = transmission;
+            every_graph_runs_again<SweepStepper>([&](Progress& progress) {
+                return SweepStepper(parts.mesh, parts.topology, parts.cut, parts.options, parts.curvature, progress);
             });
         }
     }
     SUBCASE("converged")
     {
-        parts.options.tolerance = 1e-3;
-        every_graph_runs_again<ConvergedFlow>([&](Progress& progress) {
-            return ConvergedFlow(parts.mesh, parts.topology, parts.cut, parts.options, progress);
+        parts.options.accuracy.tolerance = 1e-3;
+        every_graph_runs_again<SchurStepper>([&](Progress& progress) {
+            return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
         });
     }
     SUBCASE("converged in little memory")
     {
-        parts.options.tolerance = 1e-3;
-        parts.options.memory_limit = test::least_memory_limit(parts.mesh, parts.options).value();
-        every_graph_runs_again<ConvergedFlow>([&](Progress& progress) {
-            return ConvergedFlow(parts.mesh, parts.topology, parts.cut, parts.options, progress);
+        parts.options.accuracy.tolerance = 1e-3;
+        parts.options.resources.memory_limit = test::least_memory_limit(parts.mesh, parts.options).value();
+        every_graph_runs_again<SchurStepper>([&](Progress& progress) {
+            return SchurStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
         });
     }
     SUBCASE("Krylov")
     {
-        parts.options.tolerance = 1e-3;
+        parts.options.accuracy.tolerance = 1e-3;
         parts.options.laplacian = Laplacian::PtackovaVelho;
-        every_graph_runs_again<KrylovFlow>([&](Progress& progress) {
-            return KrylovFlow(parts.mesh, parts.topology, parts.cut, parts.options, progress);
+        every_graph_runs_again<SchwarzGmresStepper>([&](Progress& progress) {
+            return SchwarzGmresStepper(parts.mesh, parts.topology, parts.cut, parts.options, progress);
         });
     }
 }

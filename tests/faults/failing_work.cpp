@@ -12,9 +12,9 @@
 
 #include <umfpack.h>
 
-#include "engine/task_graph.h"
-#include "solvers/ldl_solver.h"
-#include "solvers/lu_solver.h"
+#include "engine/tasks/task_graph.h"
+#include "solvers/direct/ldl_solver.h"
+#include "solvers/direct/lu_solver.h"
 
 namespace seamflow::test {
 
@@ -86,7 +86,7 @@ bool FailingFactorisation::has_failed() const
 using namespace seamflow;
 using namespace seamflow::test;
 
-#define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEENS0_8PriorityE"
+#define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEENS_12TaskPriorityE"
 #define SEAMFLOW_LDL                                                                                                   \
     "_ZN8seamflow9LdlSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_12LdlWorkspaceE"
 #define SEAMFLOW_LU                                                                                                    \
@@ -95,7 +95,7 @@ using namespace seamflow::test;
 using Values = std::span<const double>;
 
 TaskGraph::Node real_add_task(TaskGraph* graph, std::function<void()> body,
-                              TaskGraph::Priority priority) asm("__real_" SEAMFLOW_ADD_TASK);
+                              TaskPriority priority) asm("__real_" SEAMFLOW_ADD_TASK);
 bool real_ldl(LdlSolver* solver, Values values, FactorMemory& memory,
               LdlWorkspace& workspace) asm("__real_" SEAMFLOW_LDL);
 bool real_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace) asm("__real_" SEAMFLOW_LU);
@@ -115,8 +115,8 @@ int number_at(TaskGraph::Node node)
 }  // namespace
 
 TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body,
-                              TaskGraph::Priority priority) asm("__wrap_" SEAMFLOW_ADD_TASK);
-TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, TaskGraph::Priority priority)
+                              TaskPriority priority) asm("__wrap_" SEAMFLOW_ADD_TASK);
+TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, TaskPriority priority)
 {
     auto number = std::make_shared<int>(0);
     auto failing = [number, n_runs = 0, body = std::move(body)]() mutable {

@@ -22,14 +22,14 @@ inline std::vector<FlowKind> small_flows(int steps, int threads)
     auto kinds = flow_kinds(mean_edge_length(small_mesh()));
     for (FlowKind& kind : kinds) {
         kind.options.steps = steps;
-        kind.options.threads = threads;
-        kind.options.subdomains = std::min(kind.options.subdomains, Index{3});
-        if (!kind.options.fixed_vertices.empty())
-            kind.options.fixed_vertices = {3, 50, 51, 60};
+        kind.options.resources.threads = threads;
+        kind.options.cut.subdomains = std::min(kind.options.cut.subdomains, Index{3});
+        if (!kind.options.motion.fixed_vertices.empty())
+            kind.options.motion.fixed_vertices = {3, 50, 51, 60};
     }
     FlowKind little_memory{"converged in little memory", kinds.front().options};
-    little_memory.options.tolerance = 1e-3;
-    little_memory.options.memory_limit = least_memory_limit(small_mesh(), little_memory.options).value();
+    little_memory.options.accuracy.tolerance = 1e-3;
+    little_memory.options.resources.memory_limit = least_memory_limit(small_mesh(), little_memory.options).value();
     kinds.push_back(little_memory);
     return kinds;
 }

@@ -17,8 +17,8 @@ CheckpointedFlow::CheckpointedFlow()
         }
     options.time_step = 0.1;
     options.steps = 3;
-    options.subdomains = 2;
-    options.threads = 1;
+    options.cut.subdomains = 2;
+    options.resources.threads = 1;
 }
 
 }  // namespace seamflow::test

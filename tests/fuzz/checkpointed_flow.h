@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow::test {

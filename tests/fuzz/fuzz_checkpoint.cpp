@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/checkpoint.h"
-#include "engine/checksum.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/state/checkpoint.h"
+#include "engine/state/checksum.h"
 #include "partition/errors.h"
 #include "tests/fuzz/checkpointed_flow.h"
 #include "tests/fuzz/fuzzed_file.h"

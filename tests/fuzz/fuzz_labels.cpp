@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "partition/cut/labels_file.h"
 #include "partition/errors.h"
+#include "partition/formats/index_files.h"
 #include "tests/fuzz/fuzzed_file.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls

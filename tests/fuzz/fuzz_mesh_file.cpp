@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "partition/errors.h"
+#include "partition/formats/extras.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
-#include "partition/io/extras.h"
-#include "partition/io/mesh_io.h"
 #include "partition/topology.h"
 #include "tests/fuzz/fuzzed_file.h"
 

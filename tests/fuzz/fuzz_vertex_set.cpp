@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "partition/errors.h"
-#include "partition/io/vertex_set.h"
+#include "partition/formats/index_files.h"
 #include "tests/fuzz/fuzzed_file.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/checkpoint.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/state/checkpoint.h"
 #include "tests/fuzz/checkpointed_flow.h"
 #include "tests/fuzz/seeds.h"
 

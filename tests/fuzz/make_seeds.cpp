@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "partition/formats/mesh_io.h"
+#include "partition/formats/palette.h"
 #include "partition/io/byte_order.h"
-#include "partition/io/mesh_io.h"
-#include "partition/io/palette.h"
 #include "tests/fuzz/seeds.h"
 
 namespace {

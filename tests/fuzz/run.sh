@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Tries hostile files on all readers: libFuzzer with the address and undefined behaviour sanitizers, from seeds that the
-# project makes itself. Installs clang if it is missing. What is found is left in build-fuzz/findings/, and tried again by
-# every later run.
+# project makes itself. Installs clang if it is missing. What is found is left in build-fuzz/findings/, and tried
+# again by every later run.
 #
 #     tests/fuzz/run.sh [--seconds N] [HARNESS…]
 #
-# N: in all, 300 unless told, and a second for each harness at least; as many of them run at once as there are processors.
+# N: in all, 300 unless told, and a second for each harness at least; as many of them run at once as there are
+# processors.
 # HARNESS: obj, off, ply, stl, labels, vertex_set, checkpoint; all but checkpoint, which needs the whole library,
 # unless told.
 

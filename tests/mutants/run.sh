@@ -19,8 +19,8 @@
 # need a browser, take minutes or depend on how fast programs run. The exit status is 0 if all faults apply and build,
 # nine of ten are noticed, and all others are argued.
 #
-# The sources are changed in a copy of the tree: build-mutants/, or a FOLDER outside the tree. It stays for the next run,
-# which builds what is different and puts right what an interrupted one has left.
+# The sources are changed in a copy of the tree: build-mutants/, or a FOLDER outside the tree. It stays for the next
+# run, which builds what is different and puts right what an interrupted one has left.
 
 set -euo pipefail
 # shellcheck source=samples/common/setup.sh

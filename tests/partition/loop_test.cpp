@@ -23,14 +23,14 @@ TEST_CASE("a loop comes by every index once")
 {
     for (const Loop& loop : {Loop(run_serially), Loop(run_backwards)})
         for (const Index n : {0, 1, block_size - 1, block_size, 3 * block_size + 5}) {
-            std::vector<int> visits(at(n), 0);
-            for_each(loop, n, [&](Index i) { ++visits[at(i)]; });
+            std::vector<int> visits(n, 0);
+            for_each(loop, n, [&](Index i) { ++visits[i]; });
             for_each_block(loop, n, [&](Index block, Index begin, Index end) {
                 CHECK(begin == block * block_size);
                 for (Index i = begin; i < end; ++i)
-                    ++visits[at(i)];
+                    ++visits[i];
             });
-            CHECK(visits == std::vector<int>(at(n), 2));
+            CHECK(visits == std::vector<int>(n, 2));
         }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("weights are added up by value, however the loop is run")
     const auto weight = [](Index i) { return i; };
     std::vector<std::int64_t> expected(9, 0);
     for (Index i = 0; i < n; ++i)
-        expected[at(value(i))] += i;
+        expected[value(i)] += i;
     CHECK(sums_by_value(run_serially, n, 9, value, weight) == expected);
     CHECK(sums_by_value(run_backwards, n, 9, value, weight) == expected);
     CHECK(sums_by_value(run_serially, 0, 2, value, weight) == std::vector<std::int64_t>{0, 0});

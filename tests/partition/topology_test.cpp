@@ -19,7 +19,7 @@ using Edge = std::pair<Index, Index>;
 
 Edge edge_of(const PolygonMesh& mesh, const Topology& topology, Index h)
 {
-    return std::minmax(mesh.face_vertices[at(h)], mesh.face_vertices[at(topology.next(mesh, h))]);
+    return std::minmax(mesh.face_vertices[h], mesh.face_vertices[topology.next(mesh, h)]);
 }
 
 Index count(const Topology& topology, VertexKind kind)
@@ -34,13 +34,13 @@ void check_twins(const PolygonMesh& mesh, const Topology& topology)
         edges.insert(edge_of(mesh, topology, h));
     REQUIRE(topology.twin.size() == at(mesh.n_corners()));
     for (Index h = 0; h < mesh.n_corners(); ++h) {
-        const Index twin = topology.twin[at(h)];
+        const Index twin = topology.twin[h];
         CHECK((twin >= 0) == (edges.count(edge_of(mesh, topology, h)) == 2));
         if (twin < 0)
             continue;
         CHECK(twin != h);
-        CHECK(topology.twin[at(twin)] == h);
-        CHECK(topology.face_of[at(twin)] != topology.face_of[at(h)]);
+        CHECK(topology.twin[twin] == h);
+        CHECK(topology.face_of[twin] != topology.face_of[h]);
         CHECK(edge_of(mesh, topology, twin) == edge_of(mesh, topology, h));
     }
 }
@@ -52,9 +52,9 @@ void check_corners(const PolygonMesh& mesh, const Topology& topology)
         const auto corners = topology.corners_at(v);
         n_corners += corners.size();
         CHECK(std::is_sorted(corners.begin(), corners.end()));
-        CHECK(corners.empty() == (topology.kind[at(v)] == VertexKind::Isolated));
+        CHECK(corners.empty() == (topology.kind[v] == VertexKind::Isolated));
         for (const Index h : corners) {
-            CHECK(mesh.face_vertices[at(h)] == v);
+            CHECK(mesh.face_vertices[h] == v);
             CHECK(topology.next(mesh, topology.previous(mesh, h)) == h);
             CHECK(topology.previous(mesh, topology.next(mesh, h)) == h);
         }
@@ -66,10 +66,10 @@ void check_corners(const PolygonMesh& mesh, const Topology& topology)
 /// of a closed fan.
 void check_fans(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index label, Index v)
 {
-    const auto belongs = [&](Index h) { return labels.empty() || labels[at(topology.face_of[at(h)])] == label; };
+    const auto belongs = [&](Index h) { return labels.empty() || labels[topology.face_of[h]] == label; };
     const auto share_spoke = [&](Index a, Index b) {
         for (const Index h : {a, topology.previous(mesh, a)})
-            if (const Index twin = topology.twin[at(h)]; twin >= 0 && (twin == b || twin == topology.previous(mesh, b)))
+            if (const Index twin = topology.twin[h]; twin >= 0 && (twin == b || twin == topology.previous(mesh, b)))
                 return true;
         return false;
     };
@@ -84,8 +84,8 @@ void check_fans(const PolygonMesh& mesh, const Topology& topology, std::span<con
             CHECK(share_spoke(fan.corners.back(), fan.corners.front()));
         for (const auto& [corner, end] :
              {std::pair(fan.corners.front(), fan.first), std::pair(fan.corners.back(), fan.last)})
-            CHECK((mesh.face_vertices[at(topology.next(mesh, corner))] == end ||
-                   mesh.face_vertices[at(topology.previous(mesh, corner))] == end));
+            CHECK((mesh.face_vertices[topology.next(mesh, corner)] == end ||
+                   mesh.face_vertices[topology.previous(mesh, corner)] == end));
         found.insert(found.end(), fan.corners.begin(), fan.corners.end());
     }
     std::sort(found.begin(), found.end());
@@ -104,17 +104,17 @@ TEST_CASE("the face of a half-edge, and those beside it there, whether all faces
             CAPTURE(last_degree);
             PolygonMesh mesh;
             for (Index f = 0; f < 40; ++f) {
-                std::vector<Index> corners(at(f == 39 ? last_degree : degree));
+                std::vector<Index> corners(f == 39 ? last_degree : degree);
                 std::iota(corners.begin(), corners.end(), mesh.n_corners());
                 mesh.add_face(corners);
             }
             mesh.vertices = Points::Zero(mesh.n_corners(), 3);
             const Topology topology = make_topology(mesh);
             for (Index f = 0; f < mesh.n_faces(); ++f) {
-                const Index begin = mesh.face_offsets[at(f)];
-                const Index end = mesh.face_offsets[at(f) + 1];
+                const Index begin = mesh.face_offsets[f];
+                const Index end = mesh.face_offsets[f + 1];
                 for (Index h = begin; h < end; ++h) {
-                    REQUIRE(topology.face_of[at(h)] == f);
+                    REQUIRE(topology.face_of[h] == f);
                     REQUIRE(topology.next(mesh, h) == (h + 1 == end ? begin : h + 1));
                     REQUIRE(topology.previous(mesh, h) == (h == begin ? end - 1 : h - 1));
                 }
@@ -144,9 +144,9 @@ TEST_CASE("the ends of a fan are found without listing it")
 {
     for (const NamedMesh& m : assorted_meshes()) {
         CAPTURE(m.name);
-        std::vector<Index> labels(at(m.mesh.n_faces()));
+        std::vector<Index> labels(m.mesh.n_faces());
         for (Index f = 0; f < m.mesh.n_faces(); ++f)
-            labels[at(f)] = f * 7 % 5 % 2;
+            labels[f] = f * 7 % 5 % 2;
         for (Index v = 0; v < m.mesh.n_vertices(); ++v)
             for (const Index label : {0, 1})
                 for (const Fan& fan : fans_at(m.mesh, m.topology, v, labels, label)) {
@@ -267,11 +267,11 @@ TEST_CASE("at first interior vertices move, with a free boundary those on it too
     const PolygonMesh mesh = side_by_side({quad_grid(4, 4), three_wings()});
     Topology topology = make_topology(mesh);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        CHECK(topology.moves(v) == (topology.kind[at(v)] == VertexKind::Interior));
+        CHECK(topology.moves(v) == (topology.kind[v] == VertexKind::Interior));
     free_boundary(topology);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         CHECK(topology.moves(v) ==
-              (topology.kind[at(v)] == VertexKind::Interior || topology.kind[at(v)] == VertexKind::Boundary));
+              (topology.kind[v] == VertexKind::Interior || topology.kind[v] == VertexKind::Boundary));
     REQUIRE(topology.moves(0));
     hold(topology, std::vector<Index>{0, 6, 0});
     CHECK_FALSE(topology.moves(0));

@@ -14,7 +14,7 @@
 #include "samples/benchmark/benchmark_command.h"
 #include "samples/benchmark/loosest_tolerance.h"
 #include "samples/benchmark/matrix_market.h"
-#include "samples/benchmark/peers/peer_solver.h"
+#include "samples/benchmark/methods/peer_solver.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
 #include "samples/common/meshes.h"
@@ -33,8 +33,8 @@ MethodTask task_of(Method method, const PolygonMesh& mesh, Laplacian laplacian, 
     const double edge = mean_edge_length(mesh);
     task.options.time_step = 5.0 * edge * edge;
     task.options.steps = 2;
-    task.options.subdomains = 1;
-    task.options.threads = 2;
+    task.options.cut.subdomains = 1;
+    task.options.resources.threads = 2;
     return task;
 }
 
@@ -195,18 +195,18 @@ TEST_CASE("what processes hand to each other arrives as it was")
     CHECK(read.face_vertices == mesh.face_vertices);
 
     MethodTask task = task_of(Method::Amg, mesh, Laplacian::AlexaWardetzky, 1e-4);
-    task.options.conditions = Conditions::Ventcell;
-    task.options.q = 0.25;
-    task.options.memory_limit = std::size_t{1} << 40;
+    task.options.interface.conditions = Conditions::Ventcell;
+    task.options.interface.q = 0.25;
+    task.options.resources.memory_limit = std::size_t{1} << 40;
     task.simulated_threads = {1, 1024};
     write_task(folder.path(), task);
     const MethodTask task_read = read_task(folder.path());
     CHECK(task_read.method == task.method);
     CHECK(task_read.tolerance == task.tolerance);
     CHECK(task_read.options.laplacian == task.options.laplacian);
-    CHECK(task_read.options.conditions == task.options.conditions);
-    CHECK(task_read.options.q == task.options.q);
-    CHECK(task_read.options.memory_limit == task.options.memory_limit);
+    CHECK(task_read.options.interface.conditions == task.options.interface.conditions);
+    CHECK(task_read.options.interface.q == task.options.interface.q);
+    CHECK(task_read.options.resources.memory_limit == task.options.resources.memory_limit);
     CHECK(task_read.simulated_threads == task.simulated_threads);
     CHECK(task_read.options.time_step == task.options.time_step);
     CHECK(task_read.options.steps == task.options.steps);
@@ -225,11 +225,11 @@ TEST_CASE("what processes hand to each other arrives as it was")
     CHECK(result_read.simulations[0].workers == 3);
     CHECK(result_read.simulations[0].speed_up() == 2.0);
     CHECK(result_read.simulations[0].critical_path == std::vector<Index>{4, 2});
-    task.options.q.reset();
-    task.options.memory_limit.reset();
+    task.options.interface.q.reset();
+    task.options.resources.memory_limit.reset();
     write_task(folder.path(), task);
-    CHECK_FALSE(read_task(folder.path()).options.q);
-    CHECK_FALSE(read_task(folder.path()).options.memory_limit);
+    CHECK_FALSE(read_task(folder.path()).options.interface.q);
+    CHECK_FALSE(read_task(folder.path()).options.resources.memory_limit);
 }
 
 TEST_CASE("iterations and their accuracy do not depend on where the mesh lies")
@@ -250,7 +250,7 @@ TEST_CASE("a step of ours is replayed with each number of threads that is asked 
 {
     const PolygonMesh mesh = make_mesh("mixed", 3'000);
     MethodTask task = task_of(Method::Ours, mesh, Laplacian::Fujiwara);
-    task.options.subdomains = 20;
+    task.options.cut.subdomains = 20;
     task.simulated_threads = {1, 4, 1024};
     const MethodResult result = run_method(mesh, task);
     REQUIRE(result.simulations.size() == 3);
@@ -277,18 +277,18 @@ TEST_CASE("a simulation records with one thread and without a limit, where nothi
     REQUIRE_FALSE(parse({"--simulate-threads", "1,16"}, command));
     CHECK(command.mode == BenchmarkMode::SimulateThreads);
     CHECK(command.options.simulated_threads == std::vector{1, 16});
-    CHECK(command.options.flow.threads == 1);
-    CHECK(command.options.flow.memory_limit == std::numeric_limits<std::size_t>::max());
+    CHECK(command.options.flow.resources.threads == 1);
+    CHECK(command.options.flow.resources.memory_limit == std::numeric_limits<std::size_t>::max());
     CHECK(command.options.peers.empty());
     CHECK(command.options.reference == Reference::None);
     BenchmarkCommand refined;
     REQUIRE_FALSE(parse({"--simulate-threads", "all", "--threads", "2", "--memory-limit", "2G", "--conditions",
                          "ventcell", "--q", "0.1"},
                         refined));
-    CHECK(refined.options.flow.threads == 2);
-    CHECK(refined.options.flow.memory_limit == 2'000'000'000);
-    CHECK(refined.options.flow.conditions == Conditions::Ventcell);
-    CHECK(refined.options.flow.q == 0.1);
+    CHECK(refined.options.flow.resources.threads == 2);
+    CHECK(refined.options.flow.resources.memory_limit == 2'000'000'000);
+    CHECK(refined.options.flow.interface.conditions == Conditions::Ventcell);
+    CHECK(refined.options.flow.interface.q == 0.1);
 }
 
 TEST_CASE("the time of a step is the median of those after the first")
@@ -332,7 +332,7 @@ TEST_CASE("the command line of benchmark has defaults that fit the mode")
     REQUIRE_FALSE(parse({}, command));
     CHECK(command.options.peers.size() == 6);
     CHECK(command.options.flow.steps == 5);
-    CHECK(command.options.flow.threads >= 1);
+    CHECK(command.options.flow.resources.threads >= 1);
     CHECK(command.options.reference == Reference::Automatic);
     BenchmarkCommand scaling;
     REQUIRE_FALSE(parse({"--scaling"}, scaling));

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "tests/samples/workshop.h"
 
 using namespace seamflow;
@@ -37,7 +37,7 @@ TEST_CASE("vertices of a file stay, by their numbers or by a property")
         CHECK(after.vertices.row(v) == before.vertices.row(v));
     CHECK(after.vertices.row(102) != before.vertices.row(102));
 
-    std::vector<double> mask(at(before.n_vertices()), 0.0);
+    std::vector<double> mask(before.n_vertices(), 0.0);
     mask[100] = mask[101] = mask[500] = 1.0;
     const std::vector<Colour> grey(mask.size(), Colour{128, 128, 128});
     const std::vector<VertexValues> values{{"rigid", mask}};

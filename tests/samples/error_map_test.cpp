@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/common/error_map.h"
 #include "samples/common/meshes.h"
 #include "tests/support/temporary_directory.h"

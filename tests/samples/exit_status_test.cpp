@@ -46,7 +46,7 @@ TEST_CASE(
     report.steps_stagnated = 1;
     SmoothCommand command;
     CHECK(steps_failed(command, report) == 0);
-    command.options.tolerance = 1e-8;
+    command.options.accuracy.tolerance = 1e-8;
     CHECK(steps_failed(command, report) == 3);
     command.limits_iterations = true;
     CHECK(steps_failed(command, report) == 1);

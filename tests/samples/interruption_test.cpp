@@ -8,7 +8,7 @@
 #include <fcntl.h>
 #include <pty.h>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "tests/samples/running_program.h"
 #include "tests/samples/workshop.h"
 

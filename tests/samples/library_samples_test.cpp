@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/vertex_distance.h"
 #include "tests/samples/workshop.h"
 

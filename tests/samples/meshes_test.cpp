@@ -34,8 +34,7 @@ Index expected_characteristic(std::string_view kind)
 bool oriented_alike(const PolygonMesh& mesh, const Topology& topology)
 {
     for (Index h = 0; h < mesh.n_corners(); ++h)
-        if (const Index twin = topology.twin[at(h)];
-            twin >= 0 && mesh.face_vertices[at(h)] == mesh.face_vertices[at(twin)])
+        if (const Index twin = topology.twin[h]; twin >= 0 && mesh.face_vertices[h] == mesh.face_vertices[twin])
             return false;
     return true;
 }
@@ -148,7 +147,7 @@ TEST_CASE("the mixed mesh stays simple at its largest jitter, and has faces of t
             CHECK(count.count(sides) == 1);
         const Topology topology = make_topology(mesh);
         for (Index v = 0; v < mesh.n_vertices(); ++v)
-            if (topology.kind[at(v)] == VertexKind::Interior)
+            if (topology.kind[v] == VertexKind::Interior)
                 CHECK(topology.corners_at(v).size() >= 3);
     }
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "tests/samples/workshop.h"
 
 using namespace seamflow;
@@ -151,6 +151,7 @@ TEST_CASE("--trace writes which task ran when, and changes nothing else")
     REQUIRE(w.smooth("mesh.obj silent.obj --time-step-edges 2 --subdomains 4 --steps 3 --converge never") == 0);
     REQUIRE(
         w.smooth("mesh.obj out.obj --time-step-edges 2 --subdomains 4 --steps 3 --converge never --trace trace.json "
+                 "--task-graph graph.dot "
                  "--report report.json") == 0);
     CHECK(test::content_of(w.directory / "silent.obj") == test::content_of(w.directory / "out.obj"));
     std::map<std::string, int> slices;
@@ -166,7 +167,10 @@ TEST_CASE("--trace writes which task ran when, and changes nothing else")
             CHECK_MESSAGE(slices[phase + std::to_string(s)] == 3, phase, s);
     CHECK(slices["step 3"] == 1);
     CHECK(starts > 0);
-    CHECK(w.count_lines("trace.json", R"({"ph": "f")") == starts);
+    const std::string graph = test::content_of(w.directory / "graph.dot");
+    CHECK(graph.starts_with("digraph step {"));
+    CHECK(graph.find("[label=\"accept 3\"]") != std::string::npos);
+    CHECK(w.count_lines("trace.json", R"({"ph":"f")") == starts);
 }
 
 TEST_CASE("compare tells V_, H_ and displacements of meshes that correspond")

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/smoothing_amount.h"
+#include "engine/setup/smoothing_amount.h"
 #include "samples/common/report_text.h"
 
 using namespace seamflow;

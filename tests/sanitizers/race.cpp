@@ -1,5 +1,5 @@
-// Makes a race that ThreadSanitizer must report: what the engine tells it of the order of tasks (engine/thread_order.h)
-// may not hide those that have none.
+// Makes a race that ThreadSanitizer must report: what the engine tells it of the order of tasks
+// (engine/tasks/thread_order.h) may not hide those that have none.
 //
 //     seamflow_race tasks|loop|pair|none
 
@@ -8,9 +8,9 @@
 #include <memory>
 #include <string>
 
-#include "engine/parallel_loop.h"
-#include "engine/task_graph.h"
-#include "engine/workers.h"
+#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/task_graph.h"
+#include "engine/tasks/workers.h"
 
 using namespace seamflow;
 
@@ -45,9 +45,9 @@ void write_in_tasks(long& number, bool ordered)
     };
     TaskGraph graph;
     const auto root = graph.add_root();
-    const auto before = graph.add_task([&] { ++number; }, TaskGraph::Priority::Normal);
-    const auto one = graph.add_task(write, TaskGraph::Priority::Normal);
-    const auto other = graph.add_task(write, TaskGraph::Priority::Normal);
+    const auto before = graph.add_task([&] { ++number; }, TaskPriority::Normal);
+    const auto one = graph.add_task(write, TaskPriority::Normal);
+    const auto other = graph.add_task(write, TaskPriority::Normal);
     graph.add_dependency(root, before);
     graph.add_dependency(before, one);
     graph.add_dependency(ordered ? one : before, other);

@@ -8,9 +8,9 @@
 #     tsan       the engine's tests under ThreadSanitizer, and that it finds races; preset tsan
 #     valgrind   the program smooth of the release build under memcheck: a mesh in several sub-meshes, two threads
 #
-# What is left out: the corpus of meshes and the consumers of an installed library (they need large meshes, and builds of
-# their own); what single tests leave out is said by them. Nothing of the project's own is suppressed: the files in this
-# folder name what of other libraries is, and why.
+# What is left out: the corpus of meshes and the consumers of an installed library (they need large meshes, and builds
+# of their own); what single tests leave out is said by them. Nothing of the project's own is suppressed: the files in
+# this folder name what of other libraries is, and why.
 
 set -euo pipefail
 # shellcheck source=samples/common/setup.sh

@@ -4,8 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "solvers/systems/schwarz_block.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/matrices.h"
@@ -14,17 +12,6 @@
 namespace seamflow::test {
 
 inline constexpr double time_step_of_blocks = 0.002;
-
-/// The whole step, dense.
-inline Points undecomposed_step(const CutMesh& cut, Laplacian laplacian, double time_step)
-{
-    Eigen::MatrixXd A = time_step * dense_laplacian(laplacian, cut.mesh, cut.topology);
-    for (Index v = 0; v < cut.mesh.n_vertices(); ++v)
-        if (cut.topology.kind[at(v)] != VertexKind::Interior)
-            A.row(v).setZero();
-    A += Eigen::MatrixXd::Identity(A.rows(), A.cols());
-    return A.partialPivLu().solve(cut.mesh.vertices);
-}
 
 /// Overlapping blocks of a whole cut mesh, assembled and factorised. Their factors live as long as they do.
 struct Blocks {
@@ -37,11 +24,11 @@ struct Blocks {
            double time_step = time_step_of_blocks)
     {
         workspace.factors = &memory;
-        const std::vector<Index> rank(at(cut.n_parts), 0);
+        const std::vector<Index> rank(cut.n_parts, 0);
         auto faces = faces_by_label(cut.labels, cut.n_parts);
         for (Index s = 0; s < cut.n_parts; ++s) {
             parts.push_back(make_grown_part(cut.mesh, cut.topology, {cut.labels, rank, layers}, SchwarzBlock::reach, s,
-                                            std::move(faces[at(s)])));
+                                            std::move(faces[s])));
             blocks.push_back(std::make_unique<SchwarzBlock>(parts.back(), laplacian));
             views.push_back(blocks.back().get());
             views.back()->assemble(localised(parts.back().sub_mesh, cut.mesh.vertices), time_step);

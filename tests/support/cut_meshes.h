@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
-#include "solvers/geometry.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow::test {
 

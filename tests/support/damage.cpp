@@ -13,7 +13,7 @@ using Face = std::vector<Index>;
 
 Face& random_face(LooseMesh& mesh, RandomNumbers& random)
 {
-    return mesh.faces[at(random.below(mesh.n_faces()))];
+    return mesh.faces[random.below(mesh.n_faces())];
 }
 
 /// Moves vertices almost, or right, onto a neighbour of theirs.
@@ -22,8 +22,8 @@ void shorten_edges(LooseMesh& mesh, RandomNumbers& random)
     const double rest = random.unit() < 0.3 ? 0.0 : std::pow(10.0, -1.0 - 11.0 * random.unit());
     for (int i = 1 + random.below(5); i > 0; --i) {
         const Face& face = random_face(mesh, random);
-        const Point target = mesh.points[at(face[1])];
-        mesh.points[at(face[0])] = target + rest * (mesh.points[at(face[0])] - target);
+        const Point target = mesh.points[face[1]];
+        mesh.points[face[0]] = target + rest * (mesh.points[face[0]] - target);
     }
 }
 
@@ -33,11 +33,11 @@ void flatten_faces(LooseMesh& mesh, RandomNumbers& random)
     const double rest = random.unit() < 0.3 ? 0.0 : std::pow(10.0, -1.0 - 11.0 * random.unit());
     for (int i = 1 + random.below(5); i > 0; --i) {
         const Face& face = random_face(mesh, random);
-        const Point begin = mesh.points[at(face[0])];
-        const Point along = mesh.points[at(face[1])] - begin;
+        const Point begin = mesh.points[face[0]];
+        const Point along = mesh.points[face[1]] - begin;
         for (std::size_t k = 2; k < face.size(); ++k) {
             const Point on_line = begin + random.unit() * along;
-            mesh.points[at(face[k])] = on_line + rest * (mesh.points[at(face[k])] - on_line);
+            mesh.points[face[k]] = on_line + rest * (mesh.points[face[k]] - on_line);
         }
     }
 }
@@ -47,7 +47,7 @@ void add_fins(LooseMesh& mesh, RandomNumbers& random)
 {
     for (int i = 1 + random.below(4); i > 0; --i) {
         const Face face = random_face(mesh, random);
-        const Point middle = 0.5 * (mesh.points[at(face[0])] + mesh.points[at(face[1])]);
+        const Point middle = 0.5 * (mesh.points[face[0]] + mesh.points[face[1]]);
         mesh.points.emplace_back(middle + Point(random.symmetric(), random.symmetric(), random.symmetric()));
         mesh.faces.push_back({face[0], face[1], mesh.n_points() - 1});
     }
@@ -81,7 +81,7 @@ void repeat_faces(LooseMesh& mesh, RandomNumbers& random)
     const Index n = mesh.n_faces();
     for (Index f = 0; f < n; ++f)
         if (random.unit() < part) {
-            Face face = mesh.faces[at(f)];
+            Face face = mesh.faces[f];
             if (other_side)
                 std::reverse(face.begin(), face.end());
             mesh.faces.push_back(face);

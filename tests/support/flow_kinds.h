@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "tests/support/flows.h"
 
 namespace seamflow::test {
@@ -24,10 +23,10 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     FlowOptions sweeps;
     sweeps.time_step = 2.0 * edge * edge;
     sweeps.steps = 4;
-    sweeps.subdomains = 7;
-    sweeps.approach = Approach::Sweep;
+    sweeps.cut.subdomains = 7;
+    sweeps.accuracy.approach = Approach::Sweep;
     // Some are rough with so many sub-meshes.
-    sweeps.largest_update = std::numeric_limits<double>::infinity();
+    sweeps.accuracy.largest_update = std::numeric_limits<double>::infinity();
     std::vector<FlowKind> kinds;
     const auto add = [&](const std::string& name, auto change) {
         kinds.push_back({name, sweeps});
@@ -36,29 +35,29 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     for (const Laplacian laplacian : all_laplacians) {
         const std::string of(name_of(laplacian));
         add(of + " by sweeps", [&](FlowOptions& o) { o.laplacian = laplacian; });
-        add(of + " converged", [&](FlowOptions& o) { o.laplacian = laplacian, o.tolerance = 1e-3; });
-        add(of + " by Schwarz", [&](FlowOptions& o) { o.laplacian = laplacian, o.conditions = Conditions::Schwarz; });
+        add(of + " converged", [&](FlowOptions& o) { o.laplacian = laplacian, o.accuracy.tolerance = 1e-3; });
+        add(of + " by Schwarz",
+            [&](FlowOptions& o) { o.laplacian = laplacian, o.interface.conditions = Conditions::Schwarz; });
     }
-    add("few iterations", [](FlowOptions& o) { o.tolerance = 1e-9, o.converge_iterations = 2; });
-    add("chosen", [](FlowOptions& o) { o.subdomains = 0, o.approach = Approach::Automatic; });
-    add("rescaled", [](FlowOptions& o) { o.tolerance = 1e-2, o.boundary = Boundary::Free, o.rescale = Rescale::Area; });
-    add("held", [](FlowOptions& o) { o.fixed_vertices = {3, 100, 101, 102, 250}; });
-    add("uncut", [](FlowOptions& o) { o.subdomains = 1; });
-    add("plain", [](FlowOptions& o) { o = FlowOptions::plain(), o.steps = 4, o.subdomains = 7, o.time_step = 1e-3; });
-    add("uncorrected", [](FlowOptions& o) { o.correction = Correction::None; });
-    add("adapted ventcell", [](FlowOptions& o) { o.conditions = Conditions::AdaptedVentcell, o.q = 0.1; });
-    add("robin with gaps", [](FlowOptions& o) { o.conditions = Conditions::Robin, o.keep_gaps = true; });
-    add("ventcell", [](FlowOptions& o) { o.conditions = Conditions::Ventcell, o.q = 0.1; });
-    add("reference", [](FlowOptions& o) { o.reference = true; });
-    add("converged with reference", [](FlowOptions& o) { o.reference = true, o.tolerance = 1e-2; });
+    add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
+    add("chosen", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });
+    add("rescaled", [](FlowOptions& o) {
+        o.accuracy.tolerance = 1e-2, o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
+    });
+    add("held", [](FlowOptions& o) { o.motion.fixed_vertices = {3, 100, 101, 102, 250}; });
+    add("uncut", [](FlowOptions& o) { o.cut.subdomains = 1; });
+    add("plain",
+        [](FlowOptions& o) { o = FlowOptions::plain(), o.steps = 4, o.cut.subdomains = 7, o.time_step = 1e-3; });
+    add("uncorrected", [](FlowOptions& o) { o.interface.correction = Correction::None; });
+    add("adapted ventcell",
+        [](FlowOptions& o) { o.interface.conditions = Conditions::AdaptedVentcell, o.interface.q = 0.1; });
+    add("robin with gaps",
+        [](FlowOptions& o) { o.interface.conditions = Conditions::Robin, o.report.keep_gaps = true; });
+    add("ventcell", [](FlowOptions& o) { o.interface.conditions = Conditions::Ventcell, o.interface.q = 0.1; });
+    add("reference", [](FlowOptions& o) { o.report.reference = true; });
+    add("converged with reference", [](FlowOptions& o) { o.report.reference = true, o.accuracy.tolerance = 1e-2; });
     add("explicit", [&](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler, o.time_step = 1e-4 * edge * edge; });
     return kinds;
-}
-
-inline bool same_bits(const Points& a, const Points& b)
-{
-    return a.rows() == b.rows() &&
-           (a.size() == 0 || std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
 }
 
 }  // namespace seamflow::test

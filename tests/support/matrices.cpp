@@ -1,6 +1,9 @@
 #include "tests/support/matrices.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <Eigen/LU>
 
 #include "samples/common/meshes.h"
 
@@ -9,6 +12,20 @@ namespace seamflow::test {
 FaceView faces_of(const PolygonMesh& mesh, const Topology& topology)
 {
     return {mesh.face_offsets, mesh.face_vertices, topology.twin, mesh.n_vertices()};
+}
+
+LaplacianMatrix laplacian_matrix(Laplacian laplacian, const FaceView& faces, const Points& positions)
+{
+    const auto assembler = make_assembler(laplacian, faces);
+    const auto entries = assembler->entries();
+    LaplacianMatrix matrix;
+    matrix.pattern = make_pattern(faces.n_vertices, entries);
+    std::vector<Index> slots(entries.size());
+    std::transform(entries.begin(), entries.end(), slots.begin(),
+                   [&](const MatrixEntry& entry) { return matrix.pattern.slot(entry); });
+    matrix.values.assign(matrix.pattern.n_entries(), 0.0);
+    assembler->add(positions, 1.0, slots, matrix.values);
+    return matrix;
 }
 
 NamedMesh named(const std::string& name, PolygonMesh mesh)
@@ -38,8 +55,8 @@ Eigen::MatrixXd dense(const SparsePattern& pattern, std::span<const double> valu
 {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(pattern.n(), pattern.n());
     for (Index column = 0; column < pattern.n(); ++column)
-        for (Index i = pattern.column_offsets[at(column)]; i < pattern.column_offsets[at(column) + 1]; ++i)
-            matrix(pattern.rows[at(i)], column) += values[at(i)];
+        for (Index i = pattern.column_offsets[column]; i < pattern.column_offsets[column + 1]; ++i)
+            matrix(pattern.rows[i], column) += values[i];
     return matrix;
 }
 
@@ -47,6 +64,16 @@ Eigen::MatrixXd dense_laplacian(Laplacian laplacian, const PolygonMesh& mesh, co
 {
     const LaplacianMatrix matrix = laplacian_matrix(laplacian, faces_of(mesh, topology), mesh.vertices);
     return dense(matrix.pattern, matrix.values);
+}
+
+Points undecomposed_step(const CutMesh& cut, Laplacian laplacian, double time_step)
+{
+    Eigen::MatrixXd A = time_step * dense_laplacian(laplacian, cut.mesh, cut.topology);
+    for (Index v = 0; v < cut.mesh.n_vertices(); ++v)
+        if (cut.topology.kind[v] != VertexKind::Interior)
+            A.row(v).setZero();
+    A += Eigen::MatrixXd::Identity(A.rows(), A.cols());
+    return A.partialPivLu().solve(cut.mesh.vertices);
 }
 
 }  // namespace seamflow::test

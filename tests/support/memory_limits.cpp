@@ -17,7 +17,7 @@ std::optional<std::size_t> least_limit_named(const std::string& message)
 
 std::optional<std::size_t> least_memory_limit(const PolygonMesh& mesh, FlowOptions options)
 {
-    options.memory_limit = 1;
+    options.resources.memory_limit = 1;
     try {
         flowed(mesh, options);
     } catch (const OptionError& error) {

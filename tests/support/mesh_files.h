@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 
 namespace seamflow::test {
 
@@ -40,6 +40,15 @@ bool identical(const PolygonMesh& a, const PolygonMesh& b);
 Points tricky_points(bool single_precision);
 
 PolygonMesh make_mesh(const Points& vertices, std::initializer_list<std::initializer_list<Index>> faces);
+
+/// Leaves all vertices where they are.
+inline void stay_put(Points&) {}
+
+/// Moves the second vertex.
+inline void move_second(Points& points)
+{
+    points.row(1) << 2, 0.1, 0;
+}
 
 /// One triangle.
 PolygonMesh make_triangle();

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_state.h"
 #include "engine/mean_curvature_flow.h"
+#include "engine/state/flow_state.h"
 
 namespace seamflow::test {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solvers/factor_memory.h"
+#include "solvers/direct/factor_memory.h"
 
 namespace seamflow::test {
 

@@ -8,10 +8,10 @@
 #include <stop_token>
 #include <utility>
 
-#include "engine/checkpoint.h"
-#include "engine/near_origin.h"
+#include "engine/setup/origin_offset.h"
+#include "engine/state/checkpoint.h"
 #include "partition/topology.h"
-#include "solvers/geometry.h"
+#include "solvers/laplacian/geometry.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/memory_limits.h"
 #include "tests/support/temporary_directory.h"
@@ -28,7 +28,7 @@ PolygonMesh without_repetitions(const PolygonMesh& mesh)
     PolygonMesh left;
     left.vertices = mesh.vertices;
     const Topology topology = make_topology(mesh);
-    const auto is_manifold = [&](Index v) { return topology.kind[at(v)] != VertexKind::NonManifold; };
+    const auto is_manifold = [&](Index v) { return topology.kind[v] != VertexKind::NonManifold; };
     std::set<std::vector<Index>> seen;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());
@@ -44,22 +44,22 @@ PolygonMesh without_repetitions(const PolygonMesh& mesh)
 std::vector<Index> vertices_that_stay(const PolygonMesh& mesh, const FlowOptions& options)
 {
     std::map<std::pair<Index, Index>, int> edges;
-    std::vector<int> has_face(at(mesh.n_vertices()), 0);
+    std::vector<int> has_face(mesh.n_vertices(), 0);
     // Pieces have all faces.
-    const PolygonMesh left = options.keep_gaps ? mesh : without_repetitions(mesh);
+    const PolygonMesh left = options.report.keep_gaps ? mesh : without_repetitions(mesh);
     for (Index f = 0; f < left.n_faces(); ++f)
         for (std::size_t k = 0; k < left.face(f).size(); ++k) {
             const Index a = left.face(f)[k];
             const Index b = left.face(f)[(k + 1) % left.face(f).size()];
-            has_face[at(a)] = 1;
+            has_face[a] = 1;
             ++edges[std::minmax(a, b)];
         }
-    std::vector<Index> stay = options.fixed_vertices;
+    std::vector<Index> stay = options.motion.fixed_vertices;
     for (const auto& [edge, n_faces] : edges)
-        if (n_faces > 2 || (n_faces == 1 && options.boundary == Boundary::Fixed))
+        if (n_faces > 2 || (n_faces == 1 && options.motion.boundary == Boundary::Fixed))
             stay.insert(stay.end(), {edge.first, edge.second});
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (has_face[at(v)] == 0)
+        if (has_face[v] == 0)
             stay.push_back(v);
     return stay;
 }
@@ -82,7 +82,7 @@ bool is_exact(const FlowReport& report, const FlowOptions& options)
 void compare_with_undecomposed(Case& c, const Outcome& outcome, double tolerance, const std::string& what)
 {
     // Far from the origin the states that the flow goes on from have more digits than those it tells.
-    const bool far = !offset_of(c.mesh()).isZero(0.0);
+    const bool far = !origin_offset(c.mesh()).isZero(0.0);
     for (std::size_t step = 1; step < (far ? std::min<std::size_t>(2, outcome.states.size()) : outcome.states.size());
          ++step) {
         const Points& from = outcome.states[step - 1];
@@ -125,7 +125,7 @@ Extent measure(const PolygonMesh& mesh, const Points& positions, const Point& or
 Case random_case(std::uint32_t seed)
 {
     Case made{.flow = random_flow(seed), .random = RandomNumbers(seed ^ 0x9e3779b9U)};
-    made.flow.options.threads = 1;
+    made.flow.options.resources.threads = 1;
     made.expected = outcome_of(made.mesh(), made.flow.options);
     return made;
 }
@@ -152,7 +152,7 @@ void check_threads(Case& c)
 {
     for (const int threads : {2, 5}) {
         FlowOptions options = c.flow.options;
-        options.threads = threads;
+        options.resources.threads = threads;
         check_same(c, outcome_of(c.mesh(), options), std::to_string(threads) + " threads");
     }
 }
@@ -161,8 +161,8 @@ void check_threads(Case& c)
 void check_memory_limit(Case& c)
 {
     FlowOptions options = c.flow.options;
-    options.threads = 3;
-    options.memory_limit = 1;
+    options.resources.threads = 3;
+    options.resources.memory_limit = 1;
     const Outcome refused = outcome_of(c.mesh(), options);
     const auto least = least_limit_named(refused.message);
     if (!least) {
@@ -171,10 +171,10 @@ void check_memory_limit(Case& c)
     }
     ++c.n_compared["memory limit"];
     c.expect(same_bits(refused.end, c.mesh().vertices), "a refusal has moved the mesh");
-    options.memory_limit = *least + (c.random.unit() < 0.5 ? 0 : 1 + at(c.random.below(100'000)));
+    options.resources.memory_limit = *least + (c.random.unit() < 0.5 ? 0 : 1 + at(c.random.below(100'000)));
     const Outcome limited = outcome_of(c.mesh(), options);
-    check_same(c, limited, "memory limit " + std::to_string(*options.memory_limit));
-    c.expect(limited.report.factor_memory_bytes <= *options.memory_limit, "more memory than the limit");
+    check_same(c, limited, "memory limit " + std::to_string(*options.resources.memory_limit));
+    c.expect(limited.report.factor_memory_bytes <= *options.resources.memory_limit, "more memory than the limit");
 }
 
 void check_resume(Case& c)
@@ -189,7 +189,7 @@ void check_resume(Case& c)
         state = read_checkpoint(folder / "state");
     }
     FlowOptions options = c.flow.options;
-    options.threads = 2;
+    options.resources.threads = 2;
     const auto done = static_cast<std::size_t>(state.n_steps());
     const Outcome resumed =
         outcome_of(c.mesh(), options, {.resume = std::make_shared<const FlowState>(std::move(state))});
@@ -223,15 +223,16 @@ void check_cancelled(Case& c)
 void check_undecomposed(Case& c)
 {
     const FlowOptions& options = c.flow.options;
-    if (options.scheme == Scheme::ExplicitEuler || options.rescale != Rescale::None || !c.expected.refusal.empty())
+    if (options.scheme == Scheme::ExplicitEuler || options.motion.rescale != Rescale::None ||
+        !c.expected.refusal.empty())
         return;
     if (is_exact(c.expected.report, options))
         compare_with_undecomposed(c, c.expected, 0.0, "undecomposed");
     if (!c.expected.report.tolerance)
         return;
     FlowOptions converged = options;
-    converged.tolerance = 1e-10;
-    converged.converge_iterations = 300;
+    converged.accuracy.tolerance = 1e-10;
+    converged.accuracy.converge_iterations = 300;
     const Outcome outcome = outcome_of(c.mesh(), converged);
     if (outcome.report.steps_short_of_tolerance == 0 && outcome.refusal.empty())
         compare_with_undecomposed(c, outcome, 1e-10, "converged");
@@ -239,7 +240,7 @@ void check_undecomposed(Case& c)
 
 void check_rescaled(Case& c)
 {
-    const Rescale kind = c.flow.options.rescale;
+    const Rescale kind = c.flow.options.motion.rescale;
     if (kind == Rescale::None || !c.expected.refusal.empty())
         return;
     const PolygonMesh mesh = without_repetitions(c.mesh());
@@ -249,10 +250,10 @@ void check_rescaled(Case& c)
     // What has shrunk to little loses digits when it is blown up again, and a volume is what is left of parts that
     // cancel each other.
     FlowOptions options = c.flow.options;
-    options.rescale = Rescale::None;
+    options.motion.rescale = Rescale::None;
     const double unscaled = measure(mesh, outcome_of(c.mesh(), options).end, origin).area;
     const double scale = std::sqrt(after.area / unscaled);
-    const double near = (c.mesh().vertices.rowwise() - offset_of(c.mesh())).cwiseAbs().maxCoeff();
+    const double near = (c.mesh().vertices.rowwise() - origin_offset(c.mesh())).cwiseAbs().maxCoeff();
     const double lost = 1e-14 * ((1.0 + scale) * near + c.expected.end.cwiseAbs().maxCoeff());
     const double size = std::max(c.extent(), extent_of(c.expected.end));
     const double most = 1e-10 + lost * size / std::min(before.area, after.area);

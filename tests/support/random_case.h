@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_remarks.h"
+#include "engine/options/flow_remarks.h"
 #include "tests/support/outcome.h"
 #include "tests/support/random_flows.h"
 

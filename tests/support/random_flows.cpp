@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/explicit_flow.h"
-#include "engine/flow_identity.h"
+#include "engine/state/flow_identity.h"
+#include "engine/steppers/explicit_stepper.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "tests/support/flows.h"
@@ -30,49 +30,50 @@ void choose_cut(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& opt
 {
     const double kind = random.unit();
     if (kind < 0.4)
-        options.labels = random_cut(mesh, 2 + random.below(9), random);
+        options.cut.labels = random_cut(mesh, 2 + random.below(9), random);
     else
-        options.subdomains = kind < 0.85 ? random.below(16) : 1;
-    options.coloring = one_of({Coloring::Greedy, Coloring::Greedy, Coloring::Label}, random);
+        options.cut.subdomains = kind < 0.85 ? random.below(16) : 1;
+    options.interface.coloring = one_of({Coloring::Greedy, Coloring::Greedy, Coloring::Label}, random);
 }
 
 void choose_robin(RandomNumbers& random, FlowOptions& options)
 {
     if (random.unit() < 0.5)
-        options.p = power_of_ten(-1.0, 1.0, random) / std::sqrt(options.time_step);
-    options.p_rule = one_of({PRule::Paper, PRule::InverseStep}, random);
-    options.p_edge = one_of({PEdge::Automatic, PEdge::Minimum, PEdge::Mean}, random);
+        options.interface.p = power_of_ten(-1.0, 1.0, random) / std::sqrt(options.time_step);
+    options.interface.p_rule = one_of({PRule::Paper, PRule::InverseStep}, random);
+    options.interface.p_edge = one_of({PEdge::Automatic, PEdge::Minimum, PEdge::Mean}, random);
 }
 
 void choose_sweeps(RandomNumbers& random, FlowOptions& options)
 {
-    options.approach = Approach::Sweep;
-    options.sweep = one_of({Sweep::Automatic, Sweep::Fixed, Sweep::Alternating}, random);
-    options.correction = one_of({Correction::Automatic, Correction::None}, random);
+    options.accuracy.approach = Approach::Sweep;
+    options.interface.sweep = one_of({Sweep::Automatic, Sweep::Fixed, Sweep::Alternating}, random);
+    options.interface.correction = one_of({Correction::Automatic, Correction::None}, random);
     switch (random.below(6)) {
     case 0:
-        options.conditions = Conditions::Schwarz;
-        options.overlap = 1 + random.below(3);
-        options.sweep = Sweep::Fixed;
+        options.interface.conditions = Conditions::Schwarz;
+        options.interface.overlap = 1 + random.below(3);
+        options.interface.sweep = Sweep::Fixed;
         break;
     case 1:
-        options.conditions = one_of({Conditions::Robin, Conditions::Ventcell}, random);
-        options.keep_gaps = random.unit() < 0.3;
+        options.interface.conditions = one_of({Conditions::Robin, Conditions::Ventcell}, random);
+        options.report.keep_gaps = random.unit() < 0.3;
         choose_robin(random, options);
         break;
     case 2:
-        options.conditions = Conditions::AdaptedVentcell;
+        options.interface.conditions = Conditions::AdaptedVentcell;
         choose_robin(random, options);
         break;
     case 3:
-        options.transmission = Transmission::Derivative;
+        options.interface.transmission = Transmission::Derivative;
         choose_robin(random, options);
         break;
     default:
         break;
     }
-    if (options.conditions == Conditions::AdaptedVentcell || options.conditions == Conditions::Ventcell)
-        options.q = power_of_ten(-2.0, 0.0, random);
+    if (options.interface.conditions == Conditions::AdaptedVentcell ||
+        options.interface.conditions == Conditions::Ventcell)
+        options.interface.q = power_of_ten(-2.0, 0.0, random);
 }
 
 void choose_approach(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& options)
@@ -81,9 +82,9 @@ void choose_approach(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions
     if (kind < 0.45)
         choose_sweeps(random, options);
     else if (kind < 0.75) {
-        options.coloring = Coloring::Greedy;
-        options.tolerance = power_of_ten(-11.0, -1.0, random);
-        options.converge_iterations = random.unit() < 0.1 ? random.below(4) : 300;
+        options.interface.coloring = Coloring::Greedy;
+        options.accuracy.tolerance = power_of_ten(-11.0, -1.0, random);
+        options.accuracy.converge_iterations = random.unit() < 0.1 ? random.below(4) : 300;
     } else if (kind < 0.85) {
         options.scheme = Scheme::ExplicitEuler;
         const double limit = largest_explicit_step(mesh, make_topology(mesh), mesh.vertices);
@@ -94,25 +95,26 @@ void choose_approach(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions
         plain.laplacian = options.laplacian;
         plain.time_step = options.time_step;
         plain.steps = options.steps;
-        plain.subdomains = options.subdomains;
-        plain.labels = options.labels;
+        plain.cut.subdomains = options.cut.subdomains;
+        plain.cut.labels = options.cut.labels;
         options = plain;
     }
 }
 
 void choose_constraints(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& options)
 {
-    const bool can_be_free = options.laplacian != Laplacian::PtackovaVelho && options.approach == Approach::Automatic;
+    const bool can_be_free =
+        options.laplacian != Laplacian::PtackovaVelho && options.accuracy.approach == Approach::Automatic;
     if (random.unit() < (can_be_free ? 0.3 : 0.02))
-        options.boundary = Boundary::Free;
-    if (random.unit() < 0.15 && (options.boundary == Boundary::Free || is_closed(mesh) || random.unit() < 0.05))
-        options.rescale = is_closed(mesh) && random.unit() < 0.5 ? Rescale::Volume : Rescale::Area;
-    if (random.unit() < 0.2 && (options.rescale == Rescale::None || random.unit() < 0.05))
+        options.motion.boundary = Boundary::Free;
+    if (random.unit() < 0.15 && (options.motion.boundary == Boundary::Free || is_closed(mesh) || random.unit() < 0.05))
+        options.motion.rescale = is_closed(mesh) && random.unit() < 0.5 ? Rescale::Volume : Rescale::Area;
+    if (random.unit() < 0.2 && (options.motion.rescale == Rescale::None || random.unit() < 0.05))
         for (int i = random.below(20); i >= 0; --i)
-            options.fixed_vertices.push_back(random.below(mesh.n_vertices()));
-    options.strict = random.unit() < 0.05;
-    options.reference = random.unit() < 0.1;
-    options.record_schedule = random.unit() < 0.1;
+            options.motion.fixed_vertices.push_back(random.below(mesh.n_vertices()));
+    options.motion.strict = random.unit() < 0.05;
+    options.report.reference = random.unit() < 0.1;
+    options.report.record_schedule = random.unit() < 0.1;
 }
 
 }  // namespace
@@ -148,8 +150,8 @@ std::string RandomFlow::description() const
     for (std::size_t i = 0; i < here.entries.size(); ++i)
         if (here.entries[i].value != defaults.entries[i].value)
             text += " " + here.entries[i].name + " " + here.entries[i].value;
-    return text + " steps " + std::to_string(options.steps) + (options.strict ? " strict" : "") +
-           (options.keep_gaps ? " keep_gaps" : "");
+    return text + " steps " + std::to_string(options.steps) + (options.motion.strict ? " strict" : "") +
+           (options.report.keep_gaps ? " keep_gaps" : "");
 }
 
 }  // namespace seamflow::test

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "tests/support/random_meshes.h"
 
 namespace seamflow::test {

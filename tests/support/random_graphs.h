@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "samples/common/meshes/random_numbers.h"
-#include "solvers/sparse_pattern.h"
+#include "solvers/sparse/sparse_pattern.h"
 
 namespace seamflow::test {
 
@@ -69,13 +69,13 @@ inline SparsePattern upper_in(const SparsePattern& neighbours, const std::vector
 {
     std::vector<Index> number_of(order.size());
     for (std::size_t i = 0; i < order.size(); ++i)
-        number_of[at(order[i])] = static_cast<Index>(i);
+        number_of[order[i]] = static_cast<Index>(i);
     std::vector<MatrixEntry> entries;
     for (Index u = 0; u < neighbours.n(); ++u) {
         entries.push_back({u, u});
-        for (Index k = neighbours.column_offsets[at(u)]; k < neighbours.column_offsets[at(u) + 1]; ++k)
-            if (const Index other = neighbours.rows[at(k)]; number_of[at(other)] > number_of[at(u)])
-                entries.push_back({number_of[at(other)], number_of[at(u)]});
+        for (Index k = neighbours.column_offsets[u]; k < neighbours.column_offsets[u + 1]; ++k)
+            if (const Index other = neighbours.rows[k]; number_of[other] > number_of[u])
+                entries.push_back({number_of[other], number_of[u]});
     }
     return make_pattern(neighbours.n(), entries);
 }

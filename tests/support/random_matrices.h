@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "samples/common/meshes/random_numbers.h"
-#include "solvers/columns.h"
-#include "solvers/sparse_pattern.h"
+#include "solvers/direct/columns.h"
+#include "solvers/sparse/sparse_pattern.h"
 
 namespace seamflow::test {
 
@@ -23,11 +23,11 @@ inline SparsePattern random_pattern(Index n, RandomNumbers& random)
 /// Random values, the diagonal large enough for a well-conditioned matrix.
 inline std::vector<double> random_values(const SparsePattern& pattern, RandomNumbers& random)
 {
-    std::vector<double> values(at(pattern.n_entries()));
+    std::vector<double> values(pattern.n_entries());
     for (double& value : values)
         value = random.symmetric();
     for (Index i = 0; i < pattern.n(); ++i)
-        values[at(pattern.slot({i, i}))] += 6.0;
+        values[pattern.slot({i, i})] += 6.0;
     return values;
 }
 
@@ -46,7 +46,7 @@ inline GrowingMatrix growing_matrix(Index n)
             entries.push_back({i, j});
     GrowingMatrix matrix{.pattern = make_pattern(n, entries), .values = std::vector<double>(entries.size())};
     for (const auto& [i, j] : entries)
-        matrix.values[at(matrix.pattern.slot({i, j}))] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
+        matrix.values[matrix.pattern.slot({i, j})] = i == j ? 0.002 : i > j ? -1.0 : j == n - 1 ? 1.0 : 0.0;
     return matrix;
 }
 

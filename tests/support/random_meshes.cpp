@@ -130,7 +130,7 @@ double mean_edge(const LooseMesh& mesh)
     std::size_t n = 0;
     for (const auto& face : mesh.faces)
         for (std::size_t k = 0; k < face.size(); ++k, ++n)
-            sum += (mesh.points[at(face[k])] - mesh.points[at(face[(k + 1) % face.size()])]).norm();
+            sum += (mesh.points[face[k]] - mesh.points[face[(k + 1) % face.size()]]).norm();
     return sum / static_cast<double>(n);
 }
 
@@ -227,11 +227,11 @@ RandomMesh random_mesh(RandomNumbers& random)
 
 std::vector<Index> random_permutation(Index n, RandomNumbers& random)
 {
-    std::vector<Index> numbers(at(n));
+    std::vector<Index> numbers(n);
     std::iota(numbers.begin(), numbers.end(), 0);
     // Not std::shuffle, which differs between libraries.
     for (Index i = n - 1; i > 0; --i)
-        std::swap(numbers[at(i)], numbers[at(random.below(i + 1))]);
+        std::swap(numbers[i], numbers[random.below(i + 1)]);
     return numbers;
 }
 
@@ -241,11 +241,11 @@ PolygonMesh renumbered(const PolygonMesh& mesh, const std::vector<Index>& new_ve
     PolygonMesh result;
     result.vertices.resize(mesh.n_vertices(), 3);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        result.vertices.row(new_vertex[at(v)]) = mesh.vertices.row(v);
+        result.vertices.row(new_vertex[v]) = mesh.vertices.row(v);
     for (const Index f : old_face) {
         std::vector<Index> corners;
         for (const Index v : mesh.face(f))
-            corners.push_back(new_vertex[at(v)]);
+            corners.push_back(new_vertex[v]);
         result.add_face(corners);
     }
     return result;
@@ -267,8 +267,7 @@ std::vector<Index> random_cut(const PolygonMesh& mesh, Index k, RandomNumbers& r
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         Index nearest = 0;
         for (Index i = 1; i < k; ++i)
-            if (weight[at(i)] * (middle(f) - seeds[at(i)]).norm() <
-                weight[at(nearest)] * (middle(f) - seeds[at(nearest)]).norm())
+            if (weight[i] * (middle(f) - seeds[i]).norm() < weight[nearest] * (middle(f) - seeds[nearest]).norm())
                 nearest = i;
         labels.push_back(nearest);
     }

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/near_origin.h"
+#include "engine/setup/origin_offset.h"
 #include "partition/metrics/vertex_distance.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/random_case.h"
@@ -16,9 +16,10 @@ namespace {
 /// Whether p* enters, which depends on the unit of length.
 bool has_unit(const FlowOptions& options)
 {
-    return !options.p &&
-           (options.conditions != Conditions::AdaptedRobin || options.transmission == Transmission::Derivative ||
-            options.p_rule != PRule::Paper || options.p_edge != PEdge::Automatic);
+    return !options.interface.p &&
+           (options.interface.conditions != Conditions::AdaptedRobin ||
+            options.interface.transmission == Transmission::Derivative || options.interface.p_rule != PRule::Paper ||
+            options.interface.p_edge != PEdge::Automatic);
 }
 
 /// Whether other numbers of the faces leave the sub-meshes what they are.
@@ -27,19 +28,19 @@ bool is_cut_alike(const Case& c)
     const FlowReport& report = c.expected.report;
     if (c.flow.options.scheme == Scheme::ExplicitEuler || report.subdomains <= 1)
         return true;
-    return !c.flow.options.labels.empty() && c.flow.options.coloring == Coloring::Label && report.repaired_faces == 0 &&
-           !report.tolerance;
+    return !c.flow.options.cut.labels.empty() && c.flow.options.interface.coloring == Coloring::Label &&
+           report.repaired_faces == 0 && !report.tolerance;
 }
 
 FlowOptions renumbered(FlowOptions options, const std::vector<Index>& new_vertex, const std::vector<Index>& old_face)
 {
     std::vector<Index> labels;
     for (const Index f : old_face)
-        if (!options.labels.empty())
-            labels.push_back(options.labels[at(f)]);
-    options.labels = std::move(labels);
-    for (Index& v : options.fixed_vertices)
-        v = new_vertex[at(v)];
+        if (!options.cut.labels.empty())
+            labels.push_back(options.cut.labels[f]);
+    options.cut.labels = std::move(labels);
+    for (Index& v : options.motion.fixed_vertices)
+        v = new_vertex[v];
     return options;
 }
 
@@ -77,7 +78,7 @@ bool may_be_singular_when_perturbed(Case& c)
 void check_mirrored_and_scaled(Case& c)
 {
     // What is subtracted far from the origin is rounded, and half a grid is rounded away from 0.
-    if (!offset_of(c.mesh()).isZero(0.0) || c.expected.refusal == "ComputationError")
+    if (!origin_offset(c.mesh()).isZero(0.0) || c.expected.refusal == "ComputationError")
         return;
     FlowOptions options = c.flow.options;
     const double scale = has_unit(options) ? 1.0 : std::exp2(c.random.below(41) - 20);
@@ -85,8 +86,8 @@ void check_mirrored_and_scaled(Case& c)
     PolygonMesh mesh = c.mesh();
     mesh.vertices.array().rowwise() *= factors.array();
     options.time_step *= scale * scale;
-    if (options.p)
-        options.p = *options.p / scale;
+    if (options.interface.p)
+        options.interface.p = *options.interface.p / scale;
     const Outcome outcome = outcome_of(mesh, options);
     ++c.n_compared["mirrored and scaled"];
     c.expect(outcome.refusal == c.expected.refusal, "mirrored and scaled: " + outcome.refusal + outcome.message);
@@ -122,7 +123,7 @@ void check_turned_and_renumbered(Case& c)
     const Points expected = motion.applied(c.expected.end);
     double distance = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        distance = std::max(distance, (outcome.end.row(new_vertex[at(v)]) - expected.row(v)).norm());
+        distance = std::max(distance, (outcome.end.row(new_vertex[v]) - expected.row(v)).norm());
     c.expect(distance <= most, "turned and renumbered: " + text_of(distance / c.extent()) + " extents off, may be " +
                                    text_of(most / c.extent()));
 }

@@ -20,6 +20,14 @@ json parse(const std::filesystem::path& path)
     return json::parse(file);
 }
 
+Laplacian laplacian_named(const std::string& name)
+{
+    for (const LaplacianTraits& traits : all_laplacian_traits())
+        if (traits.name == name)
+            return traits.laplacian;
+    throw std::runtime_error("no Laplacian " + name);
+}
+
 Points points_from(const json& rows)
 {
     Points points(static_cast<Eigen::Index>(rows.size()), 3);
@@ -67,7 +75,7 @@ ReferenceOperators read_operators(const std::filesystem::path& path)
     reference.labels = data.at("labels").get<std::vector<Index>>();
     for (const auto& [name, entries] : data.at("laplacian").items())
         for (const json& entry : entries)
-            reference.laplacian[laplacian_named(name).value()][entry[0].get<Index>()][entry[1].get<Index>()] +=
+            reference.laplacian[laplacian_named(name)][entry[0].get<Index>()][entry[1].get<Index>()] +=
                 entry[2].get<double>();
     for (const json& row : data.at("interface_rows"))
         reference.interface_rows.push_back({row.at("vertex").get<Index>(), row.at("sub_mesh").get<Index>(),
@@ -82,24 +90,24 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
     ReferenceFlow reference;
     reference.mesh = mesh_from(data);
     FlowOptions& options = reference.options = FlowOptions::plain();
-    options.laplacian = laplacian_named(data.at("laplacian").get<std::string>()).value();
+    options.laplacian = laplacian_named(data.at("laplacian").get<std::string>());
     options.time_step = data.at("time_step").get<double>();
     options.steps = static_cast<int>(data.at("positions_after_step").size());
-    options.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
+    options.interface.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
     // The authors correct after adapted conditions only; the files say true for Schwarz, too.
-    options.correction = data.at("correction").get<bool>() ? Correction::Automatic : Correction::None;
+    options.interface.correction = data.at("correction").get<bool>() ? Correction::Automatic : Correction::None;
     if (data.at("conditions") == "schwarz")
-        options.conditions = Conditions::Schwarz;
+        options.interface.conditions = Conditions::Schwarz;
     if (data.at("conditions") == "none")
-        options.subdomains = 1;
+        options.cut.subdomains = 1;
     else
-        options.labels = data.at("labels").get<std::vector<Index>>();
+        options.cut.labels = data.at("labels").get<std::vector<Index>>();
     if (data.at("conditions") == "adapted-ventcell") {
-        options.conditions = Conditions::AdaptedVentcell;
-        options.q = data.at("q").get<double>();
+        options.interface.conditions = Conditions::AdaptedVentcell;
+        options.interface.q = data.at("q").get<double>();
     }
     if (!data.at("p").is_null())
-        options.p = data.at("p").get<double>();
+        options.interface.p = data.at("p").get<double>();
     for (const json& positions : data.at("positions_after_step"))
         reference.positions_after_step.push_back(points_from(positions));
     return reference;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow::test {

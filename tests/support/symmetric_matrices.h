@@ -41,8 +41,8 @@ inline SymmetricMatrix grid_matrix(Index side, double shift, RandomNumbers& rand
         }
     matrix.upper = make_pattern(n, entries);
     for (Index column = 0; column < n; ++column)
-        for (Index k = matrix.upper.column_offsets[at(column)]; k < matrix.upper.column_offsets[at(column) + 1]; ++k)
-            matrix.values.push_back(matrix.dense(matrix.upper.rows[at(k)], column));
+        for (Index k = matrix.upper.column_offsets[column]; k < matrix.upper.column_offsets[column + 1]; ++k)
+            matrix.values.push_back(matrix.dense(matrix.upper.rows[k], column));
     return matrix;
 }
 

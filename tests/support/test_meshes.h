@@ -52,6 +52,13 @@ struct NamedMesh {
     Topology topology;
 };
 
+/// A mesh without a name.
+inline NamedMesh with_topology(PolygonMesh mesh)
+{
+    Topology topology = make_topology(mesh);
+    return {"", std::move(mesh), std::move(topology)};
+}
+
 /// One mesh of each sort, small, manifold or not, of one component or several.
 std::vector<NamedMesh> assorted_meshes();
 

@@ -8,9 +8,9 @@
 
 #include <Eigen/LU>
 
-#include "engine/constraints.h"
-#include "engine/near_origin.h"
-#include "engine/repeated_faces_left_out.h"
+#include "engine/setup/constraints.h"
+#include "engine/setup/flowing_mesh.h"
+#include "engine/setup/origin_offset.h"
 #include "tests/support/matrices.h"
 
 namespace seamflow::test {
@@ -69,14 +69,14 @@ Points solve(const PolygonMesh& mesh, const Topology& topology, const FlowOption
 std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const FlowOptions& options,
                                                   const Points& from)
 {
-    const Point offset = offset_of(mesh);
-    PolygonMesh near = mesh;
-    near.vertices.rowwise() -= offset;
-    FlowOptions constraints = options;
+    const Point offset = origin_offset(mesh);
+    PolygonMesh given = mesh;
+    FlowingMesh flowing(given);
     std::vector<std::string> remarks;
-    Topology topology = make_constrained_topology(near, constraints, run_serially, remarks);
-    const RepeatedFacesLeftOut left_out(near, topology, constraints);
-    topology = make_constrained_topology(near, constraints, run_serially, remarks);
+    Topology topology = make_constrained_topology(flowing.mesh(), options, run_serially, remarks);
+    if (!options.report.keep_gaps && flowing.leave_out_repeated_faces(topology))
+        topology = make_constrained_topology(flowing.mesh(), options, run_serially, remarks);
+    PolygonMesh near = flowing.mesh();
     near.vertices = from.rowwise() - offset;
 
     Vertices vertices;

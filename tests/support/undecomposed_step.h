@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/flow_options.h"
+#include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
 #include "samples/common/meshes/random_numbers.h"
 

@@ -5,7 +5,7 @@ export const rgb = (hex) => [1, 3, 5].map((place) => parseInt(hex.slice(place, p
 
 export const css = (colour) => `rgb(${colour.join(" ")})`;
 
-/** As colour_of in partition/io/palette.h. */
+/** As colour_of in partition/formats/palette.h. */
 export function colourOfLabel(label) {
     const hue = (label * 0.6180339887498949) % 1;
     const brightness = [0.95, 0.75, 0.85][label % 3];

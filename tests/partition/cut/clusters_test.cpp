@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
-#include "partition/cut/components.h"
-#include "partition/cut/defects.h"
 #include "samples/common/meshes.h"
+#include "tests/support/cut_checks.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"
 
@@ -40,16 +40,16 @@ TEST_CASE("every face lies in one cluster, every cluster in one component")
             CAPTURE(m.name);
             CAPTURE(weight);
             const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
-            const FaceComponents components = face_components(m.mesh, m.topology);
+            const Components components = face_components(m.mesh, m.topology);
             std::vector<Index> faces = clusters.faces.values;
             std::sort(faces.begin(), faces.end());
             REQUIRE(faces.size() == at(m.mesh.n_faces()));
             for (Index f = 0; f < m.mesh.n_faces(); ++f)
-                CHECK(faces[at(f)] == f);
+                CHECK(faces[f] == f);
             for (Index cluster = 0; cluster < clusters.size(); ++cluster)
                 for (const Index f : clusters.faces[cluster]) {
-                    CHECK(clusters.cluster_of[at(f)] == cluster);
-                    CHECK(components.component[at(f)] == components.component[at(clusters.faces[cluster].front())]);
+                    CHECK(clusters.cluster_of[f] == cluster);
+                    CHECK(components.component_of[f] == components.component_of[clusters.faces[cluster].front()]);
                 }
         }
 }
@@ -85,12 +85,12 @@ TEST_CASE("large meshes are done in chunks, in any order, whose ends are no ends
     Index n_between_chunks = 0;
     Index n_cut = 0;
     for (Index h = 0; h < mesh.n_corners(); ++h) {
-        const Index twin = topology.twin[at(h)];
-        const Index f = topology.face_of[at(h)];
-        if (twin < h || topology.face_of[at(twin)] / chunk == f / chunk)
+        const Index twin = topology.twin[h];
+        const Index f = topology.face_of[h];
+        if (twin < h || topology.face_of[twin] / chunk == f / chunk)
             continue;
         ++n_between_chunks;
-        n_cut += clusters.cluster_of[at(f)] != clusters.cluster_of[at(topology.face_of[at(twin)])] ? 1 : 0;
+        n_cut += clusters.cluster_of[f] != clusters.cluster_of[topology.face_of[twin]] ? 1 : 0;
     }
     CHECK(n_between_chunks > 100);
     CHECK(2 * n_cut < n_between_chunks);

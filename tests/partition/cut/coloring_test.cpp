@@ -5,6 +5,7 @@
 
 #include "partition/cut/coloring.h"
 #include "partition/cut/cut.h"
+#include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -52,8 +53,8 @@ Adjacency triangular_grid(Index m, Index n)
 {
     Adjacency adjacency(at(m * n));
     const auto join = [&](Index a, Index b) {
-        adjacency[at(a)].push_back(b);
-        adjacency[at(b)].push_back(a);
+        adjacency[a].push_back(b);
+        adjacency[b].push_back(a);
     };
     for (Index j = 0; j < n; ++j)
         for (Index i = 0; i < m; ++i) {

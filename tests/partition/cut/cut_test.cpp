@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/components.h"
+#include "partition/connected_components.h"
 #include "partition/cut/cut.h"
-#include "partition/cut/defects.h"
 #include "partition/errors.h"
+#include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -34,12 +34,6 @@ bool any_contains(const std::vector<std::string>& remarks, const std::string& te
                        [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
 }
 
-NamedMesh named(PolygonMesh mesh)
-{
-    Topology topology = make_topology(mesh);
-    return {"", std::move(mesh), std::move(topology)};
-}
-
 }  // namespace
 
 TEST_CASE("every mesh can be cut into any number of parts")
@@ -52,7 +46,7 @@ TEST_CASE("every mesh can be cut into any number of parts")
             check_sound(m, cut);
             CHECK(cut.remarks.empty() == (cut.n_parts == k || m.mesh.n_faces() == 0));
             // Before adding, so that the largest k does not overflow.
-            CHECK(cut.n_parts - face_components(m.mesh, m.topology).count <= k);
+            CHECK(cut.n_parts - face_components(m.mesh, m.topology).count() <= k);
             const Cut again = cut_into(m.mesh, m.topology, k);
             CHECK(again.labels == cut.labels);
         }
@@ -60,7 +54,8 @@ TEST_CASE("every mesh can be cut into any number of parts")
 
 TEST_CASE("a mesh large enough is cut into as many parts as asked, about equal")
 {
-    for (const NamedMesh& m : {named(quad_grid(40, 30)), named(triangle_torus(30, 30)), named(hexagon_sheet(30, 30))})
+    for (const NamedMesh& m : {with_topology(quad_grid(40, 30)), with_topology(triangle_torus(30, 30)),
+                               with_topology(hexagon_sheet(30, 30))})
         for (const Index k : {2, 5, 16, 40}) {
             const Cut cut = cut_into(m.mesh, m.topology, k);
             check_sound(m, cut);
@@ -75,7 +70,8 @@ TEST_CASE("a mesh large enough is cut into as many parts as asked, about equal")
 
 TEST_CASE("large meshes, divided by clusters, are cut soundly too, however loops are run")
 {
-    const NamedMesh m = named(side_by_side({triangle_torus(500, 500), quad_grid(3, 3), triangle_grid(100, 30)}));
+    const NamedMesh m =
+        with_topology(side_by_side({triangle_torus(500, 500), quad_grid(3, 3), triangle_grid(100, 30)}));
     for (const Index k : {2, 90}) {
         const Cut cut = cut_into(m.mesh, m.topology, k);
         check_sound(m, cut);
@@ -96,7 +92,7 @@ TEST_CASE("large meshes, divided by clusters, are cut soundly too, however loops
 
 TEST_CASE("what takes but one thread is handed out once, if there is any, and changes nothing but who does it")
 {
-    const NamedMesh m = named(triangle_torus(40, 40));
+    const NamedMesh m = with_topology(triangle_torus(40, 40));
     for (const Index k : {1, 2, 90}) {
         int n_calls = 0;
         const Cut cut = cut_into(m.mesh, m.topology, k, run_serially, [&](const std::function<void()>& serial) {
@@ -117,7 +113,7 @@ TEST_CASE("what takes but one thread is handed out once, if there is any, and ch
 
 TEST_CASE("one part is the whole mesh, with all its components")
 {
-    const NamedMesh m = named(side_by_side({quad_grid(3, 3), quad_torus(4, 4)}));
+    const NamedMesh m = with_topology(side_by_side({quad_grid(3, 3), quad_torus(4, 4)}));
     const Cut cut = cut_into(m.mesh, m.topology, 1);
     CHECK(cut.n_parts == 1);
     CHECK(cut.remarks.empty());
@@ -126,7 +122,8 @@ TEST_CASE("one part is the whole mesh, with all its components")
 
 TEST_CASE("components get parts in proportion to their size, small ones on top")
 {
-    const NamedMesh m = named(side_by_side({quad_grid(30, 20), quad_grid(1, 1), quad_grid(20, 15), quad_grid(1, 1)}));
+    const NamedMesh m =
+        with_topology(side_by_side({quad_grid(30, 20), quad_grid(1, 1), quad_grid(20, 15), quad_grid(1, 1)}));
     const Cut cut = cut_into(m.mesh, m.topology, 6);
     check_sound(m, cut);
     CHECK(cut.n_parts == 8);
@@ -137,7 +134,7 @@ TEST_CASE("components get parts in proportion to their size, small ones on top")
 
 TEST_CASE("a mesh too small for k parts says so")
 {
-    const NamedMesh m = named(quad_grid(6, 6));
+    const NamedMesh m = with_topology(quad_grid(6, 6));
     const Cut cut = cut_into(m.mesh, m.topology, 1000);
     CHECK(cut.n_parts <= 3);
     CHECK(any_contains(cut.remarks, "too few"));
@@ -145,21 +142,21 @@ TEST_CASE("a mesh too small for k parts says so")
 
 TEST_CASE("the number of parts must be positive")
 {
-    const NamedMesh m = named(quad_grid(2, 2));
+    const NamedMesh m = with_topology(quad_grid(2, 2));
     CHECK_THROWS_AS(cut_into(m.mesh, m.topology, 0), OptionError);
     CHECK_THROWS_AS(cut_into(m.mesh, m.topology, -3), OptionError);
 }
 
 TEST_CASE("a mesh without faces has no parts")
 {
-    const NamedMesh m = named(PolygonMesh{});
+    const NamedMesh m = with_topology(PolygonMesh{});
     CHECK(cut_into(m.mesh, m.topology, 4).n_parts == 0);
     CHECK(cut_by_labels(m.mesh, m.topology, {}).n_parts == 0);
 }
 
 TEST_CASE("good labels are taken as they are")
 {
-    const NamedMesh m = named(quad_grid(4, 1));
+    const NamedMesh m = with_topology(quad_grid(4, 1));
     const std::vector<Index> labels{1, 1, 0, 2};
     const Cut cut = cut_by_labels(m.mesh, m.topology, labels);
     CHECK(cut.labels == labels);
@@ -170,7 +167,7 @@ TEST_CASE("good labels are taken as they are")
 
 TEST_CASE("labels with gaps, loose pieces or several components are put right and remarked upon")
 {
-    const NamedMesh strip = named(quad_grid(5, 1));
+    const NamedMesh strip = with_topology(quad_grid(5, 1));
     const Cut gaps = cut_by_labels(strip.mesh, strip.topology, std::vector<Index>{9, 9, 4, 4, 4});
     CHECK(gaps.labels == std::vector<Index>{1, 1, 0, 0, 0});
     CHECK(any_contains(gaps.remarks, "gaps"));
@@ -185,7 +182,7 @@ TEST_CASE("labels with gaps, loose pieces or several components are put right an
     CHECK(loose.repaired_faces == 1);
     CHECK(any_contains(loose.remarks, "1 face had to change parts"));
 
-    const NamedMesh two = named(side_by_side({quad_grid(2, 1), quad_grid(2, 1)}));
+    const NamedMesh two = with_topology(side_by_side({quad_grid(2, 1), quad_grid(2, 1)}));
     const Cut split = cut_by_labels(two.mesh, two.topology, std::vector<Index>{0, 1, 0, 0});
     CHECK(split.labels == std::vector<Index>{0, 1, 2, 2});
     CHECK(any_contains(split.remarks, "there are 3"));
@@ -193,7 +190,7 @@ TEST_CASE("labels with gaps, loose pieces or several components are put right an
 
 TEST_CASE("equal labels leave the mesh uncut")
 {
-    const NamedMesh m = named(side_by_side({quad_grid(2, 1), quad_grid(2, 1)}));
+    const NamedMesh m = with_topology(side_by_side({quad_grid(2, 1), quad_grid(2, 1)}));
     const Cut cut = cut_by_labels(m.mesh, m.topology, std::vector<Index>{0, 0, 0, 0});
     CHECK(cut.n_parts == 1);
     CHECK(cut.remarks.empty());
@@ -201,7 +198,7 @@ TEST_CASE("equal labels leave the mesh uncut")
 
 TEST_CASE("labels that do not fit the mesh are refused")
 {
-    const NamedMesh m = named(quad_grid(2, 1));
+    const NamedMesh m = with_topology(quad_grid(2, 1));
     CHECK_THROWS_WITH_AS(cut_by_labels(m.mesh, m.topology, std::vector<Index>{0, 0, 0}),
                          "there are 3 labels for 2 faces: give one label for each face", InputError);
     CHECK_THROWS_WITH_AS(cut_by_labels(m.mesh, m.topology, std::vector<Index>{0, -1}),

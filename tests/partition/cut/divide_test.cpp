@@ -14,7 +14,7 @@ namespace {
 
 struct Divided {
     FaceGraph graph;
-    GraphComponents components;
+    Components components;
     std::vector<Index> labels;
 };
 
@@ -36,9 +36,9 @@ TEST_CASE("parts are balanced, in one stage and in two")
     for (const Index k : {2, 7, 64, 65, 130, 401}) {
         CAPTURE(k);
         const Divided d = divided(mesh, 1, k);
-        std::vector<double> weight(at(k), 0.0);
+        std::vector<double> weight(k, 0.0);
         for (std::size_t node = 0; node < d.labels.size(); ++node)
-            weight[at(d.labels[node])] += d.graph.node_weights[node];
+            weight[d.labels[node]] += d.graph.node_weights[node];
         CHECK(*std::max_element(weight.begin(), weight.end()) < 1.1 * mesh.n_faces() / k);
         CHECK(*std::min_element(weight.begin(), weight.end()) > 0.8 * mesh.n_faces() / k);
         CHECK(divided(mesh, 1, k).labels == d.labels);
@@ -54,7 +54,7 @@ TEST_CASE("no part lies in two components, and every component has one")
         const Divided d = divided(mesh, 1, k);
         std::vector<std::set<Index>> components_of_part(at(k) + 31);
         for (std::size_t node = 0; node < d.labels.size(); ++node)
-            components_of_part[at(d.labels[node])].insert(d.components.component_of[node]);
+            components_of_part[d.labels[node]].insert(d.components.component_of[node]);
         Index parts = 0;
         for (const auto& components : components_of_part) {
             CHECK(components.size() <= 1);
@@ -72,7 +72,7 @@ TEST_CASE("what is left over goes to the components that lack the most")
         const Divided d = divided(two, 1, k);
         std::vector<std::set<Index>> parts_of_component(2);
         for (std::size_t node = 0; node < d.labels.size(); ++node)
-            parts_of_component[at(d.components.component_of[node])].insert(d.labels[node]);
+            parts_of_component[d.components.component_of[node]].insert(d.labels[node]);
         CHECK(parts_of_component[0].size() == at(k) - 1);
         CHECK(parts_of_component[1].size() == 1);
     }

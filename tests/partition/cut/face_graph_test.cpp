@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/components.h"
+#include "partition/connected_components.h"
 #include "partition/cut/face_graph.h"
 #include "tests/support/test_meshes.h"
 
@@ -103,9 +103,9 @@ TEST_CASE("lengths without a finite sum count as equal")
     }
 }
 
-TEST_CASE("a graph taken apart keeps the arcs within its parts")
+TEST_CASE("induced subgraphs keep the arcs within their parts")
 {
-    const auto parts = take_apart(graph_of(quad_grid(4, 1)), std::vector<Index>{2, 0, 0, 2}, 3);
+    const auto parts = induced_subgraphs(graph_of(quad_grid(4, 1)), std::vector<Index>{2, 0, 0, 2}, 3);
     REQUIRE(parts.size() == 3);
     CHECK(parts[0].offsets == std::vector<Index>{0, 1, 2});
     CHECK(parts[0].targets == std::vector<Index>{1, 0});
@@ -132,8 +132,8 @@ TEST_CASE("the graph of clusters weighs as much as that of the faces, and has fe
         CHECK(coarse.n_nodes() <= fine.n_nodes());
         CHECK(coarse.targets.size() <= fine.targets.size());
         for (Index i = 0; i < coarse.n_nodes(); ++i)
-            for (Index arc = coarse.offsets[at(i)]; arc < coarse.offsets[at(i) + 1]; ++arc)
-                CHECK(weight(coarse, coarse.targets[at(arc)], i) == coarse.arc_weights[at(arc)]);
+            for (Index arc = coarse.offsets[i]; arc < coarse.offsets[i + 1]; ++arc)
+                CHECK(weight(coarse, coarse.targets[arc], i) == coarse.arc_weights[arc]);
     }
 }
 
@@ -152,11 +152,11 @@ TEST_CASE("the components of a graph are those of its faces")
             CAPTURE(m.name);
             CAPTURE(weight);
             const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
-            const GraphComponents components =
+            const Components components =
                 graph_components(make_face_graph(m.mesh, m.topology, clusters, ArcMeasure::Count));
-            const FaceComponents of_faces = face_components(m.mesh, m.topology);
-            CHECK(components.count == of_faces.count);
+            const Components of_faces = face_components(m.mesh, m.topology);
+            CHECK(components.count() == of_faces.count());
             for (Index f = 0; f < m.mesh.n_faces(); ++f)
-                CHECK(components.component_of[at(clusters.cluster_of[at(f)])] == of_faces.component[at(f)]);
+                CHECK(components.component_of[clusters.cluster_of[f]] == of_faces.component_of[f]);
         }
 }

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/defects.h"
 #include "partition/cut/loose_nodes.h"
 #include "partition/cut/refine.h"
 #include "tests/support/test_meshes.h"
@@ -25,9 +24,9 @@ struct Graph {
     template <class LabelAt>
     [[nodiscard]] std::vector<Index> labels_by_row(Index quads_per_row, LabelAt&& label_at) const
     {
-        std::vector<Index> labels(at(mesh.n_faces()));
+        std::vector<Index> labels(mesh.n_faces());
         for (Index f = 0; f < mesh.n_faces(); ++f)
-            labels[at(f)] = label_at(f / quads_per_row);
+            labels[f] = label_at(f / quads_per_row);
         return labels;
     }
 
@@ -53,10 +52,10 @@ TEST_CASE("loose pieces go to the parts across most of their edges, rings of the
     // A ring of part 1 within part 0 and a piece of part 2, which has another one, in its middle.
     for (Index row = 1; row < 4; ++row)
         for (Index column = 4; column < 7; ++column)
-            labels[at(row * 12 + column)] = row == 2 && column == 5 ? 2 : 1;
-    labels[at(11 * 12)] = labels[at(11 * 12 + 1)] = 2;
+            labels[row * 12 + column] = row == 2 && column == 5 ? 2 : 1;
+    labels[11 * 12] = labels[11 * 12 + 1] = 2;
     std::vector<Index> expected = whole;
-    expected[at(11 * 12)] = expected[at(11 * 12 + 1)] = 2;
+    expected[11 * 12] = expected[11 * 12 + 1] = 2;
     CHECK(join_loose_nodes(graph.faces, 3, labels));
     CHECK(labels == expected);
 }

@@ -3,11 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
-#include "partition/cut/components.h"
-#include "partition/cut/defects.h"
 #include "partition/cut/refine.h"
 #include "partition/cut/seams.h"
+#include "partition/labels.h"
+#include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -20,15 +21,15 @@ Index cut_edges(const NamedMesh& m, const std::vector<Index>& labels)
 {
     Index n = 0;
     for (Index h = 0; h < m.mesh.n_corners(); ++h)
-        if (const Index twin = m.topology.twin[at(h)]; twin > h)
-            n += labels[at(m.topology.face_of[at(h)])] != labels[at(m.topology.face_of[at(twin)])] ? 1 : 0;
+        if (const Index twin = m.topology.twin[h]; twin > h)
+            n += labels[m.topology.face_of[h]] != labels[m.topology.face_of[twin]] ? 1 : 0;
     return n;
 }
 
 std::vector<Index> random_labels(const PolygonMesh& mesh, Index n_labels)
 {
     std::mt19937 random(7);
-    std::vector<Index> labels(at(mesh.n_faces()));
+    std::vector<Index> labels(mesh.n_faces());
     for (Index& label : labels)
         label = static_cast<Index>(random() % static_cast<unsigned>(n_labels));
     return labels;
@@ -36,41 +37,35 @@ std::vector<Index> random_labels(const PolygonMesh& mesh, Index n_labels)
 
 std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& labels, Index n_labels)
 {
-    std::vector<double> weight(at(n_labels), 0.0);
+    std::vector<double> weight(n_labels, 0.0);
     for (Index f = 0; f < mesh.n_faces(); ++f)
-        weight[at(labels[at(f)])] += face_weight(mesh, f);
+        weight[labels[f]] += face_weight(mesh, f);
     return weight;
 }
 
 /// Of how many pieces each part consists.
 std::vector<Index> count_pieces(const NamedMesh& m, const std::vector<Index>& labels, Index n_labels)
 {
-    std::vector<Index> n_pieces(at(n_labels), 0);
+    std::vector<Index> n_pieces(n_labels, 0);
     std::vector<bool> reached(labels.size(), false);
     for (Index root = 0; root < m.mesh.n_faces(); ++root) {
         std::vector<Index> stack;
         const auto reach = [&](Index f) {
-            if (!reached[at(f)] && labels[at(f)] == labels[at(root)])
+            if (!reached[f] && labels[f] == labels[root])
                 stack.push_back(f);
         };
         reach(root);
-        n_pieces[at(labels[at(root)])] += static_cast<Index>(stack.size());
+        n_pieces[labels[root]] += static_cast<Index>(stack.size());
         while (!stack.empty()) {
             const Index f = stack.back();
             stack.pop_back();
-            reached[at(f)] = true;
-            for (Index h = m.mesh.face_offsets[at(f)]; h < m.mesh.face_offsets[at(f) + 1]; ++h)
-                if (const Index twin = m.topology.twin[at(h)]; twin >= 0)
-                    reach(m.topology.face_of[at(twin)]);
+            reached[f] = true;
+            for (Index h = m.mesh.face_offsets[f]; h < m.mesh.face_offsets[f + 1]; ++h)
+                if (const Index twin = m.topology.twin[h]; twin >= 0)
+                    reach(m.topology.face_of[twin]);
         }
     }
     return n_pieces;
-}
-
-NamedMesh named(PolygonMesh mesh)
-{
-    Topology topology = make_topology(mesh);
-    return {"", std::move(mesh), std::move(topology)};
 }
 
 }  // namespace
@@ -84,16 +79,16 @@ TEST_CASE("fewer edges are cut, and no label enters another component")
         shorten_seams(m.mesh, m.topology, 3, labels);
         CHECK(cut_edges(m, labels) <= before);
 
-        const FaceComponents components = face_components(m.mesh, m.topology);
-        std::vector<Index> whole = components.component;
-        shorten_seams(m.mesh, m.topology, components.count, whole);
-        CHECK(whole == components.component);
+        const Components components = face_components(m.mesh, m.topology);
+        std::vector<Index> whole = components.component_of;
+        shorten_seams(m.mesh, m.topology, components.count(), whole);
+        CHECK(whole == components.component_of);
     }
 }
 
 TEST_CASE("parts in balance remain so, and the result does not depend on how loops are run")
 {
-    const NamedMesh m = named(triangle_torus(40, 40));
+    const NamedMesh m = with_topology(triangle_torus(40, 40));
     std::vector<Index> labels = random_labels(m.mesh, 4);
     std::vector<Index> other = labels;
     const auto before = weights(m.mesh, labels, 4);
@@ -114,25 +109,25 @@ TEST_CASE("parts in balance remain so, and the result does not depend on how loo
 
 TEST_CASE("a spike is cut off, a straight seam stays")
 {
-    const NamedMesh grid = named(quad_grid(16, 12));
-    std::vector<Index> straight(at(grid.mesh.n_faces()));
+    const NamedMesh grid = with_topology(quad_grid(16, 12));
+    std::vector<Index> straight(grid.mesh.n_faces());
     for (Index f = 0; f < grid.mesh.n_faces(); ++f)
-        straight[at(f)] = f % 16 < 8 ? 0 : 1;
+        straight[f] = f % 16 < 8 ? 0 : 1;
     std::vector<Index> labels = straight;
     shorten_seams(grid.mesh, grid.topology, 2, labels);
     CHECK(labels == straight);
     for (Index f = 6 * 16 + 8; f < 6 * 16 + 11; ++f)
-        labels[at(f)] = 0;
+        labels[f] = 0;
     shorten_seams(grid.mesh, grid.topology, 2, labels);
     CHECK(labels == straight);
 }
 
 TEST_CASE("a part that is too heavy gives faces to its neighbours until it is not, and stays whole")
 {
-    const NamedMesh m = named(triangle_torus(40, 40));
-    std::vector<Index> labels(at(m.mesh.n_faces()));
+    const NamedMesh m = with_topology(triangle_torus(40, 40));
+    std::vector<Index> labels(m.mesh.n_faces());
     for (Index f = 0; f < m.mesh.n_faces(); ++f)
-        labels[at(f)] = f < m.mesh.n_faces() * 55 / 100 ? 0 : 1;
+        labels[f] = f < m.mesh.n_faces() * 55 / 100 ? 0 : 1;
     const Index before = cut_edges(m, labels);
     shorten_seams(m.mesh, m.topology, 2, labels);
     for (const double weight : weights(m.mesh, labels, 2))
@@ -141,21 +136,21 @@ TEST_CASE("a part that is too heavy gives faces to its neighbours until it is no
     CHECK(!first_defect(m.mesh, m.topology, labels));
 }
 
-TEST_CASE("however far a seam moves, what is there then is in doubt")
+TEST_CASE("however far a seam moves, what is there then is suspected")
 {
-    const NamedMesh m = named(triangle_torus(40, 40));
-    std::vector<Index> labels(at(m.mesh.n_faces()));
+    const NamedMesh m = with_topology(triangle_torus(40, 40));
+    std::vector<Index> labels(m.mesh.n_faces());
     for (Index f = 0; f < m.mesh.n_faces(); ++f)
-        labels[at(f)] = f < m.mesh.n_faces() * 70 / 100 ? 0 : 1;
+        labels[f] = f < m.mesh.n_faces() * 70 / 100 ? 0 : 1;
     const auto seam_before = mixed_vertices(m.topology, labels);
-    const Doubts doubts = shorten_seams(m.mesh, m.topology, 2, labels);
-    std::vector<bool> in_doubt(at(m.mesh.n_vertices()), false);
-    for (const Index f : doubts.faces)
+    const SuspectedDefects defects = shorten_seams(m.mesh, m.topology, 2, labels);
+    std::vector<bool> suspected(m.mesh.n_vertices(), false);
+    for (const Index f : defects.faces)
         for (const Index v : m.mesh.face(f))
-            in_doubt[at(v)] = true;
+            suspected[v] = true;
     Index n_new = 0;
     for (const Index v : mixed_vertices(m.topology, labels)) {
-        CHECK(in_doubt[at(v)]);
+        CHECK(suspected[v]);
         n_new += std::binary_search(seam_before.begin(), seam_before.end(), v) ? 0 : 1;
     }
     CHECK(n_new > 40);
@@ -163,21 +158,21 @@ TEST_CASE("however far a seam moves, what is there then is in doubt")
 
 TEST_CASE("mixed vertices are those whose faces differ")
 {
-    const NamedMesh m = named(quad_grid(2, 1));
+    const NamedMesh m = with_topology(quad_grid(2, 1));
     CHECK(mixed_vertices(m.topology, std::vector<Index>{0, 1}) == std::vector<Index>{1, 4});
     CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
 }
 
-TEST_CASE("parts that have come to pieces are in doubt")
+TEST_CASE("parts that have come to pieces are suspected")
 {
     for (const PolygonMesh& mesh : {quad_torus(40, 40), hexagon_sheet(30, 30), triangle_torus(30, 30)})
         for (const Index weight : {6, 12, 20, 40, 100}) {
-            const NamedMesh m = named(mesh);
+            const NamedMesh m = with_topology(mesh);
             const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
             std::vector<Index> labels = clusters.cluster_of;
-            const Doubts doubts = shorten_seams(m.mesh, m.topology, clusters.size(), labels);
+            const SuspectedDefects defects = shorten_seams(m.mesh, m.topology, clusters.size(), labels);
             const std::vector<Index> n_pieces = count_pieces(m, labels, clusters.size());
             for (Index label = 0; label < clusters.size(); ++label)
-                CHECK((n_pieces[at(label)] <= 1 || doubts.parts[at(label)]));
+                CHECK((n_pieces[label] <= 1 || defects.parts[label]));
         }
 }

@@ -5,6 +5,7 @@
 
 #include "partition/cut/coloring.h"
 #include "partition/decomposition/decomposition.h"
+#include "tests/support/cut_checks.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
 
@@ -29,11 +30,11 @@ TEST_CASE("every face lies in exactly one sub-mesh, the one of its label")
 {
     for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
         REQUIRE(decomposition.sub_meshes.size() == at(cut.n_parts));
-        std::vector<int> times(at(cut.mesh.n_faces()), 0);
+        std::vector<int> times(cut.mesh.n_faces(), 0);
         for (Index s = 0; s < cut.n_parts; ++s)
-            for (const Index f : decomposition.sub_meshes[at(s)].faces) {
-                ++times[at(f)];
-                CHECK(cut.labels[at(f)] == s);
+            for (const Index f : decomposition.sub_meshes[s].faces) {
+                ++times[f];
+                CHECK(cut.labels[f] == s);
             }
         CHECK(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
     });
@@ -42,10 +43,10 @@ TEST_CASE("every face lies in exactly one sub-mesh, the one of its label")
 TEST_CASE("every vertex that may move is owned by exactly one sub-mesh, no other by any")
 {
     for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
-        std::vector<int> owners(at(cut.mesh.n_vertices()), 0);
+        std::vector<int> owners(cut.mesh.n_vertices(), 0);
         for (const SubMesh& sub_mesh : decomposition.sub_meshes)
             for (Index i = 0; i < sub_mesh.n_vertices; ++i)
-                owners[at(sub_mesh.local_to_global[at(i)])] += sub_mesh.owned[at(i)];
+                owners[sub_mesh.local_to_global[i]] += sub_mesh.owned[i];
         for (std::size_t v = 0; v < owners.size(); ++v)
             CHECK(owners[v] == (cut.topology.kind[v] == VertexKind::Interior ? 1 : 0));
     });
@@ -56,21 +57,21 @@ TEST_CASE("all sub-meshes at a vertex of the interface know of each other")
     for_each_decomposition([](const CutMesh&, const Decomposition& decomposition) {
         std::set<Index> on_interface;
         for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
-            const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+            const SubMesh& sub_mesh = decomposition.sub_meshes[s];
             const auto& interface = sub_mesh.interface;
             REQUIRE(interface.sharing.size() == interface.size());
             REQUIRE(interface.index_in_sharing.size() == interface.size());
             for (Index i = 0; i < interface.size(); ++i) {
-                const Index v = sub_mesh.local_to_global[at(interface.vertices[at(i)])];
+                const Index v = sub_mesh.local_to_global[interface.vertices[i]];
                 on_interface.insert(v);
                 const auto sharing = interface.sharing[i];
                 CHECK(sharing.size() >= 2);
                 CHECK(std::is_sorted(sharing.begin(), sharing.end()));
                 CHECK(std::count(sharing.begin(), sharing.end(), s) == 1);
                 for (std::size_t k = 0; k < sharing.size(); ++k) {
-                    const SubMesh& other = decomposition.sub_meshes[at(sharing[k])];
+                    const SubMesh& other = decomposition.sub_meshes[sharing[k]];
                     const Index local = interface.index_in_sharing[i][k];
-                    REQUIRE(other.local_to_global[at(local)] == v);
+                    REQUIRE(other.local_to_global[local] == v);
                     const auto place =
                         std::find(other.interface.vertices.begin(), other.interface.vertices.end(), local);
                     REQUIRE(place != other.interface.vertices.end());
@@ -89,9 +90,9 @@ TEST_CASE("sub-meshes are adjacent when they share a vertex of the interface, as
     for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
         CHECK(decomposition.adjacency == adjacency_of(cut.mesh, cut.topology, cut.labels, cut.n_parts));
         for (Index s = 0; s < cut.n_parts; ++s)
-            for (const Index t : decomposition.adjacency[at(s)]) {
+            for (const Index t : decomposition.adjacency[s]) {
                 CHECK(t != s);
-                const auto& back = decomposition.adjacency[at(t)];
+                const auto& back = decomposition.adjacency[t];
                 CHECK(std::binary_search(back.begin(), back.end(), s));
             }
     });
@@ -102,22 +103,22 @@ TEST_CASE("transfers fill every vertex of the halo once, with the same vertex of
     for_each_decomposition([](const CutMesh& cut, const Decomposition& decomposition) {
         REQUIRE(decomposition.halo.size() == at(cut.n_parts));
         for (Index s = 0; s < cut.n_parts; ++s) {
-            const SubMesh& to = decomposition.sub_meshes[at(s)];
-            const auto& adjacent = decomposition.adjacency[at(s)];
+            const SubMesh& to = decomposition.sub_meshes[s];
+            const auto& adjacent = decomposition.adjacency[s];
             std::vector<int> filled(to.local_to_global.size(), 0);
             Index previous = -1;
-            for (const Transfer& transfer : decomposition.halo[at(s)]) {
+            for (const Transfer& transfer : decomposition.halo[s]) {
                 CHECK(transfer.to == s);
                 CHECK(transfer.from > previous);
                 previous = transfer.from;
                 CHECK(std::binary_search(adjacent.begin(), adjacent.end(), transfer.from));
-                const SubMesh& from = decomposition.sub_meshes[at(transfer.from)];
+                const SubMesh& from = decomposition.sub_meshes[transfer.from];
                 REQUIRE(transfer.source.size() == transfer.target.size());
                 CHECK(!transfer.source.empty());
                 for (std::size_t k = 0; k < transfer.source.size(); ++k) {
                     CHECK(transfer.source[k] < from.n_vertices);
-                    CHECK(from.local_to_global[at(transfer.source[k])] == to.local_to_global[at(transfer.target[k])]);
-                    ++filled[at(transfer.target[k])];
+                    CHECK(from.local_to_global[transfer.source[k]] == to.local_to_global[transfer.target[k]]);
+                    ++filled[transfer.target[k]];
                 }
             }
             for (std::size_t i = 0; i < filled.size(); ++i)
@@ -130,7 +131,7 @@ TEST_CASE("one part shares nothing")
 {
     const PolygonMesh& mesh = cut_meshes().front().mesh;
     const Topology& topology = cut_meshes().front().topology;
-    const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(at(mesh.n_faces()), 0), 1);
+    const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(mesh.n_faces(), 0), 1);
     REQUIRE(whole.sub_meshes.size() == 1);
     CHECK(whole.n_interface_vertices == 0);
     CHECK(whole.adjacency.front().empty());
@@ -146,9 +147,9 @@ TEST_CASE("faces are listed by label, in ascending order")
     const Index n_faces = 200'000;
     const Index n_parts = 11;
     const std::vector<Index> labels = random_labels(n_faces, n_parts - 1, 3);
-    std::vector<std::vector<Index>> expected(at(n_parts));
+    std::vector<std::vector<Index>> expected(n_parts);
     for (Index f = 0; f < n_faces; ++f)
-        expected[at(labels[at(f)])].push_back(f);
+        expected[labels[f]].push_back(f);
     CHECK(faces_by_label(labels, n_parts) == expected);
     CHECK(faces_by_label(labels, n_parts, [](Index n, const LoopBody& body) {
               for (Index i = n; i > 0; --i)

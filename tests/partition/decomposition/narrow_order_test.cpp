@@ -12,24 +12,24 @@ using namespace seamflow;
 
 namespace {
 
-using Graph = std::vector<std::vector<Index>>;
+using Neighbours = std::vector<std::vector<Index>>;
 
 std::vector<Index> shuffled_numbers(Index n, std::uint32_t seed)
 {
-    std::vector<Index> numbers(at(n));
+    std::vector<Index> numbers(n);
     std::iota(numbers.begin(), numbers.end(), 0);
     std::shuffle(numbers.begin(), numbers.end(), std::mt19937(seed));
     return numbers;
 }
 
 /// A rectangle of m by n vertices, each joined to those beside, above and below it, numbered at random.
-Graph shuffled_grid(Index m, Index n, std::uint32_t seed)
+Neighbours shuffled_grid(Index m, Index n, std::uint32_t seed)
 {
     const std::vector<Index> number = shuffled_numbers(m * n, seed);
-    Graph adjacency(number.size());
+    Neighbours adjacency(number.size());
     const auto join = [&](Index a, Index b) {
-        adjacency[at(number[at(a)])].push_back(number[at(b)]);
-        adjacency[at(number[at(b)])].push_back(number[at(a)]);
+        adjacency[number[a]].push_back(number[b]);
+        adjacency[number[b]].push_back(number[a]);
     };
     for (Index y = 0; y < n; ++y)
         for (Index x = 0; x < m; ++x) {
@@ -44,10 +44,10 @@ Graph shuffled_grid(Index m, Index n, std::uint32_t seed)
 }
 
 /// All graphs in one, numbered one after the other.
-Graph side_by_side(const std::vector<Graph>& graphs)
+Neighbours side_by_side(const std::vector<Neighbours>& graphs)
 {
-    Graph all;
-    for (const Graph& graph : graphs) {
+    Neighbours all;
+    for (const Neighbours& graph : graphs) {
         const auto first = static_cast<Index>(all.size());
         for (std::vector<Index> neighbours : graph) {
             for (Index& neighbour : neighbours)
@@ -67,13 +67,13 @@ std::vector<Index> places_in(const std::vector<Index>& order)
 }
 
 /// The largest distance between the places of two adjacent vertices.
-Index bandwidth(const Graph& adjacency, const std::vector<Index>& order)
+Index bandwidth(const Neighbours& adjacency, const std::vector<Index>& order)
 {
     const std::vector<Index> places = places_in(order);
     Index widest = 0;
     for (std::size_t v = 0; v < adjacency.size(); ++v)
         for (const Index neighbour : adjacency[v])
-            widest = std::max(widest, std::abs(places[v] - places[at(neighbour)]));
+            widest = std::max(widest, std::abs(places[v] - places[neighbour]));
     return widest;
 }
 
@@ -87,8 +87,8 @@ bool is_permutation_of(const std::vector<Index>& order, std::size_t n)
 
 TEST_CASE("the order has every vertex once, also of several components and of none")
 {
-    const Graph several = side_by_side({shuffled_grid(5, 4, 1), Graph(3), shuffled_grid(1, 7, 2)});
-    for (const Graph& graph : {several, shuffled_grid(9, 9, 3), Graph(1), Graph()}) {
+    const Neighbours several = side_by_side({shuffled_grid(5, 4, 1), Neighbours(3), shuffled_grid(1, 7, 2)});
+    for (const Neighbours& graph : {several, shuffled_grid(9, 9, 3), Neighbours(1), Neighbours()}) {
         const std::vector<Index> order = narrow_order(graph);
         CHECK(is_permutation_of(order, graph.size()));
         CHECK(order == narrow_order(graph));
@@ -101,14 +101,14 @@ TEST_CASE("of a grid numbered at random, adjacent vertices are about as near as 
         for (const auto& sides : {std::pair<Index, Index>{1, 50}, {2, 40}, {8, 30}, {20, 20}, {30, 8}}) {
             CAPTURE(sides.first);
             CAPTURE(sides.second);
-            const Graph grid = shuffled_grid(sides.first, sides.second, seed);
+            const Neighbours grid = shuffled_grid(sides.first, sides.second, seed);
             CHECK(bandwidth(grid, narrow_order(grid)) <= std::min(sides.first, sides.second) + 1);
         }
 }
 
 TEST_CASE("components follow each other, each as narrow as alone")
 {
-    const Graph several = side_by_side({shuffled_grid(6, 6, 1), shuffled_grid(3, 30, 2), shuffled_grid(6, 6, 3)});
+    const Neighbours several = side_by_side({shuffled_grid(6, 6, 1), shuffled_grid(3, 30, 2), shuffled_grid(6, 6, 3)});
     const std::vector<Index> places = places_in(narrow_order(several));
     for (const auto& [first, n] : {std::pair<Index, Index>{0, 36}, {36, 90}, {126, 36}}) {
         const auto [least, most] = std::minmax_element(places.begin() + first, places.begin() + first + n);

@@ -6,6 +6,7 @@
 #include "partition/cut/coloring.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/decomposition/overlap.h"
+#include "partition/labels.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
 
@@ -24,21 +25,18 @@ struct Grown {
     {
         std::set<Index> parts;
         for (const Index corner : cut.topology.corners_at(v))
-            parts.insert(cut.labels[at(cut.topology.face_of[at(corner)])]);
+            parts.insert(cut.labels[cut.topology.face_of[corner]]);
         return parts;
     }
     [[nodiscard]] Index first_at(Index v) const
     {
         Index first = *parts_at(v).begin();
         for (const Index part : parts_at(v))
-            if (rank[at(part)] < rank[at(first)])
+            if (rank[part] < rank[first])
                 first = part;
         return first;
     }
-    [[nodiscard]] Index global(Index s, Index i) const
-    {
-        return decomposition.sub_meshes[at(s)].local_to_global[at(i)];
-    }
+    [[nodiscard]] Index global(Index s, Index i) const { return decomposition.sub_meshes[s].local_to_global[i]; }
 };
 
 Grown grown(const CutMesh& cut, std::vector<Index> rank, int layers)
@@ -47,7 +45,7 @@ Grown grown(const CutMesh& cut, std::vector<Index> rank, int layers)
     std::vector<SubMesh> sub_meshes;
     auto faces = faces_by_label(cut.labels, cut.n_parts);
     for (Index s = 0; s < cut.n_parts; ++s)
-        sub_meshes.push_back(make_overlapping_sub_mesh(cut.mesh, cut.topology, overlap, s, std::move(faces[at(s)])));
+        sub_meshes.push_back(make_overlapping_sub_mesh(cut.mesh, cut.topology, overlap, s, std::move(faces[s])));
     Decomposition decomposition = connect_overlapping(std::move(sub_meshes), cut.topology, overlap);
     SweepPlan plan = plan_overlapping_sweep(decomposition, rank);
     return {cut, std::move(rank), std::move(decomposition), std::move(plan)};
@@ -59,7 +57,7 @@ void for_each_grown(Check&& check)
 {
     for (const CutMesh& cut : cut_meshes()) {
         CAPTURE(cut.name);
-        std::vector<Index> by_label(at(cut.n_parts));
+        std::vector<Index> by_label(cut.n_parts);
         std::iota(by_label.begin(), by_label.end(), 0);
         for (const auto& rank : {color(test::decompose(cut).adjacency), by_label})
             for (const int layers : {1, 2})
@@ -69,7 +67,7 @@ void for_each_grown(Check&& check)
 
 std::vector<Index> row_of(std::initializer_list<Index> ends)
 {
-    std::vector<Index> row(at(*(ends.begin() + 1) - *ends.begin()));
+    std::vector<Index> row(*(ends.begin() + 1) - *ends.begin());
     std::iota(row.begin(), row.end(), *ends.begin());
     return row;
 }
@@ -108,15 +106,15 @@ TEST_CASE("the interface is the artificial boundary, and never touches what the 
 {
     for_each_grown([](const Grown& g) {
         for (Index s = 0; s < g.cut.n_parts; ++s) {
-            const SubMesh& sub_mesh = g.decomposition.sub_meshes[at(s)];
+            const SubMesh& sub_mesh = g.decomposition.sub_meshes[s];
             const std::set<Index> faces(sub_mesh.faces.begin(), sub_mesh.faces.end());
             const std::set<Index> interface(sub_mesh.interface.vertices.begin(), sub_mesh.interface.vertices.end());
             for (Index i = 0; i < sub_mesh.n_vertices; ++i) {
                 const auto corners = g.cut.topology.corners_at(g.global(s, i));
                 const bool inside = std::all_of(corners.begin(), corners.end(), [&](Index corner) {
-                    return faces.contains(g.cut.topology.face_of[at(corner)]);
+                    return faces.contains(g.cut.topology.face_of[corner]);
                 });
-                CHECK(interface.contains(i) == (!inside && sub_mesh.fixed[at(i)] == 0));
+                CHECK(interface.contains(i) == (!inside && sub_mesh.fixed[i] == 0));
                 if (interface.contains(i))
                     CHECK(g.first_at(g.global(s, i)) != s);
             }
@@ -128,14 +126,14 @@ TEST_CASE("halo transfers fill all that is not of the own part, from those whose
 {
     for_each_grown([](const Grown& g) {
         for (Index s = 0; s < g.cut.n_parts; ++s) {
-            const SubMesh& to = g.decomposition.sub_meshes[at(s)];
+            const SubMesh& to = g.decomposition.sub_meshes[s];
             std::vector<int> received(to.local_to_global.size(), 0);
-            for (const Transfer& transfer : g.decomposition.halo[at(s)]) {
+            for (const Transfer& transfer : g.decomposition.halo[s]) {
                 const auto& adjacent = g.decomposition.adjacency;
-                CHECK(std::binary_search(adjacent[at(s)].begin(), adjacent[at(s)].end(), transfer.from));
-                CHECK(std::binary_search(adjacent[at(transfer.from)].begin(), adjacent[at(transfer.from)].end(), s));
+                CHECK(std::binary_search(adjacent[s].begin(), adjacent[s].end(), transfer.from));
+                CHECK(std::binary_search(adjacent[transfer.from].begin(), adjacent[transfer.from].end(), s));
                 for (std::size_t k = 0; k < transfer.source.size(); ++k) {
-                    ++received[at(transfer.target[k])];
+                    ++received[transfer.target[k]];
                     CHECK(g.global(transfer.from, transfer.source[k]) == g.global(s, transfer.target[k]));
                     CHECK(g.parts_at(g.global(s, transfer.target[k])).contains(transfer.from));
                 }
@@ -150,14 +148,14 @@ TEST_CASE("traces come from the part of lowest rank where that solves before, an
 {
     for_each_grown([](const Grown& g) {
         for (Index s = 0; s < g.cut.n_parts; ++s) {
-            const auto& interface = g.decomposition.sub_meshes[at(s)].interface;
-            CHECK(g.plan.roles[at(s)] == std::vector<InterfaceRole>(interface.vertices.size(), InterfaceRole::Follows));
+            const auto& interface = g.decomposition.sub_meshes[s].interface;
+            CHECK(g.plan.roles[s] == std::vector<InterfaceRole>(interface.vertices.size(), InterfaceRole::Follows));
             std::set<std::pair<Index, Index>> expected;
             for (const Index i : interface.vertices)
-                if (const Index first = g.first_at(g.global(s, i)); g.rank[at(first)] < g.rank[at(s)])
+                if (const Index first = g.first_at(g.global(s, i)); g.rank[first] < g.rank[s])
                     expected.emplace(first, i);
             std::set<std::pair<Index, Index>> found;
-            for (const Transfer& trace : g.plan.traces[at(s)])
+            for (const Transfer& trace : g.plan.traces[s])
                 for (std::size_t k = 0; k < trace.source.size(); ++k) {
                     CHECK(g.global(trace.from, trace.source[k]) == g.global(s, trace.target[k]));
                     found.emplace(trace.from, trace.target[k]);
@@ -172,7 +170,7 @@ TEST_CASE("on the interface are the vertices that may move and have faces of sev
     std::vector<Index> labels;
     for (const CutMesh& cut : cut_meshes())
         for (Index v = 0; v < cut.mesh.n_vertices(); ++v) {
-            labels_at(cut.topology, cut.labels, v, labels);
+            labels_around(cut.topology, cut.labels, v, labels);
             CHECK(is_on_interface(cut.topology, cut.labels, v) == (cut.topology.moves(v) && labels.size() > 1));
         }
 }
@@ -186,11 +184,11 @@ TEST_CASE("growing changes neither Γ nor who speaks for a vertex")
             const auto owned = [&](const SubMesh& sub_mesh) {
                 std::set<Index> vertices;
                 for (Index i = 0; i < sub_mesh.n_vertices; ++i)
-                    if (sub_mesh.owned[at(i)] != 0)
-                        vertices.insert(sub_mesh.local_to_global[at(i)]);
+                    if (sub_mesh.owned[i] != 0)
+                        vertices.insert(sub_mesh.local_to_global[i]);
                 return vertices;
             };
-            CHECK(owned(g.decomposition.sub_meshes[at(s)]) == owned(plain.sub_meshes[at(s)]));
+            CHECK(owned(g.decomposition.sub_meshes[s]) == owned(plain.sub_meshes[s]));
         }
     });
 }

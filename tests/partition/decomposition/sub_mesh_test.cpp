@@ -28,7 +28,7 @@ std::vector<Index> to_global(const SubMesh& sub_mesh, std::span<const Index> ver
 {
     std::vector<Index> global;
     for (const Index v : vertices)
-        global.push_back(sub_mesh.local_to_global[at(v)]);
+        global.push_back(sub_mesh.local_to_global[v]);
     return global;
 }
 
@@ -46,13 +46,13 @@ std::set<Index> labels_at(const CutMesh& cut, Index v)
 {
     std::set<Index> labels;
     for (const Index corner : cut.topology.corners_at(v))
-        labels.insert(cut.labels[at(cut.topology.face_of[at(corner)])]);
+        labels.insert(cut.labels[cut.topology.face_of[corner]]);
     return labels;
 }
 
 Index label_of(const CutMesh& cut, const SubMesh& sub_mesh)
 {
-    return cut.labels[at(sub_mesh.faces.front())];
+    return cut.labels[sub_mesh.faces.front()];
 }
 
 /// The faces of other sub-meshes that touch Γ, in ascending order, as the mesh tells.
@@ -61,7 +61,7 @@ std::vector<Index> halo_faces_of(const CutMesh& cut, const SubMesh& sub_mesh)
     std::set<Index> faces;
     for (const Index v : to_global(sub_mesh, sub_mesh.interface.vertices))
         for (const Index corner : cut.topology.corners_at(v))
-            if (const Index f = cut.topology.face_of[at(corner)]; cut.labels[at(f)] != label_of(cut, sub_mesh))
+            if (const Index f = cut.topology.face_of[corner]; cut.labels[f] != label_of(cut, sub_mesh))
                 faces.insert(f);
     return {faces.begin(), faces.end()};
 }
@@ -75,7 +75,7 @@ TEST_CASE("the cuts are cuts: there are sub-meshes, interfaces and cross points 
         CAPTURE(cut.name);
         CHECK(cut.n_parts >= 2);
         for (Index v = 0; v < cut.mesh.n_vertices(); ++v)
-            if (cut.topology.kind[at(v)] == VertexKind::Interior && labels_at(cut, v).size() >= 3)
+            if (cut.topology.kind[v] == VertexKind::Interior && labels_at(cut, v).size() >= 3)
                 ++n_cross_points;
     }
     CHECK(n_cross_points > 50);
@@ -86,8 +86,8 @@ TEST_CASE("local and global vertices correspond, and own vertices are those of t
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {
         const std::span<const Index> all = sub_mesh.local_to_global;
         REQUIRE(all.size() == at(sub_mesh.n_vertices + sub_mesh.n_halo));
-        CHECK(is_ascending(all.first(at(sub_mesh.n_vertices))));
-        CHECK(is_ascending(all.subspan(at(sub_mesh.n_vertices))));
+        CHECK(is_ascending(all.first(sub_mesh.n_vertices)));
+        CHECK(is_ascending(all.subspan(sub_mesh.n_vertices)));
         std::set<Index> own;
         for (const Index f : sub_mesh.faces)
             own.insert(cut.mesh.face(f).begin(), cut.mesh.face(f).end());
@@ -96,7 +96,7 @@ TEST_CASE("local and global vertices correspond, and own vertices are those of t
             const Index local = local_index(sub_mesh, v);
             CHECK((local >= 0) == own.contains(v));
             if (local >= 0)
-                CHECK(sub_mesh.local_to_global[at(local)] == v);
+                CHECK(sub_mesh.local_to_global[local] == v);
         }
     });
 }
@@ -109,17 +109,17 @@ TEST_CASE("faces and twins are those of the mesh")
         REQUIRE(sub_mesh.twin.size() == sub_mesh.face_vertices.values.size());
         std::vector<Index> whole_halfedge;
         for (Index f = 0; f < sub_mesh.face_vertices.size(); ++f) {
-            const Index whole = sub_mesh.faces[at(f)];
+            const Index whole = sub_mesh.faces[f];
             CHECK(to_global(sub_mesh, sub_mesh.face_vertices[f]) == face_of(cut.mesh, whole));
-            for (Index h = cut.mesh.face_offsets[at(whole)]; h < cut.mesh.face_offsets[at(whole) + 1]; ++h)
+            for (Index h = cut.mesh.face_offsets[whole]; h < cut.mesh.face_offsets[whole + 1]; ++h)
                 whole_halfedge.push_back(h);
         }
         for (std::size_t h = 0; h < sub_mesh.twin.size(); ++h) {
-            const Index twin = cut.topology.twin[at(whole_halfedge[h])];
-            const bool inside = twin >= 0 && cut.labels[at(cut.topology.face_of[at(twin)])] == label_of(cut, sub_mesh);
+            const Index twin = cut.topology.twin[whole_halfedge[h]];
+            const bool inside = twin >= 0 && cut.labels[cut.topology.face_of[twin]] == label_of(cut, sub_mesh);
             REQUIRE((sub_mesh.twin[h] >= 0) == inside);
             if (inside)
-                CHECK(whole_halfedge[at(sub_mesh.twin[h])] == twin);
+                CHECK(whole_halfedge[sub_mesh.twin[h]] == twin);
         }
     });
 }
@@ -130,9 +130,9 @@ TEST_CASE("vertices are fixed, on the interface or neither, as their kind and th
         const auto& vertices = sub_mesh.interface.vertices;
         CHECK(is_ascending(vertices));
         for (Index i = 0; i < sub_mesh.n_vertices; ++i) {
-            const Index v = sub_mesh.local_to_global[at(i)];
-            const bool moves = cut.topology.kind[at(v)] == VertexKind::Interior;
-            CHECK((sub_mesh.fixed[at(i)] == 1) == !moves);
+            const Index v = sub_mesh.local_to_global[i];
+            const bool moves = cut.topology.kind[v] == VertexKind::Interior;
+            CHECK((sub_mesh.fixed[i] == 1) == !moves);
             CHECK(std::binary_search(vertices.begin(), vertices.end(), i) == (moves && labels_at(cut, v).size() > 1));
         }
     });
@@ -143,9 +143,9 @@ TEST_CASE("the sub-mesh of the lowest label speaks for a vertex that may move, a
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {
         REQUIRE(sub_mesh.owned.size() == at(sub_mesh.n_vertices));
         for (Index v = 0; v < sub_mesh.n_vertices; ++v) {
-            const Index global = sub_mesh.local_to_global[at(v)];
+            const Index global = sub_mesh.local_to_global[v];
             const bool is_lowest = *labels_at(cut, global).begin() == label_of(cut, sub_mesh);
-            CHECK((sub_mesh.owned[at(v)] != 0) == (cut.topology.moves(global) && is_lowest));
+            CHECK((sub_mesh.owned[v] != 0) == (cut.topology.moves(global) && is_lowest));
         }
     });
 }
@@ -159,17 +159,17 @@ TEST_CASE("own and complement faces of a vertex of the interface are all faces a
         const auto halo_faces = halo_faces_of(cut, sub_mesh);
         for (Index i = 0; i < interface.size(); ++i) {
             std::set<Index> expected;
-            const Index v = sub_mesh.local_to_global[at(interface.vertices[at(i)])];
+            const Index v = sub_mesh.local_to_global[interface.vertices[i]];
             for (const Index corner : cut.topology.corners_at(v))
-                expected.insert(cut.topology.face_of[at(corner)]);
+                expected.insert(cut.topology.face_of[corner]);
             std::set<Index> found;
             for (const Index f : interface.own_faces[i]) {
-                found.insert(sub_mesh.faces[at(f)]);
-                CHECK(cut.labels[at(sub_mesh.faces[at(f)])] == label_of(cut, sub_mesh));
+                found.insert(sub_mesh.faces[f]);
+                CHECK(cut.labels[sub_mesh.faces[f]] == label_of(cut, sub_mesh));
             }
             for (const Index f : interface.complement_faces[i]) {
-                found.insert(halo_faces[at(f)]);
-                CHECK(cut.labels[at(halo_faces[at(f)])] != label_of(cut, sub_mesh));
+                found.insert(halo_faces[f]);
+                CHECK(cut.labels[halo_faces[f]] != label_of(cut, sub_mesh));
             }
             CHECK(found == expected);
             CHECK(interface.own_faces[i].size() + interface.complement_faces[i].size() == expected.size());
@@ -185,7 +185,7 @@ TEST_CASE("the halo is the faces of others that touch the interface, and their v
         std::set<Index> halo;
         for (Index f = 0; f < sub_mesh.interface.halo_faces.size(); ++f) {
             const auto vertices = to_global(sub_mesh, sub_mesh.interface.halo_faces[f]);
-            CHECK(vertices == face_of(cut.mesh, halo_faces[at(f)]));
+            CHECK(vertices == face_of(cut.mesh, halo_faces[f]));
             std::copy_if(vertices.begin(), vertices.end(), std::inserter(halo, halo.end()),
                          [&](Index v) { return local_index(sub_mesh, v) < 0; });
         }
@@ -197,21 +197,20 @@ TEST_CASE("the halo is the faces of others that touch the interface, and their v
 TEST_CASE("before and after are the two neighbours along the sub-mesh's own boundary")
 {
     for_each_sub_mesh([](const CutMesh&, const SubMesh& sub_mesh) {
-        std::vector<std::set<Index>> along(at(sub_mesh.n_vertices));
+        std::vector<std::set<Index>> along(sub_mesh.n_vertices);
         for (Index f = 0; f < sub_mesh.face_vertices.size(); ++f) {
             const auto corners = sub_mesh.face_vertices[f];
             for (std::size_t k = 0; k < corners.size(); ++k)
-                if (sub_mesh.twin[at(sub_mesh.face_vertices.offsets[at(f)]) + k] < 0) {
+                if (sub_mesh.twin[sub_mesh.face_vertices.offsets[f] + k] < 0) {
                     const Index next = corners[(k + 1) % corners.size()];
-                    along[at(corners[k])].insert(next);
-                    along[at(next)].insert(corners[k]);
+                    along[corners[k]].insert(next);
+                    along[next].insert(corners[k]);
                 }
         }
         const auto& interface = sub_mesh.interface;
         for (Index i = 0; i < interface.size(); ++i) {
-            CHECK(interface.before[at(i)] != interface.after[at(i)]);
-            CHECK(along[at(interface.vertices[at(i)])] ==
-                  std::set<Index>{interface.before[at(i)], interface.after[at(i)]});
+            CHECK(interface.before[i] != interface.after[i]);
+            CHECK(along[interface.vertices[i]] == std::set<Index>{interface.before[i], interface.after[i]});
         }
     });
 }
@@ -221,10 +220,9 @@ TEST_CASE("the neighbours of a vertex of the interface are the other ends of its
     for_each_sub_mesh([](const CutMesh& cut, const SubMesh& sub_mesh) {
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             std::set<Index> expected;
-            for (const Index corner :
-                 cut.topology.corners_at(sub_mesh.local_to_global[at(sub_mesh.interface.vertices[at(i)])]))
+            for (const Index corner : cut.topology.corners_at(sub_mesh.local_to_global[sub_mesh.interface.vertices[i]]))
                 for (const Index end : {cut.topology.next(cut.mesh, corner), cut.topology.previous(cut.mesh, corner)})
-                    expected.insert(cut.mesh.face_vertices[at(end)]);
+                    expected.insert(cut.mesh.face_vertices[end]);
             const auto found = to_global(sub_mesh, sub_mesh.seam.neighbours[i]);
             CHECK(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
         }
@@ -238,7 +236,7 @@ TEST_CASE("the sub-mesh of all faces is the mesh")
     const std::vector<Index> labels(12, 0);
     std::vector<Index> faces(12);
     for (Index f = 0; f < 12; ++f)
-        faces[at(f)] = f;
+        faces[f] = f;
     const SubMesh sub_mesh = make_sub_mesh(mesh, topology, labels, faces);
     CHECK(sub_mesh.n_vertices == mesh.n_vertices());
     CHECK(sub_mesh.n_halo == 0);

@@ -30,7 +30,7 @@ std::vector<std::vector<Index>> ranks_for(const Decomposition& decomposition)
 CutMesh tube_with_large_face(Index n)
 {
     PolygonMesh mesh = cylinder(n, 3);
-    std::vector<Index> end(at(n));
+    std::vector<Index> end(n);
     std::iota(end.rbegin(), end.rend(), 0);
     mesh.add_face(end);
     return cut_by_place("tube with a large face", std::move(mesh), [](const Point& c) {
@@ -60,16 +60,16 @@ void for_each_plan(Check&& check)
 /// Who predicts the vertices of a sub-mesh's halo, found by asking for all of them at each vertex of Γ where it leads.
 std::vector<Index> senders_of_predictions(const Decomposition& decomposition, Index s, const SweepPlan& plan)
 {
-    const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
+    const SubMesh& sub_mesh = decomposition.sub_meshes[s];
     const auto& interface = sub_mesh.interface;
-    std::vector<Index> sender(at(sub_mesh.n_vertices + sub_mesh.n_halo), -1);
+    std::vector<Index> sender(sub_mesh.n_vertices + sub_mesh.n_halo, -1);
     for (Index i = 0; i < interface.size(); ++i)
         for (const Index f : interface.complement_faces[i])
             for (const Index v : interface.halo_faces[f])
                 for (const Index t : interface.sharing[i]) {
-                    Index& lowest = sender[at(v)];
-                    if (plan.roles[at(s)][at(i)] == InterfaceRole::Leads && v >= sub_mesh.n_vertices && t != s &&
-                        local_index(decomposition.sub_meshes[at(t)], sub_mesh.local_to_global[at(v)]) >= 0)
+                    Index& lowest = sender[v];
+                    if (plan.roles[s][i] == InterfaceRole::Leads && v >= sub_mesh.n_vertices && t != s &&
+                        local_index(decomposition.sub_meshes[t], sub_mesh.local_to_global[v]) >= 0)
                         lowest = lowest < 0 ? t : std::min(lowest, t);
                 }
     return sender;
@@ -81,7 +81,7 @@ Index first_at(const SubMesh& sub_mesh, Index i, const SweepPlan& plan)
     const auto sharing = sub_mesh.interface.sharing[i];
     Index first = sharing.front();
     for (const Index s : sharing)
-        if (plan.rank[at(s)] < plan.rank[at(first)])
+        if (plan.rank[s] < plan.rank[first])
             first = s;
     return first;
 }
@@ -94,13 +94,13 @@ TEST_CASE("at each vertex of the interface the sub-mesh of the lowest rank leads
         std::multiset<Index> led;
         REQUIRE(plan.roles.size() == decomposition.sub_meshes.size());
         for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
-            const SubMesh& sub_mesh = decomposition.sub_meshes[at(s)];
-            REQUIRE(plan.roles[at(s)].size() == sub_mesh.interface.vertices.size());
+            const SubMesh& sub_mesh = decomposition.sub_meshes[s];
+            REQUIRE(plan.roles[s].size() == sub_mesh.interface.vertices.size());
             for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
-                const bool leads = plan.roles[at(s)][at(i)] == InterfaceRole::Leads;
+                const bool leads = plan.roles[s][i] == InterfaceRole::Leads;
                 CHECK(leads == (first_at(sub_mesh, i, plan) == s));
                 if (leads)
-                    led.insert(sub_mesh.local_to_global[at(sub_mesh.interface.vertices[at(i)])]);
+                    led.insert(sub_mesh.local_to_global[sub_mesh.interface.vertices[i]]);
             }
         }
         CHECK(led.size() == at(decomposition.n_interface_vertices));
@@ -113,25 +113,25 @@ TEST_CASE("traces bring each following vertex its position from the leader, and 
     for_each_plan([](const Decomposition& decomposition, const SweepPlan& plan) {
         REQUIRE(plan.traces.size() == decomposition.sub_meshes.size());
         for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
-            const SubMesh& to = decomposition.sub_meshes[at(s)];
-            std::vector<Index> sender(at(to.n_vertices), -1);
+            const SubMesh& to = decomposition.sub_meshes[s];
+            std::vector<Index> sender(to.n_vertices, -1);
             Index previous = -1;
-            for (const Transfer& trace : plan.traces[at(s)]) {
+            for (const Transfer& trace : plan.traces[s]) {
                 CHECK(trace.to == s);
                 CHECK(trace.from > previous);
                 previous = trace.from;
-                CHECK(plan.rank[at(trace.from)] < plan.rank[at(s)]);
-                const SubMesh& from = decomposition.sub_meshes[at(trace.from)];
+                CHECK(plan.rank[trace.from] < plan.rank[s]);
+                const SubMesh& from = decomposition.sub_meshes[trace.from];
                 REQUIRE(trace.source.size() == trace.target.size());
                 for (std::size_t k = 0; k < trace.source.size(); ++k) {
-                    CHECK(from.local_to_global[at(trace.source[k])] == to.local_to_global[at(trace.target[k])]);
-                    CHECK(sender[at(trace.target[k])] == -1);
-                    sender[at(trace.target[k])] = trace.from;
+                    CHECK(from.local_to_global[trace.source[k]] == to.local_to_global[trace.target[k]]);
+                    CHECK(sender[trace.target[k]] == -1);
+                    sender[trace.target[k]] = trace.from;
                 }
             }
             for (Index i = 0; i < to.interface.size(); ++i) {
                 const Index first = first_at(to, i, plan);
-                Index& found = sender[at(to.interface.vertices[at(i)])];
+                Index& found = sender[to.interface.vertices[i]];
                 CHECK(found == (first == s ? -1 : first));
                 found = -1;
             }
@@ -144,15 +144,14 @@ TEST_CASE("predictions bring each vertex beyond a led one from the lowest sub-me
 {
     for_each_plan([](const Decomposition& decomposition, const SweepPlan& plan) {
         for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
-            const SubMesh& to = decomposition.sub_meshes[at(s)];
-            std::vector<Index> sender(at(to.n_vertices + to.n_halo), -1);
-            for (const Transfer& prediction : plan.predictions[at(s)]) {
-                const SubMesh& from = decomposition.sub_meshes[at(prediction.from)];
+            const SubMesh& to = decomposition.sub_meshes[s];
+            std::vector<Index> sender(to.n_vertices + to.n_halo, -1);
+            for (const Transfer& prediction : plan.predictions[s]) {
+                const SubMesh& from = decomposition.sub_meshes[prediction.from];
                 for (std::size_t k = 0; k < prediction.source.size(); ++k) {
-                    CHECK(from.local_to_global[at(prediction.source[k])] ==
-                          to.local_to_global[at(prediction.target[k])]);
-                    CHECK(sender[at(prediction.target[k])] == -1);
-                    sender[at(prediction.target[k])] = prediction.from;
+                    CHECK(from.local_to_global[prediction.source[k]] == to.local_to_global[prediction.target[k]]);
+                    CHECK(sender[prediction.target[k]] == -1);
+                    sender[prediction.target[k]] = prediction.from;
                 }
             }
             CHECK(sender == senders_of_predictions(decomposition, s, plan));
@@ -172,18 +171,17 @@ TEST_CASE("in a mutual sweep everyone leads, and every other copy of a vertex of
                               [](InterfaceRole role) { return role == InterfaceRole::Leads; }));
             CHECK(plan.roles[s].size() == at(sub_mesh.interface.size()));
             CHECK(plan.traces[s].empty());
-            std::vector<Index> arrived(at(sub_mesh.n_vertices), 0);
+            std::vector<Index> arrived(sub_mesh.n_vertices, 0);
             for (const Transfer& copies : plan.copies[s]) {
                 CHECK(copies.to == static_cast<Index>(s));
-                const SubMesh& sender = decomposition.sub_meshes[at(copies.from)];
+                const SubMesh& sender = decomposition.sub_meshes[copies.from];
                 for (std::size_t i = 0; i < copies.source.size(); ++i) {
-                    CHECK(sender.local_to_global[at(copies.source[i])] ==
-                          sub_mesh.local_to_global[at(copies.target[i])]);
-                    ++arrived[at(copies.target[i])];
+                    CHECK(sender.local_to_global[copies.source[i]] == sub_mesh.local_to_global[copies.target[i]]);
+                    ++arrived[copies.target[i]];
                 }
             }
             for (Index i = 0; i < sub_mesh.interface.size(); ++i)
-                CHECK(arrived[at(sub_mesh.interface.vertices[at(i)])] ==
+                CHECK(arrived[sub_mesh.interface.vertices[i]] ==
                       static_cast<Index>(sub_mesh.interface.sharing[i].size()) - 1);
         }
     }

@@ -13,6 +13,16 @@ using namespace seamflow::test;
 
 namespace {
 
+/// Whether any of the lists holds something, or the mesh cannot be oriented.
+bool has_findings(const MeshInspection& found)
+{
+    return !found.orientable ||
+           !(found.vertices_not_finite.empty() && found.non_manifold_edges.empty() &&
+             found.non_manifold_vertices.empty() && found.inconsistent_edges.empty() && found.duplicate_faces.empty() &&
+             found.faces_without_area.empty() && found.edges_without_length.empty() &&
+             found.coincident_vertices.empty() && found.isolated_vertices.empty());
+}
+
 MeshInspection inspected(const PolygonMesh& mesh)
 {
     return inspect(mesh, make_topology(mesh));
@@ -29,7 +39,7 @@ TEST_CASE("a sound mesh is counted and measured, without findings")
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         mesh.vertices.row(v) = Point(v % 5, v / 5, 0.0);
     const MeshInspection found = inspected(mesh);
-    CHECK_FALSE(found.has_findings());
+    CHECK_FALSE(has_findings(found));
     CHECK(found.vertices == 20);
     CHECK(found.faces == 12);
     CHECK(found.edges == 31);
@@ -51,7 +61,7 @@ TEST_CASE("what is not manifold is listed")
     const MeshInspection wings = inspected(three_wings());
     CHECK(wings.non_manifold_edges.size() == 1);
     CHECK(wings.non_manifold_vertices.size() == 2);
-    CHECK(wings.has_findings());
+    CHECK(has_findings(wings));
     const MeshInspection glass = inspected(hourglass());
     CHECK(glass.non_manifold_edges.empty());
     CHECK(glass.non_manifold_vertices.size() == 1);
@@ -71,7 +81,7 @@ TEST_CASE("edges whose faces run against each other are listed, and what can be 
     CHECK(found.orientable);
     const MeshInspection band = inspected(moebius_band(12, 3));
     CHECK_FALSE(band.orientable);
-    CHECK(band.has_findings());
+    CHECK(has_findings(band));
 }
 
 TEST_CASE("repetitions are listed, not what they repeat")
@@ -118,7 +128,7 @@ TEST_CASE("vertices that are nowhere are listed, and the rest is measured")
     mesh.vertices(10, 1) = nan;
     const MeshInspection found = inspected(mesh);
     CHECK(found.vertices_not_finite == Numbers{5, 6, 10});
-    CHECK(found.has_findings());
+    CHECK(has_findings(found));
     CHECK(found.edges_without_length.empty());
     CHECK(found.faces_without_area.empty());
     CHECK(found.coincident_vertices.empty());
@@ -128,5 +138,5 @@ TEST_CASE("vertices that are nowhere are listed, and the rest is measured")
 
 TEST_CASE("nothing is found where there is nothing")
 {
-    CHECK_FALSE(inspected(PolygonMesh{}).has_findings());
+    CHECK_FALSE(has_findings(inspected(PolygonMesh{})));
 }

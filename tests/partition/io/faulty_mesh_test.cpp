@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/test_meshes.h"
 
@@ -15,16 +15,16 @@ using namespace seamflow;
 
 namespace {
 
-struct Reading {
+struct FaultyReading {
     PolygonMesh mesh;
     FaultLog faults;
 };
 
-Reading read_text(const std::string& name, const std::string& text)
+FaultyReading read_faulty(const std::string& name, const std::string& text)
 {
     const test::TemporaryDirectory directory;
     std::ofstream(directory / name, std::ios::binary) << text;
-    Reading reading;
+    FaultyReading reading;
     reading.mesh = read_faulty_mesh(directory / name, reading.faults).mesh;
     CHECK_THROWS_AS(read_mesh(directory / name), InputError);
     return reading;
@@ -43,9 +43,9 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST_CASE("OBJ: faces with faults are left out, vertices keep their numbers")
 {
-    const Reading reading =
-        read_text("a.obj", "v 0 0 0\nv nan 0 0\nv 1 inf 0\nv 0 1 x\nf 1 2 3\nf 1 2\nf 1 1 2\nf 1 2 9\n"
-                           "f 0 1 2\nf -9 1 2\nf 2 3 4\n");
+    const FaultyReading reading =
+        read_faulty("a.obj", "v 0 0 0\nv nan 0 0\nv 1 inf 0\nv 0 1 x\nf 1 2 3\nf 1 2\nf 1 1 2\nf 1 2 9\n"
+                             "f 0 1 2\nf -9 1 2\nf 2 3 4\n");
     CHECK(reading.mesh.n_vertices() == 4);
     CHECK(std::isnan(reading.mesh.vertices(1, 0)));
     CHECK(reading.mesh.vertices(2, 0) == 1.0);
@@ -62,14 +62,14 @@ TEST_CASE("OBJ: faces with faults are left out, vertices keep their numbers")
 
 TEST_CASE("OFF and PLY: the same")
 {
-    const Reading off = read_text("a.off", "OFF\n3 3 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n3 0 1 7\n2 0 1\n");
+    const FaultyReading off = read_faulty("a.off", "OFF\n3 3 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n3 0 1 7\n2 0 1\n");
     CHECK(off.faults.count == 3);
     CHECK(off.mesh.n_vertices() == 3);
     CHECK(off.mesh.n_faces() == 1);
     const std::string header =
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
         "z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
-    const Reading ply = read_text("a.ply", header + "0 0 0\n1 0 0\n0 -inf 0\n3 0 1 2\n4 0 1 2 1\n");
+    const FaultyReading ply = read_faulty("a.ply", header + "0 0 0\n1 0 0\n0 -inf 0\n3 0 1 2\n4 0 1 2 1\n");
     CHECK(ply.faults.count == 2);
     CHECK(ply.mesh.n_faces() == 1);
 }
@@ -78,8 +78,8 @@ TEST_CASE("STL: facets whose corners coincide are left out")
 {
     const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex ";
     const std::string end = "\nendloop\nendfacet\n";
-    const Reading reading = read_text("a.stl", "solid\n" + facet + "0 1 0" + end + facet + "1 0 0" + end + facet +
-                                                   "0 nan 0" + end + "endsolid\n");
+    const FaultyReading reading = read_faulty("a.stl", "solid\n" + facet + "0 1 0" + end + facet + "1 0 0" + end +
+                                                           facet + "0 nan 0" + end + "endsolid\n");
     CHECK(reading.faults.count == 2);
     CHECK(reading.mesh.n_faces() == 2);
     CHECK(reading.mesh.n_vertices() == 4);
@@ -124,7 +124,7 @@ TEST_CASE("messages are kept up to a number, and all faults are counted")
     std::string text = square;
     for (int i = 0; i < 2000; ++i)
         text += "f 1 1 2\n";
-    const Reading reading = read_text("a.obj", text);
+    const FaultyReading reading = read_faulty("a.obj", text);
     CHECK(reading.faults.count == 2000);
     CHECK(reading.faults.messages.size() == FaultLog::most_messages);
 }

@@ -64,7 +64,7 @@ bool same_corners(const PolygonMesh& a, const PolygonMesh& b)
     if (a.face_offsets != b.face_offsets)
         return false;
     for (Index c = 0; c < a.n_corners(); ++c)
-        if (a.vertices.row(a.face_vertices[at(c)]) != b.vertices.row(b.face_vertices[at(c)]))
+        if (a.vertices.row(a.face_vertices[c]) != b.vertices.row(b.face_vertices[c]))
             return false;
     return true;
 }

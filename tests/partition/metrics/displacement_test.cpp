@@ -51,9 +51,9 @@ TEST_CASE("a disc that leaves its plane moves normally only, with the sign of it
     const DisplacementField field = displacement_field(disc, disc.vertices, after);
     const DisplacementField back = displacement_field(disc, after, disc.vertices);
     for (Index v = 0; v < disc.n_vertices(); ++v) {
-        CHECK(field.tangential[at(v)] == 0.0);
-        CHECK(std::abs(field.normal[at(v)]) == 0.75);
-        CHECK(back.normal[at(v)] == -field.normal[at(v)]);
+        CHECK(field.tangential[v] == 0.0);
+        CHECK(std::abs(field.normal[v]) == 0.75);
+        CHECK(back.normal[v] == -field.normal[v]);
     }
 }
 

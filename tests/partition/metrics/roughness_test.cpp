@@ -16,15 +16,15 @@ namespace {
 /// The positions with every other vertex lifted, so that neighbours differ by this height.
 Points lifted(const PolygonMesh& mesh, double height)
 {
-    std::vector<int> sides(at(mesh.n_vertices()), -1);
+    std::vector<int> sides(mesh.n_vertices(), -1);
     sides[0] = 0;
     for (bool found = true; found;) {
         found = false;
         for (Index f = 0; f < mesh.n_faces(); ++f) {
             const auto face = mesh.face(f);
             for (std::size_t k = 0; k < 2 * face.size(); ++k) {
-                int& next = sides[at(face[(k + 1) % face.size()])];
-                const int here = sides[at(face[k % face.size()])];
+                int& next = sides[face[(k + 1) % face.size()]];
+                const int here = sides[face[k % face.size()]];
                 if (here >= 0 && next < 0) {
                     next = 1 - here;
                     found = true;
@@ -34,7 +34,7 @@ Points lifted(const PolygonMesh& mesh, double height)
     }
     Points positions = mesh.vertices;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        positions(v, 2) += height * sides[at(v)];
+        positions(v, 2) += height * sides[v];
     return positions;
 }
 

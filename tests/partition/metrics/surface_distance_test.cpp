@@ -74,7 +74,7 @@ void check_against_brute_force(const PolygonMesh& surface, const Points& points)
     const auto distances = SurfaceDistance(surface)(points);
     REQUIRE(distances.size() == static_cast<std::size_t>(points.rows()));
     for (Index v = 0; v < points.rows(); ++v)
-        CHECK(distances[at(v)] == doctest::Approx(brute_force(points.row(v), surface)).epsilon(1e-9));
+        CHECK(distances[v] == doctest::Approx(brute_force(points.row(v), surface)).epsilon(1e-9));
 }
 
 PolygonMesh moved(PolygonMesh mesh, const Point& by)

@@ -27,9 +27,9 @@ std::set<Triangle> triangles_of(std::vector<Index> corners, const Points& positi
 
 std::vector<Index> in_order(Index n)
 {
-    std::vector<Index> corners(at(n));
+    std::vector<Index> corners(n);
     for (Index k = 0; k < n; ++k)
-        corners[at(k)] = k;
+        corners[k] = k;
     return corners;
 }
 

@@ -26,8 +26,8 @@ PolygonMesh with_turned_faces(const PolygonMesh& mesh)
 {
     PolygonMesh turned = mesh;
     for (Index f = 0; f < mesh.n_faces(); f += 3)
-        std::reverse(turned.face_vertices.begin() + mesh.face_offsets[at(f)],
-                     turned.face_vertices.begin() + mesh.face_offsets[at(f) + 1]);
+        std::reverse(turned.face_vertices.begin() + mesh.face_offsets[f],
+                     turned.face_vertices.begin() + mesh.face_offsets[f + 1]);
     return turned;
 }
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "partition/metrics/roughness.h"
 #include "partition/topology.h"
 #include "samples/common/meshes.h"
@@ -63,14 +63,14 @@ TEST_CASE("the authors' parameters are for their own mesh")
     const Experiment teaser = small("teaser");
     FigureMesh mesh = load(teaser.source, {});
     const Variant halves = teaser.variants.back();
-    CHECK_FALSE(options_of(teaser, halves, mesh).p);
-    CHECK(options_of(teaser, halves, mesh).correction == FlowOptions::plain().correction);
+    CHECK_FALSE(options_of(teaser, halves, mesh).interface.p);
+    CHECK(options_of(teaser, halves, mesh).interface.correction == FlowOptions::plain().interface.correction);
     mesh.authors = teaser.source.authors;
     const FlowOptions options = options_of(teaser, halves, mesh);
-    CHECK(options.p == 6.2993055940947205);
-    CHECK(options.coloring == Coloring::Label);
-    CHECK(options.correction == Correction::None);
-    CHECK(options.sweep == Sweep::Fixed);
+    CHECK(options.interface.p == 6.2993055940947205);
+    CHECK(options.interface.coloring == Coloring::Label);
+    CHECK(options.interface.correction == Correction::None);
+    CHECK(options.interface.sweep == Sweep::Fixed);
     CHECK(
         command_of(teaser, halves, mesh) ==
         "smooth teaser-input.ply out.ply --laplacian ptackova-velho --time-step 0.05 --steps 5 --labels teaser-cut.txt "
@@ -79,9 +79,9 @@ TEST_CASE("the authors' parameters are for their own mesh")
     const Experiment hexagons = small("hexagons");
     mesh.authors = hexagons.source.authors;
     const FlowOptions others = options_of(hexagons, hexagons.variants.back(), mesh);
-    CHECK(others.p == 54.2606704480561);
-    CHECK(others.coloring == Coloring::Greedy);
-    CHECK(others.correction == FlowOptions::plain().correction);
+    CHECK(others.interface.p == 54.2606704480561);
+    CHECK(others.interface.coloring == Coloring::Greedy);
+    CHECK(others.interface.correction == FlowOptions::plain().interface.correction);
 }
 
 TEST_CASE("generated meshes are cut by rows")
@@ -119,8 +119,8 @@ TEST_CASE("three edges meet at the vertices of generated polygons")
     const PolygonMesh mesh = polygons_with_bumps(2000);
     const Topology topology = make_topology(mesh);
     for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        CHECK(topology.kind[at(v)] != VertexKind::NonManifold);
-        if (topology.kind[at(v)] == VertexKind::Interior)
+        CHECK(topology.kind[v] != VertexKind::NonManifold);
+        if (topology.kind[v] == VertexKind::Interior)
             CHECK(topology.corners_at(v).size() == 3);
     }
 }

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/io/mesh_io.h"
+#include "partition/formats/mesh_io.h"
 #include "samples/figures/claims.h"
 #include "samples/figures/index_page.h"
 #include "tests/samples/figures/made_up.h"

@@ -24,9 +24,9 @@ PageFlow make_flow(bool undecomposed, const std::string& input = "torus.obj")
     FlowOptions options;
     options.time_step = 0.01;
     options.steps = 3;
-    options.subdomains = 4;
-    options.reference = undecomposed;
-    options.approach = Approach::Sweep;
+    options.cut.subdomains = 4;
+    options.report.reference = undecomposed;
+    options.accuracy.approach = Approach::Sweep;
     PageFlow flow(std::make_shared<const PageMesh>(mesh), "flow", options.laplacian, options.steps, undecomposed);
     const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
         flow.add_step(state.step, state.positions, state.reference_positions);

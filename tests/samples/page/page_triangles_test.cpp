@@ -53,7 +53,7 @@ TEST_CASE("a face of n sides is n - 2 triangles of its corners")
         std::size_t t = 0;
         for (Index f = 0; f < mesh.n_faces(); ++f) {
             const auto face = mesh.face(f);
-            CHECK(triangles.per_face[at(f)] == face.size() - 2);
+            CHECK(triangles.per_face[f] == face.size() - 2);
             for (std::size_t corner = 3 * t; corner < 3 * (t + face.size() - 2); ++corner)
                 CHECK(std::find(face.begin(), face.end(), static_cast<Index>(triangles.corners[corner])) != face.end());
             t += face.size() - 2;

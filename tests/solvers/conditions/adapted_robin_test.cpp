@@ -40,11 +40,11 @@ TEST_CASE("the row is (I + dt p ∂n) and the right-hand side (I - dt p ∂n) of
                     continue;
                 std::vector<double> row(stencils.columns[i].size());
                 std::vector<double> normal(row.size());
-                const Point v = positions.row(sub_mesh.interface.vertices[at(i)]);
+                const Point v = positions.row(sub_mesh.interface.vertices[i]);
                 const Point right = row_of(condition, i, positions, row);
                 normal_derivative_row(sub_mesh, stencils, i, *own, normal);
                 CHECK((right - (v - dt_p * other->direction)).norm() < 1e-14 * (1.0 + v.norm()));
-                const auto centre = at(stencils.centre[at(i)]);
+                const auto centre = at(stencils.centre[i]);
                 for (std::size_t k = 0; k < row.size(); ++k)
                     CHECK(row[k] == dt_p * normal[k] + (k == centre ? 1.0 : 0.0));
             }
@@ -88,7 +88,7 @@ class Crossing {
     /// @param s 0: the side that is moved is the sub-mesh's own; 1: it is the other.
     [[nodiscard]] bool is_well_defined(Index s, const Move& move) const
     {
-        const SubMesh& sub_mesh = decomposition_.sub_meshes[at(s)];
+        const SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         Points positions = localised(sub_mesh, cut_.mesh.vertices);
         const auto& vertices = sub_mesh.interface.vertices;
         const auto origin =
@@ -173,9 +173,9 @@ TEST_CASE("p = 0 and a missing conormal on either side leave the vertex where it
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             std::vector<double> row(stencils.columns[i].size(), 99.0);
             const Point right = row_of(condition, i, positions, row);
-            CHECK(right == positions.row(sub_mesh.interface.vertices[at(i)]));
+            CHECK(right == positions.row(sub_mesh.interface.vertices[i]));
             for (std::size_t k = 0; k < row.size(); ++k)
-                CHECK(row[k] == (k == at(stencils.centre[at(i)]) ? 1.0 : 0.0));
+                CHECK(row[k] == (k == at(stencils.centre[i]) ? 1.0 : 0.0));
         }
     };
     check_stays(flat, 0.0);

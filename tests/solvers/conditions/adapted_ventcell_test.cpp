@@ -2,7 +2,7 @@
 
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/adapted_ventcell.h"
-#include "solvers/interface/derivatives.h"
+#include "solvers/conditions/derivatives.h"
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 

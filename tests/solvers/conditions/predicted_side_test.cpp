@@ -12,7 +12,7 @@ using namespace seamflow::test;
 
 namespace {
 
-constexpr double time_step = 0.05;
+constexpr double predicted_time_step = 0.05;
 
 /// Largest residual of all rows of a condition where nothing moves.
 double largest_residual_at_rest(const CutMesh& cut, Laplacian laplacian)
@@ -22,7 +22,7 @@ double largest_residual_at_rest(const CutMesh& cut, Laplacian laplacian)
     for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
         const Points positions = localised(sub_mesh, cut.mesh.vertices);
         const auto condition = make_predicted_side(sub_mesh, laplacian);
-        condition->begin_step(positions, positions, time_step, 2.0);
+        condition->begin_step(positions, positions, predicted_time_step, 2.0);
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             std::vector<double> row;
             const Point right = row_of(*condition, i, positions, row);
@@ -52,17 +52,17 @@ TEST_CASE("the row at a vertex without prediction is the row of the undecomposed
     const SubMesh& sub_mesh = decomposition.sub_meshes.front();
     const Points positions = localised(sub_mesh, cut.mesh.vertices);
     const auto condition = make_predicted_side(sub_mesh, Laplacian::Fujiwara);
-    condition->begin_step(positions, positions, time_step, 2.0);
-    const double rho = std::exp(-std::acosh(1.0 + 0.5 / time_step));
+    condition->begin_step(positions, positions, predicted_time_step, 2.0);
+    const double rho = std::exp(-std::acosh(1.0 + 0.5 / predicted_time_step));
     for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
         std::vector<double> row;
         row_of(*condition, i, positions, row);
         double diagonal = 0.0;
         double others = 0.0;
         for (std::size_t k = 0; k < row.size(); ++k)
-            (condition->columns()[i][k] == sub_mesh.interface.vertices[at(i)] ? diagonal : others) += row[k];
-        CHECK(diagonal == doctest::Approx(1.0 + time_step * (4.0 - rho)).epsilon(1e-12));
-        CHECK(others == doctest::Approx(-3.0 * time_step).epsilon(1e-12));
+            (condition->columns()[i][k] == sub_mesh.interface.vertices[i] ? diagonal : others) += row[k];
+        CHECK(diagonal == doctest::Approx(1.0 + predicted_time_step * (4.0 - rho)).epsilon(1e-12));
+        CHECK(others == doctest::Approx(-3.0 * predicted_time_step).epsilon(1e-12));
     }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("what is predicted of the other side moves the right-hand side, and no
             const SubMesh& sub_mesh = decomposition.sub_meshes.front();
             const Points positions = localised(sub_mesh, cut.mesh.vertices);
             const auto condition = make_predicted_side(sub_mesh, laplacian);
-            condition->begin_step(positions, positions, time_step, 2.0);
+            condition->begin_step(positions, positions, predicted_time_step, 2.0);
             Points lifted = positions;
             lifted.bottomRows(sub_mesh.n_halo).col(2).array() += 1.0;
             int lifted_rows = 0;

@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "solvers/conditions/derivatives.h"
 #include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
-#include "solvers/interface/derivatives.h"
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -14,8 +14,8 @@ using namespace seamflow::test;
 
 namespace {
 
-constexpr double time_step = 0.02;
-constexpr double p = 5.0;
+constexpr double ventcell_time_step = 0.02;
+constexpr double ventcell_p = 5.0;
 
 /// Positions of another copy of Γ, and of what lies beyond.
 Points other_copy(const Points& positions)
@@ -39,7 +39,7 @@ TEST_CASE("the classical right-hand side is the row of the other side, made of t
                 const Points other = other_copy(positions);
                 const Points later = other_copy(other);
                 const auto condition = q == 0.0 ? make_robin(sub_mesh) : make_ventcell(sub_mesh, q);
-                condition->begin_step(positions, other, time_step, p);
+                condition->begin_step(positions, other, ventcell_time_step, ventcell_p);
                 for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
                     const auto conormal = complement_conormal(sub_mesh, i, other);
                     if (!conormal || !own_conormal(sub_mesh, i, positions))
@@ -47,8 +47,9 @@ TEST_CASE("the classical right-hand side is the row of the other side, made of t
                     const Point normal = complement_normal_derivative(sub_mesh, i, *conormal, later);
                     const Point tangential =
                         tangential_derivative(sub_mesh, i, tangential_weights(sub_mesh, i, other), later);
-                    const Point v = later.row(sub_mesh.interface.vertices[at(i)]);
-                    const Point expected = v - time_step * p * normal + time_step * q * tangential;
+                    const Point v = later.row(sub_mesh.interface.vertices[i]);
+                    const Point expected =
+                        v - ventcell_time_step * ventcell_p * normal + ventcell_time_step * q * tangential;
                     CHECK((condition->right_hand_side(i, positions, later) - expected).norm() < 1e-13);
                 }
             }
@@ -65,21 +66,22 @@ TEST_CASE("the classical left-hand side is I + dt (p ∂n + q ∂t) of the sub-m
             const Points positions = localised(sub_mesh, cut.mesh.vertices);
             const auto robin = make_robin(sub_mesh);
             const auto ventcell = make_ventcell(sub_mesh, q);
-            robin->begin_step(positions, other_copy(positions), time_step, p);
-            ventcell->begin_step(positions, other_copy(positions), time_step, p);
+            robin->begin_step(positions, other_copy(positions), ventcell_time_step, ventcell_p);
+            ventcell->begin_step(positions, other_copy(positions), ventcell_time_step, ventcell_p);
             for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
                 const auto conormal = own_conormal(sub_mesh, i, positions);
                 if (!conormal || !complement_conormal(sub_mesh, i, other_copy(positions)))
                     continue;
                 std::vector<double> row;
-                const Point v = positions.row(sub_mesh.interface.vertices[at(i)]);
+                const Point v = positions.row(sub_mesh.interface.vertices[i]);
                 row_of(*robin, i, positions, row);
                 const Point after_robin = applied(robin->columns()[i], row, positions);
-                CHECK((after_robin - v - time_step * p * conormal->direction).norm() < 1e-12);
+                CHECK((after_robin - v - ventcell_time_step * ventcell_p * conormal->direction).norm() < 1e-12);
                 row_of(*ventcell, i, positions, row);
                 const Point tangential =
                     tangential_derivative(sub_mesh, i, tangential_weights(sub_mesh, i, positions), positions);
-                CHECK((applied(ventcell->columns()[i], row, positions) - after_robin - time_step * q * tangential)
+                CHECK((applied(ventcell->columns()[i], row, positions) - after_robin -
+                       ventcell_time_step * q * tangential)
                           .norm() < 1e-12);
             }
         }
@@ -96,7 +98,7 @@ TEST_CASE("without a conormal the other side's copy is taken over")
     Points positions = localised(sub_mesh, cut.mesh.vertices);
     const Points other = other_copy(positions);
     positions.topRows(sub_mesh.n_vertices).col(0).setConstant(4.0);
-    robin->begin_step(positions, other, time_step, p);
+    robin->begin_step(positions, other, ventcell_time_step, ventcell_p);
     for (Index i = 0; i < sub_mesh.interface.size(); ++i)
-        CHECK(robin->right_hand_side(i, positions, other) == other.row(sub_mesh.interface.vertices[at(i)]));
+        CHECK(robin->right_hand_side(i, positions, other) == other.row(sub_mesh.interface.vertices[i]));
 }

@@ -20,11 +20,11 @@ Points product(const InterfaceCopies& copies, const std::vector<const NeumannSys
     for (Index s = 0; s < copies.n_sub_meshes(); ++s) {
         Points local(copies.n_in(s), 3);
         for (Index i = 0; i < copies.n_in(s); ++i)
-            local.row(i) = x.row(copies.vertex[at(copies.first[at(s)] + i)]);
+            local.row(i) = x.row(copies.vertex[copies.first[s] + i]);
         Points share = Points::Zero(copies.n_in(s), 3);
-        systems[at(s)]->subtract_schur(local, share);
+        systems[s]->subtract_schur(local, share);
         for (Index i = 0; i < copies.n_in(s); ++i)
-            result.row(copies.vertex[at(copies.first[at(s)] + i)]) -= share.row(i);
+            result.row(copies.vertex[copies.first[s] + i]) -= share.row(i);
     }
     return result;
 }
@@ -47,17 +47,17 @@ TEST_CASE("what is left of the residual after the correction has no part along a
             systems.back()->assemble(localised(sub_mesh, cut.mesh.vertices), 0.05, workspace);
             systems.back()->factorise(workspace);
         }
-        std::vector<double> weights(at(copies.n_copies()));
+        std::vector<double> weights(copies.n_copies());
         std::map<std::vector<Index>, Index> stretches;
         for (Index v = 0; v < copies.n_vertices(); ++v) {
             double sum = 0.0;
             std::vector<Index> sharing;
             for (const Index copy : copies.of_vertex[v]) {
-                sum += weights[at(copy)] = 1.5 + random.symmetric();
-                sharing.push_back(copies.sub_mesh[at(copy)]);
+                sum += weights[copy] = 1.5 + random.symmetric();
+                sharing.push_back(copies.sub_mesh[copy]);
             }
             for (const Index copy : copies.of_vertex[v])
-                weights[at(copy)] /= sum;
+                weights[copy] /= sum;
             ++stretches[sharing];
         }
         CoarseSpace coarse(copies);
@@ -78,10 +78,10 @@ TEST_CASE("what is left of the residual after the correction has no part along a
         for (Index v = 0; v < copies.n_vertices(); ++v) {
             std::vector<Index> sharing;
             for (const Index copy : copies.of_vertex[v])
-                sharing.push_back(copies.sub_mesh[at(copy)]);
+                sharing.push_back(copies.sub_mesh[copy]);
             for (const Index copy : copies.of_vertex[v])
-                sums.try_emplace({sharing, copies.sub_mesh[at(copy)]}, Point::Zero()).first->second +=
-                    weights[at(copy)] * left.row(v);
+                sums.try_emplace({sharing, copies.sub_mesh[copy]}, Point::Zero()).first->second +=
+                    weights[copy] * left.row(v);
         }
         for (const auto& [piece, sum] : sums)
             CHECK(sum.norm() < 2e-4 * left.norm());

@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 
 #include "samples/common/meshes.h"
-#include "solvers/laplacian/vertex_areas.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
 #include "tests/support/reference_data.h"
@@ -22,9 +20,8 @@ std::map<Index, Row> rows_of(const LaplacianMatrix& matrix)
 {
     std::map<Index, Row> rows;
     for (Index column = 0; column < matrix.pattern.n(); ++column)
-        for (Index i = matrix.pattern.column_offsets[at(column)]; i < matrix.pattern.column_offsets[at(column) + 1];
-             ++i)
-            rows[matrix.pattern.rows[at(i)]][column] = matrix.values[at(i)];
+        for (Index i = matrix.pattern.column_offsets[column]; i < matrix.pattern.column_offsets[column + 1]; ++i)
+            rows[matrix.pattern.rows[i]][column] = matrix.values[i];
     return rows;
 }
 
@@ -33,17 +30,24 @@ double largest(const Eigen::MatrixXd& matrix)
     return matrix.cwiseAbs().maxCoeff();
 }
 
-struct Areas {
-    std::vector<double> of_faces;
-    Eigen::VectorXd of_vertices;
-};
-
-Areas areas_of(const NamedMesh& m)
+/// M_v of all vertices.
+Eigen::VectorXd masses(Laplacian laplacian, const NamedMesh& m)
 {
-    Areas areas{std::vector<double>(at(m.mesh.n_faces())), Eigen::VectorXd(m.mesh.n_vertices())};
-    measure_areas(faces_of(m.mesh, m.topology), m.mesh.vertices, areas.of_faces,
-                  std::span<double>(areas.of_vertices.data(), at(m.mesh.n_vertices())));
-    return areas;
+    const auto assembler = make_assembler(laplacian, faces_of(m.mesh, m.topology));
+    double unread = 0.0;
+    assembler->add(m.mesh.vertices, 1.0, std::vector<Index>(assembler->entries().size(), 0), {&unread, 1});
+    Eigen::VectorXd masses(m.mesh.n_vertices());
+    for (Index v = 0; v < m.mesh.n_vertices(); ++v)
+        masses(v) = assembler->mass(v);
+    return masses;
+}
+
+double area_of(const PolygonMesh& mesh)
+{
+    double sum = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        sum += area(mesh.face(f), mesh.vertices);
+    return sum;
 }
 
 /// Length of the edges at each vertex over their number, edges on the boundary counted half.
@@ -52,8 +56,8 @@ Eigen::VectorXd mean_lengths(const NamedMesh& m)
     Eigen::VectorXd length = Eigen::VectorXd::Zero(m.mesh.n_vertices());
     Eigen::VectorXd count = length;
     for (Index h = 0; h < m.mesh.n_corners(); ++h) {
-        const Index start = m.mesh.face_vertices[at(h)];
-        const Index end = m.mesh.face_vertices[at(m.topology.next(m.mesh, h))];
+        const Index start = m.mesh.face_vertices[h];
+        const Index end = m.mesh.face_vertices[m.topology.next(m.mesh, h)];
         for (const Index v : {start, end}) {
             length(v) += (m.mesh.vertices.row(end) - m.mesh.vertices.row(start)).norm();
             count(v) += 1.0;
@@ -92,7 +96,7 @@ double applied_to_linear_functions(Laplacian laplacian, const PolygonMesh& mesh)
     const Points result = dense_laplacian(laplacian, mesh, topology) * mesh.vertices;
     double most = 0.0;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (topology.kind[at(v)] == VertexKind::Interior)
+        if (topology.kind[v] == VertexKind::Interior)
             most = std::max(most, result.row(v).norm());
     return most;
 }
@@ -175,15 +179,26 @@ TEST_CASE("with areas linear functions are in the kernel on any flat mesh")
 
 TEST_CASE("the areas of the vertices sum to the area of the mesh")
 {
+    for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho}) {
+        CAPTURE(name_of(laplacian));
+        for (const NamedMesh& m : sound_meshes()) {
+            CAPTURE(m.name);
+            const Eigen::VectorXd areas = masses(laplacian, m);
+            CHECK(areas.sum() == Approx(area_of(m.mesh)).epsilon(1e-13));
+            CHECK(areas.minCoeff() > 0.0);
+        }
+        CHECK(masses(laplacian, named("", quad_grid(5, 4))).sum() == Approx(20.0));
+        CHECK(masses(laplacian, named("", flat(make_mixed_polygons(150)))).sum() == Approx(1.0));
+    }
+}
+
+TEST_CASE("the mass of Fujiwara is the mean length of the edges")
+{
     for (const NamedMesh& m : sound_meshes()) {
         CAPTURE(m.name);
-        const Areas areas = areas_of(m);
-        CHECK(areas.of_vertices.sum() ==
-              Approx(std::accumulate(areas.of_faces.begin(), areas.of_faces.end(), 0.0)).epsilon(1e-13));
-        CHECK(areas.of_vertices.minCoeff() > 0.0);
+        const Eigen::VectorXd lengths = mean_lengths(m);
+        CHECK((masses(Laplacian::Fujiwara, m) - lengths).norm() < 1e-14 * lengths.norm());
     }
-    CHECK(areas_of(named("", quad_grid(5, 4))).of_vertices.sum() == Approx(20.0));
-    CHECK(areas_of(named("", flat(make_mixed_polygons(150)))).of_vertices.sum() == Approx(1.0));
 }
 
 TEST_CASE("on triangles Alexa-Wardetzky is the cotan Laplacian with barycentric mass")
@@ -200,9 +215,8 @@ TEST_CASE("Alexa-Wardetzky times the areas, Fujiwara times the mean lengths are 
         for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::Fujiwara}) {
             CAPTURE(m.name);
             CAPTURE(name_of(laplacian));
-            const Eigen::VectorXd diagonal =
-                laplacian == Laplacian::Fujiwara ? mean_lengths(m) : areas_of(m).of_vertices;
-            const Eigen::MatrixXd L = diagonal.asDiagonal() * dense_laplacian(laplacian, m.mesh, m.topology);
+            const Eigen::MatrixXd L =
+                masses(laplacian, m).asDiagonal() * dense_laplacian(laplacian, m.mesh, m.topology);
             CHECK(largest(L - L.transpose()) < 1e-13 * largest(L));
             const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (L + L.transpose()),
                                                                        Eigen::EigenvaluesOnly);
@@ -265,9 +279,9 @@ TEST_CASE("assemblers add, with a factor, and leave entries that are not wanted 
             assembler->add(m.mesh.vertices, 0.25, slots, values);
         const double scale = largest(dense(matrix.pattern, matrix.values));
         for (Index i = 0; i < matrix.pattern.n_entries(); ++i) {
-            const bool wanted = matrix.pattern.rows[at(i)] % 2 == 0;
-            const double expected = wanted ? 1.0 + 0.5 * matrix.values[at(i)] : 1.0;
-            CHECK(std::abs(values[at(i)] - expected) < 1e-13 * scale);
+            const bool wanted = matrix.pattern.rows[i] % 2 == 0;
+            const double expected = wanted ? 1.0 + 0.5 * matrix.values[i] : 1.0;
+            CHECK(std::abs(values[i] - expected) < 1e-13 * scale);
         }
     }
 }

@@ -1,0 +1,233 @@
+#include "engine/flow_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/measure/surface_curvature.h"
+#include "engine/measure/update_limit.h"
+#include "engine/options/flow_remarks.h"
+#include "engine/steppers/make_stepper.h"
+#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/stopwatch.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Failures of `body` come out with a name before them.
+template <class Body>
+void named(const std::string& name, Body&& body)
+{
+    try {
+        body();
+    } catch (const ComputationError& error) {
+        throw ComputationError(name + ", " + error.what());
+    }
+}
+
+/// @param estimate in units of length; empty where the edges have no length to measure by.
+void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, const Points& positions)
+{
+    if (!estimate || *estimate == 0.0)
+        return;
+    *estimate /= mean_edge_length(mesh, positions, run_in_parallel);
+    if (!std::isfinite(*estimate))
+        estimate.reset();
+}
+
+/// Adds what was spent in tasks.
+void add_task_seconds(PhaseSeconds& seconds, const PhaseSeconds& further)
+{
+    seconds.assemble += further.assemble;
+    seconds.factorise += further.factorise;
+    seconds.solve += further.solve;
+    seconds.correct += further.correct;
+    seconds.interface += further.interface;
+}
+
+/// @throws InputError where a state does not fit the mesh.
+void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
+{
+    if (memory.positions.rows() != mesh.vertices.rows())
+        throw InputError("the state to go on from has not the vertices of this mesh");
+    if (!memory.positions.allFinite())
+        throw InputError("the state to go on from has positions that are not finite: it has been changed");
+}
+
+}  // namespace
+
+FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
+                 FlowReport& report)
+    : mesh_(mesh)
+    , prepared_(std::move(prepared))
+    , progress_(progress)
+    , report_(report)
+    , setup_(setup)
+    , curvature_before_(largest_curvature(prepared_->curvature))
+{
+    Stopwatch watch;
+    describe(*prepared_, mesh.mesh(), report);
+    progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
+    stepper_ =
+        make_stepper(mesh.mesh(), prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress);
+    report.labels = std::move(prepared_->cut.labels);
+    report.seconds.analyse = watch.lap();
+    report.seconds.total = report.seconds.cut + report.seconds.analyse;
+    if (options().report.reference) {
+        progress.enter(FlowPhase::Analyse, 0, 0.8 * setup, setup);
+        reference_ =
+            make_undecomposed_stepper(mesh.mesh(), prepared_->topology, options(), prepared_->curvature, progress);
+    }
+    prepared_->curvature = std::vector<double>();
+}
+
+/// Brings everything to where it was after a step.
+void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
+{
+    if (state.cut != checksum_of(report_.labels))
+        throw InputError("the state to go on from belongs to another cut of the same mesh: another version of the "
+                         "program made it, or one with another METIS");
+    require_positions(state.flow, mesh_.mesh());
+    if (state.reference)
+        require_positions(*state.reference, mesh_.mesh());
+    if (state.reference.has_value() != (reference_ != nullptr))
+        throw InputError("the state to go on from has not the undecomposed flow");
+    stepper_->restore(state.flow);
+    if (reference_)
+        reference_->restore(*state.reference);
+    Points rescaled = stepper_->positions();
+    rescaling.apply(rescaled);
+    mesh_.move_to(rescaled);
+    prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
+    report_.steps = state.steps;
+    report_.seconds.step = state.seconds.step;
+    report_.seconds.total += state.seconds.total;
+}
+
+FlowState FlowRun::capture(const FlowState* resume) const
+{
+    FlowState state{.identity = prepared_->identity,
+                    .cut = checksum_of(report_.labels),
+                    .steps = report_.steps,
+                    .seconds = {.step = report_.seconds.step,
+                                .total = report_.seconds.total - report_.seconds.cut - report_.seconds.analyse},
+                    .displacement = prepared_->meter->sums()};
+    if (resume != nullptr)
+        add_task_seconds(state.seconds, resume->seconds);
+    stepper_->add_seconds(state.seconds);
+    stepper_->save(state.flow);
+    if (reference_)
+        reference_->save(state.reference.emplace());
+    return state;
+}
+
+void FlowRun::compare_with_reference(int step, const StepShares& shares, StepReport& of_step)
+{
+    progress_.enter(FlowPhase::Reference, step, shares.begin_of_reference(), shares.end());
+    Stopwatch watch;
+    named("step " + std::to_string(step) + " of the undecomposed flow",
+          [&] { reference_->step(reference_->positions()); });
+    of_step.reference_seconds = watch.lap();
+    of_step.distance = vertex_distance(mesh_.mesh(), reference_->positions(), stepper_->positions());
+}
+
+/// An observer sees everything where the given mesh lies.
+void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
+                   const FlowState* resume) const
+{
+    const PolygonMesh* pieces = stepper_->pieces();
+    std::optional<Points> undecomposed_there;
+    std::optional<PolygonMesh> pieces_there;
+    if (mesh_.is_shifted() && undecomposed != nullptr) {
+        mesh_.shift_back(undecomposed_there.emplace(*undecomposed));
+        undecomposed = &*undecomposed_there;
+    }
+    if (mesh_.is_shifted() && pieces != nullptr) {
+        mesh_.shift_back(pieces_there.emplace(*pieces).vertices);
+        pieces = &*pieces_there;
+    }
+    on_step({step, mesh_.given_positions(), of_step, pieces, undecomposed, [&] { return capture(resume); }});
+}
+
+void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
+{
+    const PolygonMesh& mesh = mesh_.mesh();
+    const double extent = extent_of(mesh.vertices);
+    const UpdateLimit limit(mesh, options().accuracy.largest_update);
+    const Rescaling rescaling(mesh, prepared_->topology, options().motion.rescale);
+    // Mean curvature is measured across edges, but for that of Δ_P.
+    if (traits_of(options().laplacian).reach != Reach::TwoRings)
+        prepared_->topology.twin = std::vector<Index>();
+    if (resume != nullptr)
+        restore(*resume, rescaling);
+    const auto first = static_cast<int>(report_.steps.size()) + 1;
+    if (!report_.steps.empty())
+        curvature_before_ = report_.steps.back().max_mean_curvature_after;
+    StepShares shares(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
+    const bool is_rescaled = options().motion.rescale != Rescale::None;
+    // Steps begin where the last one ended before it was rescaled.
+    Points unscaled = is_rescaled ? stepper_->positions() : Points();
+    const Points& before = is_rescaled ? unscaled : mesh.vertices;
+    Points rescaled;
+    Points undecomposed;
+    for (int step = first; step <= options().steps; ++step) {
+        const std::string name = "step " + std::to_string(step);
+        progress_.enter(FlowPhase::Step, step, shares.begin(), shares.end_of_tasks());
+        Stopwatch watch;
+        named(name, [&] { stepper_->step(before); });
+        StepReport of_step;
+        of_step.seconds = watch.lap();
+        stepper_->describe(of_step);
+        in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
+        // Scaling could hide that vertices have been thrown away, or make too little of what is left.
+        named(name, [&] {
+            limit.require(before, stepper_->positions(), report_.labels);
+            if (is_rescaled) {
+                unscaled = rescaled = stepper_->positions();
+                rescaling.apply(rescaled);
+            }
+        });
+        const Points& after = is_rescaled ? rescaled : stepper_->positions();
+        of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
+        of_step.max_mean_curvature_before = curvature_before_;
+        of_step.max_mean_curvature_after = curvature_before_ =
+            measure_largest_curvature(mesh, prepared_->topology, after, options().laplacian);
+        const double measuring = watch.lap();
+        if (reference_) {
+            compare_with_reference(step, shares, of_step);
+            undecomposed = reference_->positions();
+            named(name + " of the undecomposed flow", [&] { rescaling.apply(undecomposed); });
+        }
+        shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
+
+        // What takes memory comes first: the mesh moves when nothing but the observer can fail any more.
+        report_.steps.push_back(of_step);
+        report_.seconds.step += of_step.seconds;
+        report_.seconds.total += of_step.seconds + measuring;
+        mesh_.move_to(after);
+        if (on_step)
+            tell(on_step, step, of_step, reference_ ? &undecomposed : nullptr, resume);
+    }
+    finish(extent, resume);
+}
+
+/// Fills in what the report says of the flow as a whole.
+void FlowRun::finish(double extent_before, const FlowState* resume)
+{
+    remark_on_drift(options(), report_);
+    remark_on_collapse(extent_before, mesh_.mesh().vertices, report_);
+    report_.displacement = prepared_->meter->total();
+    if (stepper_->pieces() != nullptr)
+        report_.pieces = *stepper_->pieces();
+    stepper_->describe(report_);
+    if (resume != nullptr)
+        add_task_seconds(report_.seconds, resume->seconds);
+    mesh_.complete(report_);
+    progress_.finish();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/measure/rescaling.h"
+#include "engine/options/flow_report.h"
+#include "engine/prepare.h"
+#include "engine/setup/flowing_mesh.h"
+#include "engine/state/flow_state.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "engine/tasks/step_shares.h"
+
+namespace seamflow {
+
+/// A flow on its way: takes the steps of a prepared flow, measures each, and tells of it.
+class FlowRun {
+  public:
+    /// Makes what takes the steps, and what takes those of the undecomposed flow where it is asked for.
+    /// @param mesh, progress, report must outlive the run; the mesh moves with each step.
+    /// @param setup the part of the whole call that setting up takes.
+    /// @throws as make_stepper.
+    FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
+            FlowReport& report);
+
+    /// Takes all steps. The mesh moves when a step is complete, with that of the undecomposed flow.
+    /// @param resume the state to go on from; nullptr: from the beginning.
+    /// @throws ComputationError naming the step; InputError for a state that does not fit; Cancelled.
+    void take_steps(const StepObserver& on_step, const FlowState* resume);
+
+  private:
+    [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
+    void restore(const FlowState& state, const Rescaling& rescaling);
+    [[nodiscard]] FlowState capture(const FlowState* resume) const;
+    void compare_with_reference(int step, const StepShares& shares, StepReport& of_step);
+    void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
+              const FlowState* resume) const;
+    void finish(double extent_before, const FlowState* resume);
+
+    FlowingMesh& mesh_;
+    std::unique_ptr<PreparedFlow> prepared_;
+    Progress& progress_;
+    FlowReport& report_;
+    /// The part of the whole call that is done before the first step.
+    double setup_;
+    double curvature_before_;
+    std::unique_ptr<Stepper> stepper_;
+    /// Of the undecomposed flow, with ReportOptions::reference.
+    std::unique_ptr<Stepper> reference_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+/// The sizes by which sub-meshes and time steps are measured.
+struct MeshSize {
+    Index vertices = 0;
+    /// Of all faces, length².
+    double area = 0.0;
+    /// Average length of the edges, those between two faces counting twice (see mean_edge_length); 0 without faces.
+    double mean_edge = 0.0;
+};
+
+/// A box around positions, in units of length.
+struct BoundingBox {
+    Point low = Point::Zero();
+    Point high = Point::Zero();
+};
+
+/// The box around the vertices that have faces; others are ignored. A point where there are no faces.
+/// @pre no face names a vertex that is not there.
+BoundingBox box_of_faces(const PolygonMesh& mesh);
+
+/// Of all faces (length²), whichever way they are oriented.
+double total_area(const PolygonMesh& mesh);
+
+/// @pre the mesh is valid (see require_valid).
+MeshSize size_of(const PolygonMesh& mesh);
+
+}  // namespace seamflow

@@ -1,0 +1,118 @@
+#include "engine/measure/rescaling.h"
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "engine/tasks/parallel_loop.h"
+#include "partition/errors.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+void require_movable(const Topology& topology, Index n_vertices)
+{
+    const auto held = select(run_in_parallel, n_vertices,
+                             [&](Index v) { return !topology.moves(v) && topology.kind[v] != VertexKind::Isolated; });
+    if (!held.empty())
+        throw InputError(
+            "rescaling moves every vertex, but " + std::to_string(held.size()) + (held.size() == 1 ? " is" : " are") +
+            " held fixed, vertex " + std::to_string(held.front()) + " (numbered from 0) among them" +
+            (topology.kind[held.front()] == VertexKind::Boundary
+                 ? ", which is on the boundary: let the boundary move (--boundary free), or leave the size "
+                   "as it comes"
+                 : ", where the mesh is not manifold or degenerate: mend it, or leave the size as it comes"));
+}
+
+void require_closed(const PolygonMesh& mesh, const Topology& topology)
+{
+    const auto starts_at = [&](Index h) { return mesh.face_vertices[h]; };
+    const auto bad = select(run_in_parallel, mesh.n_corners(), [&](Index h) {
+        const Index twin = topology.twin[h];
+        return twin < 0 || starts_at(h) == starts_at(twin);
+    });
+    if (bad.empty())
+        return;
+    const Index h = bad.front();
+    const std::string edge = "the edge from vertex " + std::to_string(starts_at(h)) + " to " +
+                             std::to_string(starts_at(topology.next(mesh, h))) + " of face " +
+                             std::to_string(topology.face_of[h]);
+    throw InputError(topology.twin[h] < 0 ? "only a closed surface has a volume to keep, but " + edge +
+                                                " lies on the boundary: close the mesh, or keep its area instead"
+                                          : "the volume is that of faces oriented alike, but those at " + edge +
+                                                " are not: orient the mesh, or keep its area instead");
+}
+
+Point mean_of(std::span<const Index> corners, const Points& positions, const Point& origin)
+{
+    Point sum = Point::Zero();
+    for (const Index v : corners)
+        sum += positions.row(v) - origin;
+    return sum / static_cast<double>(corners.size());
+}
+
+}  // namespace
+
+Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind)
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , kind_(kind)
+{
+    if (kind_ == Rescale::None)
+        return;
+    require_movable(topology, mesh.n_vertices());
+    if (kind_ == Rescale::Volume)
+        require_closed(mesh, topology);
+    first_ = measure(mesh.vertices);
+    // A volume this small against the area is what rounding leaves of parts that cancel each other.
+    const double least = kind_ == Rescale::Volume ? 1e-12 * first_.area * std::sqrt(first_.area) : 0.0;
+    const bool sound = std::isnormal(first_.size) && std::abs(first_.size) > least && first_.centroid.allFinite();
+    if (mesh.n_faces() > 0 && !sound)
+        throw InputError(std::string("the surface has no ") + (kind_ == Rescale::Area ? "area" : "volume") +
+                         " above rounding: scale the mesh, or leave the size as it comes");
+}
+
+Rescaling::Extent Rescaling::measure(const Points& positions) const
+{
+    const Point origin = positions.rows() > 0 ? Point(positions.row(0)) : Point::Zero();
+    const auto add_up = [&](auto&& of_face) {
+        return sum(run_in_parallel, mesh_->n_faces(), [&](Index f) {
+            const auto corners = mesh_->face(f);
+            return of_face(vector_area(corners, positions), mean_of(corners, positions, origin));
+        });
+    };
+    const double area = add_up([](const Point& normal, const Point&) { return normal.norm(); });
+    Point centroid;
+    for (int c = 0; c < 3; ++c)
+        centroid[c] = add_up([c](const Point& normal, const Point& mean) { return normal.norm() * mean[c]; }) / area;
+    const double size = kind_ == Rescale::Area ? area : add_up([&](const Point& normal, const Point& mean) {
+        return normal.dot(mean - centroid) / 3.0;
+    });
+    return {area, size, origin + centroid};
+}
+
+void Rescaling::apply(Points& positions) const
+{
+    if (kind_ == Rescale::None || mesh_->n_faces() == 0)
+        return;
+    const Extent now = measure(positions);
+    const double ratio = first_.size / now.size;
+    // A surface that has fewer digits left would come out as what rounding has made of it.
+    constexpr double digits_wanted = 1e4;
+    const double farthest = now.centroid.cwiseAbs().maxCoeff() + std::sqrt(now.area);
+    const double rounding = std::numeric_limits<double>::epsilon() * farthest;
+    const bool sound = std::isnormal(ratio) && ratio > 0.0 && now.centroid.allFinite();
+    if (!sound || !(std::sqrt(now.area) > digits_wanted * rounding))
+        throw ComputationError("there is too little left of the surface to scale it back to its size: use a smaller "
+                               "time step or fewer steps");
+    const double scale = kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio);
+    for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+        if (topology_->kind[v] != VertexKind::Isolated)
+            positions.row(v) = first_.centroid + scale * (positions.row(v) - now.centroid);
+    });
+}
+
+}  // namespace seamflow

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/options/flow_options.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+/// Brings a surface back to the area or volume that it began with, and to the centroid of its area (see Rescale). The
+/// area of a face is the length of its vector area; volume is measured under the triangles that join every face's edges
+/// to the mean of its corners.
+class Rescaling {
+  public:
+    /// Measures the surface as it is. The mesh and topology must outlive the object.
+    /// @throws InputError if a vertex with faces is fixed; for the volume if the surface has a boundary, faces that are
+    ///         not oriented alike (naming an edge), or no volume.
+    Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind);
+
+    /// Positions as the flow has them, #V by 3, scaled; vertices without faces stay. Without Rescale the same.
+    /// @throws ComputationError if there is too little left of the surface.
+    void apply(Points& positions) const;
+
+  private:
+    /// A surface as a whole.
+    struct Extent {
+        double area;
+        /// Area or volume.
+        double size;
+        Point centroid;
+    };
+    [[nodiscard]] Extent measure(const Points& positions) const;
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    Rescale kind_;
+    Extent first_{};
+};
+
+}  // namespace seamflow

@@ -1,0 +1,95 @@
+#include "engine/measure/update_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/measure/mesh_size.h"
+#include "engine/tasks/parallel_loop.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The first vertex whose position is not finite, or the one that moves furthest.
+/// @param unit about the size of the mesh, so that squares neither overflow nor vanish.
+Index farthest_mover(const Points& before, const Points& after, double unit)
+{
+    struct Mover {
+        Index vertex = 0;
+        double square = -1.0;
+        void meet(Index v, double of_v)
+        {
+            if (of_v <= square)
+                return;
+            vertex = v;
+            square = of_v;
+        }
+    };
+    const auto n = static_cast<Index>(after.rows());
+    const double scale = std::isnormal(1.0 / unit) ? 1.0 / unit : 1.0;
+    // What overflows is far, but less far than what is not finite.
+    const auto square_of = [scale](const auto& to, const auto& from) {
+        return to.allFinite() ? std::min(((to - from) * scale).squaredNorm(), std::numeric_limits<double>::max())
+                              : std::numeric_limits<double>::infinity();
+    };
+    std::vector<Mover> of_block(at(n / block_size) + 1);
+    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v)
+            of_block[block].meet(v, square_of(after.row(v), before.row(v)));
+    });
+    Mover farthest;
+    for (const Mover& mover : of_block)
+        farthest.meet(mover.vertex, mover.square);
+    return farthest.vertex;
+}
+
+std::string number(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+}  // namespace
+
+UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
+    : mesh_(mesh)
+{
+    const BoundingBox box = box_of_faces(mesh);
+    diagonal_ = (box.high - box.low).stableNorm();
+    largest_ = diagonals * diagonal_;
+}
+
+void UpdateLimit::require(const Points& before, const Points& after, std::span<const Index> labels) const
+{
+    if (after.rows() == 0)
+        return;
+    const Index vertex = farthest_mover(before, after, diagonal_);
+    if (!after.row(vertex).allFinite())
+        refuse(vertex, "would go to a position that is not finite", labels);
+    const double update = (after.row(vertex) - before.row(vertex)).stableNorm();
+    if (update > largest_)
+        refuse(vertex,
+               "would move by " + number(update) +
+                   (largest_ == diagonal_ ? ", but the mesh is " + number(diagonal_) + " across"
+                                          : ", but largest_update allows " + number(largest_) + " at most"),
+               labels);
+}
+
+void UpdateLimit::refuse(Index vertex, const std::string& what, std::span<const Index> labels) const
+{
+    Index face = 0;
+    while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), vertex) == mesh_.face(face).end())
+        ++face;
+    const std::string where =
+        face < mesh_.n_faces() ? "sub-mesh " + std::to_string(labels[face]) + ", " : std::string();
+    throw ComputationError(where + "vertex " + std::to_string(vertex) + " " + what +
+                           ": use a smaller time step, another Laplacian, or repair the mesh there");
+}
+
+}  // namespace seamflow

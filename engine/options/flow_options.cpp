@@ -1,0 +1,148 @@
+#include "engine/options/flow_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "partition/errors.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+template <class Value>
+void require(bool holds, const char* field, Value value, const char* limits)
+{
+    if (holds)
+        return;
+    std::ostringstream message;
+    message.precision(17);
+    message << field << " is " << value << ", but must be " << limits;
+    throw OptionError(message.str());
+}
+
+bool positive_and_finite(double value)
+{
+    return value > 0.0 && std::isfinite(value);
+}
+
+void require_valid_schwarz(const FlowOptions& options)
+{
+    if (options.interface.sweep == Sweep::Alternating)
+        throw OptionError("sweep is alternating, but with the Schwarz conditions sub-meshes overlap for one order of "
+                          "solving only: leave the sweep fixed");
+    if (options.interface.p)
+        throw OptionError("p is given, but the Schwarz conditions have no Robin parameter");
+}
+
+void require_valid_copies(const FlowOptions& options)
+{
+    if (is_classical(options.interface.conditions) && options.interface.correction == Correction::Centroid)
+        throw OptionError(
+            "correction is centroid, but with the classical conditions every sub-mesh has an interface of "
+            "its own: leave it uncorrected");
+    if (!options.report.keep_gaps)
+        return;
+    if (!is_classical(options.interface.conditions))
+        throw OptionError(
+            "keep_gaps is for the classical Robin and Ventcell conditions; with others there are no gaps");
+    if (options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("keep_gaps is for backward Euler steps; explicit ones are taken undecomposed, without gaps");
+}
+
+void require_valid_tolerance(const FlowOptions& options)
+{
+    require(options.accuracy.converge_iterations >= 0, "converge_iterations", options.accuracy.converge_iterations,
+            "at least 0");
+    if (!options.accuracy.tolerance)
+        return;
+    require(positive_and_finite(*options.accuracy.tolerance) && *options.accuracy.tolerance < 1.0, "tolerance",
+            *options.accuracy.tolerance, "positive and below 1 (residual against that at the beginning of a step)");
+    if (options.interface.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("tolerance is given, which leaves no room for other conditions or an explicit scheme");
+}
+
+/// Without a tolerance converged steps are not chosen (see choose_tolerance).
+void require_valid_factorisation(const FlowOptions& options)
+{
+    const bool is_foreign = options.resources.factorisation == Factorisation::Cholmod ||
+                            options.resources.factorisation == Factorisation::Umfpack;
+    if (is_foreign && options.accuracy.tolerance && is_symmetric(options.laplacian))
+        throw OptionError(
+            "factorisation is that of another library, but converged steps of the Laplacians fujiwara and "
+            "alexa-wardetzky need the Schur complements that the library's own gives: take sweeps "
+            "(Approach::Sweep, --converge never), or leave the factorisation automatic");
+}
+
+void require_valid_constraints(const FlowOptions& options)
+{
+    if (options.motion.boundary == Boundary::Free && options.laplacian == Laplacian::PtackovaVelho)
+        throw OptionError("boundary is free, but the Laplacian ptackova-velho has no natural boundary conditions (its "
+                          "rows there are one-sided and unstable): use fujiwara or alexa-wardetzky, or leave the "
+                          "boundary fixed");
+    if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
+        throw OptionError("rescale is for results in one piece; keep_gaps leaves the sub-meshes unjoined");
+    if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
+        throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
+}
+
+bool has_tangential_derivative(Conditions conditions)
+{
+    return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
+}
+
+}  // namespace
+
+bool is_classical(Conditions conditions)
+{
+    return conditions == Conditions::Robin || conditions == Conditions::Ventcell;
+}
+
+FlowOptions FlowOptions::plain()
+{
+    FlowOptions options;
+    options.accuracy.approach = Approach::Sweep;
+    options.interface.sweep = Sweep::Fixed;
+    options.interface.transmission = Transmission::Derivative;
+    options.interface.p_edge = PEdge::Minimum;
+    return options;
+}
+
+void require_valid(const FlowOptions& options)
+{
+    require(positive_and_finite(options.time_step), "time_step", options.time_step, "positive and finite (length²)");
+    require(options.steps >= 0 && options.steps <= FlowOptions::most_steps, "steps", options.steps,
+            "at least 0 and at most 1000000000");
+    require(options.cut.subdomains >= 0, "subdomains", options.cut.subdomains, "at least 0 (0: chosen)");
+    require(options.resources.threads >= 0 && options.resources.threads <= ResourceOptions::most_threads, "threads",
+            options.resources.threads, "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
+    if (options.interface.p)
+        require(positive_and_finite(*options.interface.p), "p", *options.interface.p, "positive and finite (1/length)");
+    if (options.interface.q)
+        require(*options.interface.q >= 0.0 && std::isfinite(*options.interface.q), "q", *options.interface.q,
+                "at least 0 and finite");
+    if (options.interface.q.has_value() != has_tangential_derivative(options.interface.conditions))
+        throw OptionError(options.interface.q ? "q is given, but belongs to the Ventcell conditions alone"
+                                              : "q must be given with the Ventcell conditions");
+    require(options.interface.overlap >= 1, "overlap", options.interface.overlap, "at least 1 (layers of faces)");
+    if (options.resources.memory_limit)
+        require(*options.resources.memory_limit >= 1, "memory_limit", *options.resources.memory_limit,
+                "at least 1 (byte)");
+    require(options.accuracy.largest_update > 0.0, "largest_update", options.accuracy.largest_update,
+            "positive (diagonals of the mesh's bounding box; infinite: no limit)");
+    if (options.interface.conditions == Conditions::Schwarz)
+        require_valid_schwarz(options);
+    require_valid_copies(options);
+    require_valid_constraints(options);
+    require_valid_tolerance(options);
+    require_valid_factorisation(options);
+    const auto negative =
+        std::find_if(options.cut.labels.begin(), options.cut.labels.end(), [](Index label) { return label < 0; });
+    if (negative != options.cut.labels.end())
+        throw InputError("the label of face " + std::to_string(negative - options.cut.labels.begin()) + " is " +
+                         std::to_string(*negative) + ", but labels must be at least 0");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,248 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "solvers/conditions/robin_parameter.h"
+#include "solvers/direct/factorisation.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// How the sub-meshes are coloured. Sub-meshes of one colour are independent; colours are solved in turn.
+enum class Coloring {
+    /// Two colours (red-black) where the sub-mesh adjacency is bipartite, few otherwise. Colour classes are solved in
+    /// order of decreasing total curvature Σ‖ΔV⁰‖.
+    Greedy,
+    /// The colour of a sub-mesh is its label: in a forward sweep sub-mesh 0 solves first, then 1, and so on.
+    Label,
+};
+
+/// Which conditions hold on the interface Γ between sub-meshes, of which there may be any number.
+enum class Conditions {
+    /// The paper's adapted Robin conditions (eqs. 24 and 25 with q = 0).
+    AdaptedRobin,
+    /// The paper's adapted Ventcell conditions (eqs. 24 and 25); InterfaceOptions::q is required.
+    AdaptedVentcell,
+    /// The classical Robin conditions (eqs. 20 and 21 with q = 0): every sub-mesh has derivative rows on Γ and a
+    /// copy of Γ of its own, which drift apart (StepReport::gap). The result has the mean of the copies.
+    Robin,
+    /// The classical Ventcell conditions (eqs. 20 and 21); InterfaceOptions::q is required.
+    Ventcell,
+    /// The alternating Schwarz method (eqs. 18 and 19): sub-meshes overlap by InterfaceOptions::overlap layers of
+    /// faces.
+    Schwarz,
+};
+
+/// How a step is taken.
+enum class Scheme {
+    /// (I + dt Δ(Vⁿ)) Vⁿ⁺¹ = Vⁿ (paper, eq. 3).
+    BackwardEuler,
+    /// Vⁿ⁺¹ = (I - dt Δ(Vⁿ)) Vⁿ, undecomposed: all options about sub-meshes are ignored. dt must be at most the square
+    /// of the shortest edge (see largest_explicit_step); a quarter of it is safe on regular grids. Beyond that the
+    /// surface can become rough instead of smooth; a remark of the report says so.
+    ExplicitEuler,
+};
+
+/// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
+enum class PRule {
+    /// η = 1, the paper's (which makes p* depend on the unit of length).
+    Paper,
+    /// η = 1 / dt.
+    InverseStep,
+};
+
+/// How the first sub-mesh to solve at a vertex of Γ learns of the sub-meshes on the other side.
+enum class Transmission {
+    /// By the derivatives of the paper, at Vᵏ.
+    Derivative,
+    /// By a prediction of the other side, solved with Γ held at Vᵏ (see engine/accuracy.md).
+    Predicted,
+};
+
+/// In which order the colours are solved.
+enum class Sweep {
+    /// Fixed for two sub-meshes and with Conditions::Schwarz, else Alternating.
+    Automatic,
+    /// The same order in every step, as in the paper.
+    Fixed,
+    /// First to last in even steps, last to first in odd steps. Not with Conditions::Schwarz, whose overlaps are made
+    /// for one order.
+    Alternating,
+};
+
+/// What happens to the vertices of the interface after each step.
+enum class Correction {
+    /// Centroid with the adapted conditions, which need it; as the paper's authors do.
+    Automatic,
+    /// Each moves to the centroid of its edge neighbours, all at once (paper, eq. 28). Not with the classical
+    /// conditions, which have several copies of each.
+    Centroid,
+    /// Nothing.
+    None,
+};
+
+/// What becomes of the boundary of the whole mesh.
+enum class Boundary {
+    /// It stays where it is, bit for bit.
+    Fixed,
+    /// It moves, too, under natural conditions: its equations are assembled from the faces that are there. The surface
+    /// draws in its rims by about √dt a step, as a soap film without a frame does. Not with Δ_P, whose rows at a
+    /// boundary are one-sided and grow what they should smooth. Sub-meshes can share such a boundary only in converged
+    /// steps, which are then chosen.
+    Free,
+};
+
+/// What is done about the shrinking of the surface.
+enum class Rescale {
+    None,
+    /// Every result is scaled to the area of the input, its centroid moved back to that of the input.
+    Area,
+    /// The same for the enclosed volume; for closed surfaces with faces oriented alike.
+    Volume,
+};
+
+/// How a backward Euler step is taken where no tolerance is asked for.
+enum class Approach {
+    /// Converged to a loose tolerance where that is worth it (see choose_tolerance), else a sweep.
+    Automatic,
+    /// One sweep over the colours.
+    Sweep,
+};
+
+/// Which sub-meshes there are.
+struct CutOptions {
+    /// Number of sub-meshes. 1: undecomposed. 0: chosen from the size of the mesh and of √dt. Every component of the
+    /// mesh has at least one sub-mesh of its own, and no sub-mesh is cut too small, so the number used (see FlowReport)
+    /// can differ.
+    int subdomains = 0;
+    /// A given cut: the sub-mesh of every face (#F entries, each at least 0), used instead of `subdomains` where not
+    /// empty. Parts that are not connected, or pinched at a vertex, are repaired by moving faces.
+    std::vector<Index> labels = {};
+};
+
+/// What holds on the interface Γ between sub-meshes in a sweep, and in which order they solve.
+struct InterfaceOptions {
+    /// What holds between sub-meshes.
+    Conditions conditions = Conditions::AdaptedRobin;
+    /// How sub-meshes learn of each other with Conditions::AdaptedRobin. Predicted stays much closer to the
+    /// undecomposed flow.
+    Transmission transmission = Transmission::Predicted;
+    /// Robin parameter p, in 1/length, positive, for Transmission::Derivative, which it implies. Empty: p* of the paper
+    /// (eq. 27) for each sub-mesh, by the two rules that follow, which imply it too where they are not the default.
+    std::optional<double> p = {};
+    PRule p_rule = PRule::Paper;
+    PEdge p_edge = PEdge::Automatic;
+    /// Ventcell parameter q of the tangential derivative, without dimension, not negative; required with
+    /// AdaptedVentcell and Ventcell, and only there.
+    std::optional<double> q = {};
+    /// Layers of faces by which sub-meshes overlap with Conditions::Schwarz, at least 1: each grows that often by the
+    /// faces that share a vertex with it, into sub-meshes that do not solve before it. Of no use with other conditions.
+    int overlap = 1;
+    /// Order of sub-meshes in a step.
+    Coloring coloring = Coloring::Greedy;
+    /// Direction of the sweep over the colours.
+    Sweep sweep = Sweep::Automatic;
+    /// Treatment of the interface after a step.
+    Correction correction = Correction::Automatic;
+};
+
+/// How near steps come to the undecomposed ones, and when a flow is given up.
+struct AccuracyOptions {
+    /// Asks for the undecomposed step itself, in place of what InterfaceOptions says: to this residual, relative to
+    /// that of the positions before the step. For Δ_F and Δ_A it is the residual on Γ. For Δ_P it is the distance
+    /// between the positions that overlapping sub-meshes take from each other and those that they find. Where the
+    /// equations of Δ_P are indefinite (it grows spikes then, undecomposed too), there are many iterations, fewer with
+    /// fewer sub-meshes. Empty: `approach` says.
+    std::optional<double> tolerance = {};
+    /// How steps are taken without a tolerance.
+    Approach approach = Approach::Automatic;
+    /// Most iterations of a step to reach the tolerance.
+    int converge_iterations = 1000;
+    /// How far a step may move a vertex at most, in diagonals of the bounding box of the mesh before the first step;
+    /// positive. A step that moves one further ends the flow with the step before; Δ_P, and Δ_A on polygons, can do so
+    /// where their equations are indefinite. Infinite: any finite result is accepted.
+    double largest_update = 1.0;
+};
+
+/// Which vertices move, and where to.
+struct MotionOptions {
+    /// Whether the boundary of the mesh moves.
+    Boundary boundary = Boundary::Fixed;
+    /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are allowed.
+    std::vector<Index> fixed_vertices = {};
+    /// Refuse meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
+    /// without length (Δ_F) or faces without area (Δ_A, Δ_P) leave the Laplacian undefined at vertices that should
+    /// move. Without it such vertices are held fixed, and a remark says how many.
+    bool strict = false;
+    /// Scales the result of each step. The flow itself goes on unscaled, and distances to the undecomposed flow are
+    /// unscaled, too. Every vertex that has faces moves: none of them may be fixed.
+    Rescale rescale = Rescale::None;
+};
+
+/// What a flow may use of the machine.
+struct ResourceOptions {
+    static constexpr int most_threads = 1024;
+
+    /// Threads used, at most most_threads. 0: those of the calling TBB arena (all cores, where nothing limits it). The
+    /// result is the same, bit for bit, for any number.
+    int threads = 0;
+    /// The most bytes that the factorisations of sub-meshes may take at once, at least 1. With less than one step
+    /// needs, the flow throws an OptionError that tells how much that is. Empty: sweeps keep as few factorisations as
+    /// keep all threads busy, converged steps keep all. With a limit, converged steps of Δ_F and Δ_A make the others
+    /// twice in each step; Δ_P needs all. UMFPACK's count by its own estimate. The limit does not change the result,
+    /// nor does it hold for `reference`.
+    std::optional<std::size_t> memory_limit = {};
+    /// Whose factorisation solves the equations of sub-meshes. Changes the result by rounding alone. Converged steps of
+    /// Δ_F and Δ_A have the library's own: their Schur complements come out of it.
+    Factorisation factorisation = Factorisation::Automatic;
+};
+
+/// What a flow tells beside its result.
+struct ReportOptions {
+    /// Also run the undecomposed flow, by backward Euler steps whatever the scheme, and report the distance to it after
+    /// each step.
+    bool reference = false;
+    /// Record what ran when, in which thread (FlowReport::schedule): 32 bytes for each task and step. Steps of
+    /// Scheme::ExplicitEuler have no tasks.
+    bool record_schedule = false;
+    /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::pieces, StepState::pieces). For
+    /// the classical conditions with Scheme::BackwardEuler alone: with others the copies are the same.
+    bool keep_gaps = false;
+};
+
+/// Everything that decides about a flow: `{.time_step = 0.05, .steps = 5, .cut = {.subdomains = 8}}`.
+struct FlowOptions {
+    static constexpr int most_steps = 1'000'000'000;
+
+    /// Which discrete Laplacian drives the flow.
+    Laplacian laplacian = Laplacian::Fujiwara;
+    /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
+    /// positive and finite.
+    double time_step = 0.0;
+    /// Number of steps, from 0 (which leaves the mesh as it is) to most_steps.
+    int steps = 1;
+    /// How a step is taken.
+    Scheme scheme = Scheme::BackwardEuler;
+    CutOptions cut = {};
+    InterfaceOptions interface = {};
+    AccuracyOptions accuracy = {};
+    MotionOptions motion = {};
+    ResourceOptions resources = {};
+    ReportOptions report = {};
+
+    /// The paper's method, generalised to many sub-meshes and nothing else: a fixed sweep and no improvements, whatever
+    /// the defaults become.
+    static FlowOptions plain();
+};
+
+/// Whether every sub-mesh keeps a copy of Γ of its own.
+bool is_classical(Conditions conditions);
+
+/// Checks every field against its limits.
+/// @throws OptionError naming the field, its value and its limits; InputError naming the face for a negative label.
+void require_valid(const FlowOptions& options);
+
+}  // namespace seamflow

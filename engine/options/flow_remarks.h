@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The diagonal of the bounding box, in units of length; 0 for no positions.
+double extent_of(const Points& positions);
+
+/// Adds what the estimate after the last step means for the user, if it means anything.
+void remark_on_drift(const FlowOptions& options, FlowReport& report);
+
+/// Adds a remark where equations were nearly singular.
+/// @param n_nearly_singular for every sub-mesh, how many of its factorisations.
+void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report);
+
+/// Adds a remark where sub-meshes could not have the factorisation that was asked for.
+/// @param used for every sub-mesh that has one (see DirectSolver::kind).
+void remark_on_factorisation(Factorisation asked, std::span<const Factorisation> used, FlowReport& report);
+
+/// Adds a remark where steps have missed the tolerance, as the report says.
+/// @param iterations the most that a step may have.
+/// @param remedy what to do about it, after a colon; empty: nothing.
+void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report);
+
+/// Adds a remark where the flow has drawn the surface together to next to nothing, which is hardly what was wanted.
+/// @param extent_before see extent_of. @param after #V by 3.
+void remark_on_collapse(double extent_before, const Points& after, FlowReport& report);
+
+}  // namespace seamflow

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/options/schedule.h"
+#include "partition/metrics/displacement.h"
+#include "partition/metrics/length_statistics.h"
+#include "partition/metrics/vertex_distance.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Seconds. `assemble` to `correct` are summed over all tasks and threads; the others are wall-clock time.
+struct PhaseSeconds {
+    double cut = 0.0;
+    double analyse = 0.0;
+    double assemble = 0.0;
+    double factorise = 0.0;
+    double solve = 0.0;
+    double correct = 0.0;
+    /// The equation on Γ, or of Δ_P on traces, with AccuracyOptions::tolerance: wall-clock time.
+    double interface = 0.0;
+    /// All steps.
+    double step = 0.0;
+    /// The whole call, without the undecomposed flow that ReportOptions::reference asks for.
+    double total = 0.0;
+};
+
+/// How far a flow carried the vertices along the surface and out of it, in units of length. Only the former deforms a
+/// texture on the mesh.
+struct TotalDisplacement {
+    /// Per vertex, the sum over all steps of the lengths of both parts: all that it was moved, there and back.
+    DisplacementStatistics path;
+    /// Per vertex, the length of the sum of the tangential parts as vectors: how far the vertex, and the texture with
+    /// it, was dragged along the surface in the end.
+    LengthStatistics drift;
+};
+
+/// One step.
+struct StepReport {
+    /// Wall-clock time.
+    double seconds = 0.0;
+    /// Largest length of the mean curvature vector ΔV over all interior vertices that may move, in 1/length (where it
+    /// is finite: edges or faces that the flow has shrunk to nothing do not count).
+    double max_mean_curvature_before = 0.0;
+    double max_mean_curvature_after = 0.0;
+    /// How far the vertices moved in this step, in units of length (see split_displacement).
+    DisplacementStatistics displacement;
+    /// With the classical conditions, how far the copies of Γ are apart after this step: over the vertices of Γ, the
+    /// largest distance between two copies, in units of length.
+    std::optional<LengthStatistics> gap;
+    /// Of a converged step: its iterations, and the residual that they left.
+    std::optional<int> iterations;
+    std::optional<double> residual;
+    /// An estimate of the largest distance to the undecomposed flow after this step, VertexDistance::max. For sweeps it
+    /// follows from the residual of the whole mesh's rows (see ErrorEstimate), for converged steps from their residual.
+    /// Not with Conditions::Schwarz, whose sub-meshes overlap, and with backward Euler steps alone.
+    std::optional<double> estimated_v_max;  ///< in mean edge lengths
+    /// Distance to the undecomposed flow after this step, with ReportOptions::reference.
+    std::optional<VertexDistance> distance;
+    /// Wall-clock time of the undecomposed step, with ReportOptions::reference.
+    std::optional<double> reference_seconds;
+};
+
+/// What a flow did.
+struct FlowReport {
+    Index vertices = 0;
+    Index faces = 0;
+    /// Number of sub-meshes used, and of colours.
+    Index subdomains = 0;
+    Index colors = 0;
+    /// Faces and vertices of each sub-mesh (vertices of the interface, and the overlap of Conditions::Schwarz, counted
+    /// in each).
+    std::vector<Index> subdomain_faces;
+    std::vector<Index> subdomain_vertices;
+    /// Colour of each sub-mesh; colour 0 solves first in even steps.
+    std::vector<Index> subdomain_colors;
+    /// Sub-mesh of every face after repair.
+    std::vector<Index> labels;
+    /// Number of vertices on the interface Γ.
+    Index interface_vertices = 0;
+    /// Faces moved to another sub-mesh so that each is connected and has one fan of faces around each of its vertices.
+    Index repaired_faces = 0;
+    /// Vertices held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
+    Index non_manifold_vertices = 0;
+    /// Vertices that stay where they are, for whatever reason: boundary, not manifold, without faces, or asked for.
+    Index fixed_vertices = 0;
+    /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface, and with conditions that have
+    /// none).
+    std::vector<double> p;
+    /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for those made by
+    /// Cholesky's method.
+    Index live_factors = 0;
+    std::size_t factor_memory_bytes = 0;
+    /// dt, in length².
+    double time_step = 0.0;
+    /// Threads used.
+    int threads = 0;
+    PhaseSeconds seconds;
+    std::vector<StepReport> steps;
+    TotalDisplacement displacement;
+    /// The sub-meshes at the end, none sharing a vertex with another, with ReportOptions::keep_gaps: the faces in the
+    /// order of the mesh; its vertices first, then the further copies.
+    std::optional<PolygonMesh> pieces;
+    /// With ReportOptions::record_schedule, of a flow in backward Euler steps.
+    std::optional<Schedule> schedule;
+    /// What steps were converged to, asked for or chosen; empty: they were sweeps.
+    std::optional<double> tolerance;
+    /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.
+    int steps_short_of_tolerance = 0;
+    int steps_stagnated = 0;
+    /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
+    std::vector<std::string> remarks;
+};
+
+struct FlowState;
+
+/// What an observer sees after each step.
+struct StepState {
+    /// Number of the step, from 1.
+    int step = 0;
+    /// #V by 3, the positions after the step.
+    const Points& positions;
+    const StepReport& report;
+    /// See FlowReport::pieces; null without ReportOptions::keep_gaps.
+    const PolygonMesh* pieces = nullptr;
+    /// #V by 3, those of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
+    const Points* reference_positions = nullptr;
+    /// Copies everything that the flow needs to go on from here (see FlowState). May be called while the observer runs.
+    std::function<FlowState()> capture = {};
+};
+
+/// Called after each step, in the thread that called the flow.
+using StepObserver = std::function<void(const StepState&)>;
+
+}  // namespace seamflow

@@ -1,0 +1,28 @@
+#include "engine/options/schedule.h"
+
+namespace seamflow {
+
+std::string_view name_of(TaskKind kind)
+{
+    switch (kind) {
+    case TaskKind::AssembleAndFactorise:
+        return "assemble and factorise";
+    case TaskKind::Predict:
+        return "predict";
+    case TaskKind::UsePredictions:
+        return "use predictions";
+    case TaskKind::Solve:
+        return "solve";
+    case TaskKind::Accept:
+        return "accept";
+    case TaskKind::Condense:
+        return "condense";
+    case TaskKind::SolveInterface:
+        return "solve on the interface";
+    case TaskKind::BackSubstitute:
+        return "back-substitute";
+    }
+    return "";
+}
+
+}  // namespace seamflow

@@ -1,0 +1,141 @@
+#include "engine/prepare.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/measure/surface_curvature.h"
+#include "engine/setup/choose_subdomains.h"
+#include "engine/setup/choose_tolerance.h"
+#include "engine/setup/constraints.h"
+#include "engine/tasks/parallel_loop.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Checks the mesh, and says what tells the flow from others where that is needed.
+FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
+                           const FlowState* resume, Progress& progress)
+{
+    require_valid(mesh, progress.loop());
+    progress.count();
+    if (resume == nullptr && !is_observed)
+        return {};
+    FlowIdentity identity = identify(mesh, options);
+    if (resume != nullptr)
+        require_same(resume->identity, identity);
+    progress.count();
+    return identity;
+}
+
+const SubdomainNeeds& needs_of(const FlowOptions& options)
+{
+    if (is_symmetric(options.laplacian))
+        return options.accuracy.tolerance ? needs_of_converged_steps : needs_of_sweeps;
+    return options.accuracy.tolerance ? needs_of_krylov_steps : needs_of_unsymmetric_sweeps;
+}
+
+Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
+             const Loop& loop, const Alongside& alongside)
+{
+    if (options.scheme == Scheme::ExplicitEuler)
+        return cut_into(mesh, topology, 1, loop);
+    if (!options.cut.labels.empty())
+        return cut_by_labels(mesh, topology, options.cut.labels, loop);
+    if (options.cut.subdomains > 0)
+        return cut_into(mesh, topology, options.cut.subdomains, loop, alongside);
+    const SubdomainChoice choice = choose_subdomains(size, options.time_step, needs_of(options));
+    Cut cut = cut_into(mesh, topology, choice.count, loop, alongside);
+    cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
+    return cut;
+}
+
+/// Joins the faces and settles which vertices move.
+void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
+{
+    const auto look = [&] {
+        prepared.remarks.clear();
+        // Part of the topology is made by one thread.
+        run_both(
+            [&] {
+                prepared.topology =
+                    make_constrained_topology(mesh.mesh(), prepared.options, progress.loop(), prepared.remarks);
+            },
+            [&] { prepared.size = size_of(mesh.mesh()); });
+    };
+    look();
+    // The sub-meshes as they are have all faces.
+    if (prepared.options.report.keep_gaps || !mesh.leave_out_repeated_faces(prepared.topology))
+        return;
+    prepared.options.cut.labels = mesh.of_faces_left(prepared.options.cut.labels);
+    look();
+}
+
+/// METIS has one thread: the others measure in the meantime; where it has nothing to do measuring comes afterwards.
+void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& progress)
+{
+    const auto measure = [&] {
+        prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, prepared.options.laplacian);
+        prepared.meter.emplace(mesh, prepared.topology);
+    };
+    prepared.cut = make_cut(mesh, prepared.size, prepared.topology, prepared.options, progress.loop(),
+                            [&](const std::function<void()>& serial) { run_both(serial, measure); });
+    if (!prepared.meter)
+        measure();
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
+                                      const FlowState* resume, Progress& progress)
+{
+    auto prepared = std::make_unique<PreparedFlow>();
+    prepared->options = options;
+    prepared->identity = require_sound(mesh.mesh(), options, is_observed, resume, progress);
+    examine(*prepared, mesh, progress);
+    progress.count();
+    const Topology& topology = prepared->topology;
+    const ToleranceChoice choice =
+        choose_tolerance(mesh.mesh(), prepared->size, prepared->options, boundary_moves(mesh.mesh(), topology));
+    prepared->options.accuracy.tolerance = choice.tolerance;
+    progress.count();
+    cut_and_measure(*prepared, mesh.mesh(), progress);
+    std::vector<std::string>& remarks = prepared->remarks;
+    remarks.insert(remarks.begin(), prepared->cut.remarks.begin(), prepared->cut.remarks.end());
+    // A whole mesh is solved exactly either way.
+    if (prepared->cut.n_parts == 1 && !choice.reason.empty())
+        prepared->options.accuracy.tolerance.reset();
+    else if (!choice.reason.empty())
+        remarks.insert(remarks.begin(), "Steps are converged: " + choice.reason + ".");
+    if (!prepared->options.accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
+        require_boundary_unshared(mesh.mesh(), topology, prepared->cut);
+    return prepared;
+}
+
+void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport& report)
+{
+    const FlowOptions& options = prepared.options;
+    const Topology& topology = prepared.topology;
+    report.vertices = mesh.n_vertices();
+    report.faces = mesh.n_faces();
+    report.time_step = options.time_step;
+    report.tolerance = options.accuracy.tolerance;
+    report.repaired_faces = prepared.cut.repaired_faces;
+    report.remarks = prepared.remarks;
+    report.non_manifold_vertices =
+        static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));
+    if (report.non_manifold_vertices > 0)
+        report.remarks.push_back(std::to_string(report.non_manifold_vertices) +
+                                 " vertices are held fixed because the mesh is not manifold there.");
+    report.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
+    if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
+        const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
+        if (width < needs_of_sweeps.width)
+            report.remarks.push_back("The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
+                                     " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
+                                     "use fewer sub-meshes.");
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/measure/displacement_meter.h"
+#include "engine/measure/mesh_size.h"
+#include "engine/options/flow_options.h"
+#include "engine/setup/flowing_mesh.h"
+#include "engine/state/flow_state.h"
+#include "engine/tasks/progress.h"
+#include "partition/cut/cut.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// A flow before its first step: all that was decided about it, and what was measured for that.
+struct PreparedFlow {
+    /// What was asked for, with what was chosen where that left it open: the tolerance. Labels are those of the faces
+    /// that flow.
+    FlowOptions options;
+    /// Of the mesh and what was asked for. Empty where nobody needs it.
+    FlowIdentity identity;
+    MeshSize size;
+    /// Which vertices move, too.
+    Topology topology;
+    /// The sub-mesh of every face.
+    Cut cut;
+    /// #V: ‖ΔV⁰‖, in 1/length.
+    std::vector<double> curvature;
+    /// Refers to the topology.
+    std::optional<DisplacementMeter> meter;
+    /// About the mesh and the cut.
+    std::vector<std::string> remarks;
+};
+
+/// Checks a mesh and decides how it is to flow: which faces and vertices take part, whether steps are converged, which
+/// sub-meshes there are.
+/// @param mesh must outlive the result; faces that repeat others are left out.
+/// @param is_observed whether somebody may ask for the state of the flow.
+/// @param resume the state that the flow is to go on from; nullptr: it begins.
+/// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
+///         METIS; Cancelled.
+std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
+                                      const FlowState* resume, Progress& progress);
+
+/// What the report says of that.
+void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport& report);
+
+}  // namespace seamflow

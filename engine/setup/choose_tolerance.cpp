@@ -1,0 +1,69 @@
+#include "engine/setup/choose_tolerance.h"
+
+#include <cmath>
+
+#include "engine/setup/choose_subdomains.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Leaves a few hundredths of a mean edge length on most meshes, and took one to four iterations with Δ_F on regular
+/// ones, up to 34 on a scan with slivers (measured: see engine/accuracy.md).
+constexpr double loose_tolerance = 1e-2;
+/// In squared mean edge lengths: with longer steps, what a sweep leaves comes near a mean edge length.
+constexpr double longest_step_of_sweeps = 16.0;
+
+/// Whether an option is set that means nothing to converged steps.
+bool speaks_of_sweeps(const FlowOptions& options)
+{
+    const FlowOptions defaults;
+    return options.accuracy.approach == Approach::Sweep || options.scheme != defaults.scheme ||
+           options.interface.conditions != defaults.interface.conditions ||
+           options.interface.transmission != defaults.interface.transmission || options.interface.p ||
+           options.interface.p_rule != defaults.interface.p_rule ||
+           options.interface.p_edge != defaults.interface.p_edge || options.interface.q ||
+           options.interface.sweep != defaults.interface.sweep ||
+           options.interface.correction != defaults.interface.correction ||
+           options.interface.coloring != defaults.interface.coloring ||
+           options.resources.factorisation == Factorisation::Cholmod ||
+           options.resources.factorisation == Factorisation::Umfpack;
+}
+
+/// Whether sweeps would take two sub-meshes at most.
+bool has_few_sub_meshes(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    if (!options.cut.labels.empty())
+        return false;
+    return options.cut.subdomains > 0 ? options.cut.subdomains <= 2 : mesh.n_vertices() < 3 * needs_of_sweeps.vertices;
+}
+
+bool has_polygons(const PolygonMesh& mesh)
+{
+    return mesh.n_corners() != 3 * mesh.n_faces();
+}
+
+}  // namespace
+
+ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
+                                 bool boundary_moves)
+{
+    if (options.accuracy.tolerance)
+        return {options.accuracy.tolerance, ""};
+    if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
+        return {loose_tolerance, "sub-meshes that share a free boundary need it"};
+    if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
+        mesh.n_faces() == 0)
+        return {};
+    if (options.time_step > longest_step_of_sweeps * size.mean_edge * size.mean_edge)
+        return {loose_tolerance, "steps as long as these would stray in single sweeps"};
+    if (options.cut.subdomains > 0 &&
+        width_in_diffusion_lengths(size.area, options.cut.subdomains, options.time_step) < needs_of_sweeps.width)
+        return {loose_tolerance, "in sub-meshes as narrow as these single sweeps would stray"};
+    if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
+        return {loose_tolerance, "on polygons it costs no more than single sweeps"};
+    return {};
+}
+
+}  // namespace seamflow

@@ -1,0 +1,80 @@
+#include "engine/setup/constraints.h"
+
+#include <algorithm>
+
+#include "engine/tasks/parallel_loop.h"
+#include "partition/decomposition/local_mesh.h"
+#include "partition/errors.h"
+#include "solvers/laplacian/degenerate.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+bool moves_on_boundary(const Topology& topology, Index v)
+{
+    return topology.kind[v] == VertexKind::Boundary && topology.moves(v);
+}
+
+/// For MotionOptions::strict.
+void require_manifold(const Topology& topology)
+{
+    const auto found = std::find(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold);
+    if (found != topology.kind.end())
+        throw InputError("the mesh is not manifold at vertex " + std::to_string(found - topology.kind.begin()) +
+                         " (numbered from 0): three faces or more share an edge there, or several fans of faces meet; "
+                         "mend it, or do without strict to hold such vertices fixed");
+}
+
+std::size_t count_moving(const Topology& topology)
+{
+    return static_cast<std::size_t>(std::count(topology.fixed.begin(), topology.fixed.end(), 0));
+}
+
+/// @param held vertices at which the Laplacian is not defined.
+std::string remark_on(const std::vector<Index>& held, Laplacian laplacian)
+{
+    const bool lengths = traits_of(laplacian).divisor == Divisor::EdgeLengths;
+    return std::to_string(held.size()) + (held.size() == 1 ? " vertex is" : " vertices are") + " held fixed because " +
+           (lengths ? "edges without length" : "faces without area") + " leave the Laplacian undefined there, vertex " +
+           std::to_string(held.front()) + " (numbered from 0) among them: inspect lists them.";
+}
+
+}  // namespace
+
+Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+                                   std::vector<std::string>& remarks)
+{
+    Topology topology = make_topology(mesh, loop);
+    if (options.motion.boundary == Boundary::Free)
+        free_boundary(topology);
+    hold(topology, options.motion.fixed_vertices);
+    if (options.motion.strict)
+        require_manifold(topology);
+    const std::vector<Index> undefined = vertices_without_row(mesh, topology, options.laplacian, loop);
+    // Where nothing can move, the reason is more useful than the unchanged mesh.
+    if (options.motion.strict || undefined.size() == count_moving(topology))
+        require_sound_geometry(mesh, topology, options.laplacian, loop);
+    if (!undefined.empty())
+        remarks.push_back(remark_on(undefined, options.laplacian));
+    hold(topology, undefined);
+    return topology;
+}
+
+bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)
+{
+    return !select(run_in_parallel, mesh.n_vertices(), [&](Index v) { return moves_on_boundary(topology, v); }).empty();
+}
+
+void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
+{
+    const auto shared = select(run_in_parallel, mesh.n_vertices(), [&](Index v) {
+        return moves_on_boundary(topology, v) && is_on_interface(topology, cut.labels, v);
+    });
+    if (!shared.empty())
+        throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
+                          "what speaks of sweeps (conditions, sweep, p, …), or use one sub-mesh");
+}
+
+}  // namespace seamflow

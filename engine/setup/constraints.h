@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "partition/cut/cut.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The topology of the mesh, with the vertices held fixed that the options name and those at which the flow is not
+/// defined.
+/// @param remarks gets a sentence about those.
+/// @throws InputError for a number in MotionOptions::fixed_vertices that is none of a vertex; with
+/// MotionOptions::strict
+///         naming the first vertex, edge or face that the flow is not defined at; without it too if it is defined
+///         nowhere.
+Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+                                   std::vector<std::string>& remarks);
+
+/// Whether any vertex on the boundary moves.
+bool boundary_moves(const PolygonMesh& mesh, const Topology& topology);
+
+/// The conditions on Γ are not defined where Γ meets a boundary that moves.
+/// @throws OptionError if it does.
+void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut);
+
+}  // namespace seamflow

@@ -1,0 +1,106 @@
+#include "engine/setup/flowing_mesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "engine/setup/origin_offset.h"
+#include "engine/tasks/parallel_loop.h"
+#include "partition/inspection/repeated_faces.h"
+
+namespace seamflow {
+
+namespace {
+
+std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
+{
+    std::vector<std::uint8_t> has_face(mesh.n_vertices(), 0);
+    for (const Index v : mesh.face_vertices)
+        has_face[v] = 1;
+    return select(run_serially, mesh.n_vertices(), [&](Index v) { return has_face[v] == 0; });
+}
+
+}  // namespace
+
+FlowingMesh::FlowingMesh(PolygonMesh& given)
+    : given_(&given)
+    , offset_(origin_offset(given))
+{
+    if (!is_shifted())
+        return;
+    isolated_ = vertices_without_faces(given);
+    of_isolated_ = given.vertices(isolated_, Eigen::all);
+    copy_ = given;
+    copy_->vertices.rowwise() -= offset_;
+}
+
+bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
+{
+    if (std::ranges::find(topology.kind, VertexKind::NonManifold) == topology.kind.end())
+        return false;
+    const auto is_suspicious = [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; };
+    const auto candidates = select(run_in_parallel, mesh().n_faces(),
+                                   [&](Index f) { return std::ranges::any_of(mesh().face(f), is_suspicious); });
+    const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh(), candidates);
+    if (repeated.empty())
+        return false;
+    number_.assign(mesh().n_faces(), -1);
+    PolygonMesh left;
+    auto next = repeated.begin();
+    for (Index f = 0; f < mesh().n_faces(); ++f) {
+        if (next != repeated.end() && next->face == f) {
+            number_[f] = number_[next++->first];
+            continue;
+        }
+        number_[f] = left.n_faces();
+        left.add_face(mesh().face(f));
+    }
+    left.vertices = mesh().vertices;
+    copy_ = std::move(left);
+    return true;
+}
+
+std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) const
+{
+    if (number_.empty() || labels.size() != number_.size())
+        return labels;
+    std::vector<Index> left;
+    for (std::size_t f = 0; f < labels.size(); ++f)
+        if (at(number_[f]) == left.size())
+            left.push_back(labels[f]);
+    return left;
+}
+
+void FlowingMesh::move_to(const Points& positions)
+{
+    given_->vertices = positions;
+    if (copy_)
+        copy_->vertices = positions;
+    if (is_shifted())
+        shift_back(given_->vertices);
+}
+
+void FlowingMesh::shift_back(Points& positions) const
+{
+    positions.rowwise() += offset_;
+    for (std::size_t i = 0; i < isolated_.size(); ++i)
+        positions.row(isolated_[i]) = of_isolated_.row(static_cast<Eigen::Index>(i));
+}
+
+void FlowingMesh::complete(FlowReport& report) const
+{
+    if (report.pieces && is_shifted())
+        shift_back(report.pieces->vertices);
+    if (number_.empty())
+        return;
+    const Index n_left_out = given_->n_faces() - mesh().n_faces();
+    report.faces += n_left_out;
+    std::vector<Index> labels(number_.size());
+    std::transform(number_.begin(), number_.end(), labels.begin(), [&](Index number) { return report.labels[number]; });
+    report.labels = std::move(labels);
+    report.remarks.push_back(std::to_string(n_left_out) + (n_left_out == 1 ? " face has" : " faces have") +
+                             " the same vertices as one before and took no part in the flow; they are still there.");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "partition/decomposition/sweep_plan.h"
+#include "solvers/systems/sub_mesh_system.h"
+
+/// What the options of a flow mean for its sub-meshes.
+namespace seamflow {
+
+/// Whether sub-meshes tell each other what they would do.
+bool predicts(const FlowOptions& options);
+
+/// The equations of a sub-mesh.
+/// @throws ComputationError if their analysis fails.
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const FlowOptions& options,
+                                              SolverWorkspace& workspace);
+
+/// The Robin parameter of a sub-mesh, in 1/length; 0 where there is none.
+/// @param positions #local by 3.
+double robin_parameter(const SubMesh& sub_mesh, const Points& positions, const FlowOptions& options);
+
+/// Whether the direction of the sweep alternates from step to step.
+bool alternates(const FlowOptions& options, std::size_t n_sub_meshes);
+
+/// Whether the vertices of Γ move to the centroids of their neighbours after a step.
+bool corrects(const FlowOptions& options);
+
+/// The sweep in ascending order of `rank`.
+SweepPlan make_plan(const Decomposition& decomposition, const FlowOptions& options, const std::vector<Index>& rank);
+
+}  // namespace seamflow

@@ -1,0 +1,153 @@
+#include "engine/state/flow_identity.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <concepts>
+#include <optional>
+#include <string_view>
+
+#include "engine/setup/origin_offset.h"
+#include "engine/state/checksum.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr std::string_view none = "none";
+
+std::string text_of(std::integral auto value)
+{
+    return std::to_string(value);
+}
+
+/// The fewest digits that tell it from all others.
+std::string text_of(double value)
+{
+    std::array<char, 32> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string text_of(const std::optional<double>& value)
+{
+    return value ? text_of(*value) : std::string(none);
+}
+
+std::string text_of(Laplacian laplacian)
+{
+    return std::string(name_of(laplacian));
+}
+
+/// An enumerator by its name.
+template <class Enum, std::size_t N>
+std::string named(Enum value, const std::array<std::string_view, N>& names)
+{
+    return std::string(names.at(static_cast<std::size_t>(value)));
+}
+
+std::string hexadecimal(std::uint64_t value)
+{
+    std::array<char, 16> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, 16).ptr};
+}
+
+std::string text_of(const std::vector<Index>& indices)
+{
+    return indices.empty() ? std::string(none) : "those with checksum " + hexadecimal(checksum_of(indices));
+}
+
+/// Of the mesh near the origin, where it flows: the same whether it has been brought there or not.
+std::string text_of(const PolygonMesh& mesh)
+{
+    Checksum checksum;
+    const Point offset = origin_offset(mesh);
+    const Points moved = offset.isZero(0.0) ? Points(0, 3) : Points(mesh.vertices.rowwise() - offset);
+    const Points& near = offset.isZero(0.0) ? mesh.vertices : moved;
+    checksum.add_numbers(std::span<const double>(near.data(), static_cast<std::size_t>(near.size())));
+    checksum.add_numbers(std::span<const Index>(mesh.face_offsets));
+    checksum.add_numbers(std::span<const Index>(mesh.face_vertices));
+    return std::to_string(mesh.n_vertices()) + " vertices and " + std::to_string(mesh.n_faces()) +
+           " faces with checksum " + hexadecimal(checksum.value());
+}
+
+}  // namespace
+
+FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    // Every field has a name here, so that a new one cannot be forgotten.
+    const auto& [laplacian, time_step, steps, scheme, cut, interface, accuracy, motion, resources, report] = options;
+    const auto& [subdomains, labels] = cut;
+    const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, coloring, sweep, correction] = interface;
+    const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
+    const auto& [boundary, fixed_vertices, strict, rescale] = motion;
+    const auto& [threads, memory_limit, factorisation] = resources;
+    const auto& [reference, record_schedule, keep_gaps] = report;
+    // These do not change results, or (steps) only where they end.
+    static_cast<void>(steps);
+    static_cast<void>(strict);
+    static_cast<void>(keep_gaps);
+    static_cast<void>(threads);
+    static_cast<void>(memory_limit);
+    static_cast<void>(largest_update);
+    static_cast<void>(record_schedule);
+    using Names = std::array<std::string_view, 2>;
+    return {{
+        {"version", SEAMFLOW_VERSION},
+        {"mesh", text_of(mesh)},
+        {"laplacian", text_of(laplacian)},
+        {"time_step", text_of(time_step)},
+        {"subdomains", text_of(subdomains)},
+        {"labels", text_of(labels)},
+        {"coloring", named(coloring, Names{"greedy", "label"})},
+        {"conditions", named(conditions, std::array<std::string_view, 5>{"adapted-robin", "adapted-ventcell", "robin",
+                                                                         "ventcell", "schwarz"})},
+        {"scheme", named(scheme, Names{"implicit", "explicit"})},
+        {"transmission", named(transmission, Names{"derivative", "predicted"})},
+        {"p", text_of(p)},
+        {"p_rule", named(p_rule, Names{"paper", "inverse-step"})},
+        {"p_edge", named(p_edge, std::array<std::string_view, 4>{"automatic", "min", "percentile", "mean"})},
+        {"q", text_of(q)},
+        {"overlap", text_of(overlap)},
+        {"sweep", named(sweep, std::array<std::string_view, 3>{"automatic", "fixed", "alternating"})},
+        {"boundary", named(boundary, Names{"fixed", "free"})},
+        {"fixed_vertices", text_of(fixed_vertices)},
+        {"rescale", named(rescale, std::array<std::string_view, 3>{"none", "area", "volume"})},
+        {"correction", named(correction, std::array<std::string_view, 3>{"automatic", "centroid", "none"})},
+        {"tolerance", text_of(tolerance)},
+        {"approach", named(approach, Names{"automatic", "sweep"})},
+        {"converge_iterations", text_of(converge_iterations)},
+        {"reference", reference ? "yes" : "no"},
+        {"factorisation",
+         named(factorisation, std::array<std::string_view, 4>{"automatic", "own", "cholmod", "umfpack"})},
+    }};
+}
+
+void require_same(const FlowIdentity& of_state, const FlowIdentity& of_flow)
+{
+    const auto refused = [](const std::string& what, const std::string& then, const std::string& now) {
+        return "belongs to another flow: " + what + " was " + then + " then and is " + now + " now";
+    };
+    for (const FlowIdentity::Entry& now : of_flow.entries) {
+        const auto then = std::find_if(of_state.entries.begin(), of_state.entries.end(),
+                                       [&](const FlowIdentity::Entry& entry) { return entry.name == now.name; });
+        const std::string value = then == of_state.entries.end() ? "unknown" : then->value;
+        if (value == now.value)
+            continue;
+        if (now.name == "mesh" || now.name == "version")
+            throw InputError(refused("the " + now.name, value, now.value));
+        throw OptionError(refused(now.name, value, now.value));
+    }
+    if (of_state.entries.size() != of_flow.entries.size())
+        throw InputError(refused("the number of options", std::to_string(of_state.entries.size()),
+                                 std::to_string(of_flow.entries.size())));
+}
+
+std::uint64_t checksum_of(std::span<const Index> indices)
+{
+    Checksum checksum;
+    checksum.add_numbers(indices);
+    return checksum.value();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,144 @@
+#include "engine/steppers/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/stopwatch.h"
+#include "solvers/direct/columns.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What the next step leaves of a difference between two flows.
+struct Carried {
+    /// Of what a correction did to single vertices, tangentially. Δ_A and Δ_P do not see how vertices lie in a surface;
+    /// Δ_F does, and half of it to all of it is left, the less the rougher. Normally nothing is left but what spreads.
+    double tangential_correction;
+    /// Of the error of a sweep, tangentially; and normally where it is smooth along Γ. Across Γ it is smooth over √dt:
+    /// of the largest the first step leaves a half, the next one three quarters, then five sixths, and so on.
+    double tangential_error;
+    double normal_error;
+};
+
+Carried carried_by(Laplacian laplacian)
+{
+    return laplacian == Laplacian::Fujiwara ? Carried{0.65, 0.8, 0.8} : Carried{1.0, 1.0, 0.8};
+}
+
+Point scaled(const Point& vector, const Point& normal, double tangentially, double normally)
+{
+    const Point along_normal = vector.dot(normal) * normal;
+    return tangentially * (vector - along_normal) + normally * along_normal;
+}
+
+}  // namespace
+
+ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+                             const FlowOptions& options)
+    : decomposition_(&decomposition)
+    , mesh_(&mesh)
+    , topology_(&topology)
+    , laplacian_(options.laplacian)
+    , time_step_(options.time_step)
+    , has_copies_(is_classical(options.interface.conditions))
+    , equation_(decomposition, mesh, topology, options.laplacian, run_in_parallel)
+{
+    for (Points* array : {&correction_, &corrected_, &swept_})
+        array->setZero(equation_.size(), 3);
+    if (laplacian_ == Laplacian::PtackovaVelho && equation_.size() > 0)
+        solved_ = mesh.vertices;
+}
+
+/// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
+const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const
+{
+    const SubMeshState& state = states[s];
+    if (!has_copies_)
+        return state.solved;
+    set_rows(mean, state.solved.rows());
+    mean = state.solved;
+    const auto& interface = state.sub_mesh->interface;
+    for (Index i = 0; i < interface.size(); ++i) {
+        Point sum = Point::Zero();
+        for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
+            sum += states[interface.sharing[i][k]].solved.row(interface.index_in_sharing[i][k]);
+        mean.row(interface.vertices[i]) = sum / static_cast<double>(interface.sharing[i].size());
+    }
+    return mean;
+}
+
+void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
+{
+    receive_solution(states, s, decomposition_->halo[s]);
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    const Points& after = joined(states, s, workspace.other_side);
+    equation_.assemble(s, state.position, after, time_step_);
+    if (solved_.rows() > 0)
+        for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
+            if (state.sub_mesh->owned[v] != 0)
+                solved_.row(state.sub_mesh->local_to_global[v]) = after.row(v);
+    state.seconds.correct += watch.lap();
+}
+
+void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Index s)
+{
+    const SubMeshState& state = states[s];
+    for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i) {
+        const Index v = equation_.local_vertex(i);
+        correction_.row(i) = state.position.row(v) - state.solved.row(v);
+    }
+}
+
+/// The errors of earlier steps, as this step finds them: what it smooths away at single vertices spreads.
+void ErrorEstimate::carry_over()
+{
+    const Carried carried = carried_by(laplacian_);
+    for_each(run_in_parallel, equation_.size(), [&](Index i) {
+        const Point normal = equation_.normal(i);
+        const Point kept = scaled(corrected_.row(i), normal, carried.tangential_correction, 0.0);
+        equation_.add_displacement(i, corrected_.row(i) - kept);
+        corrected_.row(i) = kept + correction_.row(i);
+        equation_.add_error(i, scaled(swept_.row(i), normal, 0.0, carried.normal_error));
+        swept_.row(i) = scaled(swept_.row(i), normal, carried.tangential_error, 0.0);
+    });
+}
+
+void ErrorEstimate::add_step(const Points& before)
+{
+    if (solved_.rows() > 0)
+        equation_.measure_whole_rows(*mesh_, *topology_, before, solved_, time_step_, run_in_parallel);
+    carry_over();
+    equation_.solve(run_in_parallel);
+    swept_ += equation_.error();
+}
+
+void ErrorEstimate::save(StepMemory& memory) const
+{
+    memory.arrays.push_back(corrected_);
+    memory.arrays.push_back(swept_);
+}
+
+void ErrorEstimate::restore(StepMemoryReader& memory)
+{
+    // An estimate that has overflowed neither stops a flow nor keeps it from going on.
+    corrected_ = memory.array_of_any(corrected_.rows());
+    swept_ = memory.array_of_any(swept_.rows());
+}
+
+std::optional<double> ErrorEstimate::largest() const
+{
+    double squared = 0.0;
+    for (Eigen::Index i = 0; i < swept_.rows(); ++i) {
+        const Point error = swept_.row(i);
+        const double here = std::max(error.squaredNorm(), (error + corrected_.row(i)).squaredNorm());
+        if (!std::isfinite(here))
+            return std::nullopt;
+        squared = std::max(squared, here);
+    }
+    return std::sqrt(squared);
+}
+
+}  // namespace seamflow

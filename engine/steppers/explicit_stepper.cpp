@@ -1,0 +1,132 @@
+#include "engine/steppers/explicit_stepper.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engine/tasks/parallel_loop.h"
+#include "partition/errors.h"
+#include "solvers/laplacian/mean_curvature.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// dt beyond this part of the squared shortest edge is unstable on regular grids.
+constexpr double safe_part = 0.25;
+
+std::string text_of(double value)
+{
+    std::ostringstream text;
+    text.precision(17);
+    text << value;
+    return text.str();
+}
+
+/// The squared length of the shortest edge at a vertex, edges without length left out.
+double shortest_edge_squared(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Index v)
+{
+    double shortest = infinity;
+    for (const Index corner : topology.corners_at(v))
+        for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)}) {
+            const double squared = (positions.row(mesh.face_vertices[end]) - positions.row(v)).squaredNorm();
+            if (squared > 0.0)
+                shortest = std::min(shortest, squared);
+        }
+    return shortest;
+}
+
+}  // namespace
+
+double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions)
+{
+    std::vector<double> of_block(at(mesh.n_vertices() / block_size) + 1, infinity);
+    for_each_block(run_in_parallel, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
+        double shortest = infinity;
+        for (Index v = begin; v < end; ++v)
+            if (topology.moves(v))
+                shortest = std::min(shortest, shortest_edge_squared(mesh, topology, positions, v));
+        of_block[block] = shortest;
+    });
+    return *std::min_element(of_block.begin(), of_block.end());
+}
+
+ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                                 Progress& progress)
+    : mesh_(&mesh)
+    , topology_(&topology)
+    , progress_(&progress)
+    , laplacian_(options.laplacian)
+    , time_step_(options.time_step)
+    , positions_(mesh.vertices)
+    , first_limit_(infinity)
+    , smallest_limit_(infinity)
+{
+}
+
+void ExplicitStepper::require_stable(const Points& positions)
+{
+    const double limit = largest_explicit_step(*mesh_, *topology_, positions);
+    const bool first = smallest_limit_ == infinity;
+    smallest_limit_ = std::min(smallest_limit_, limit);
+    if (!first)
+        return;
+    first_limit_ = limit;
+    if (time_step_ > limit)
+        throw OptionError("time_step is " + text_of(time_step_) + ", but must be at most " + text_of(limit) +
+                          " (length²), the square of the shortest edge, for explicit Euler steps to be stable: use a "
+                          "smaller one, or backward Euler steps");
+}
+
+void ExplicitStepper::step(const Points& before)
+{
+    assert(&before != &positions_);
+    require_stable(before);
+    for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
+        if (topology_->moves(v))
+            positions_.row(v) =
+                before.row(v) - time_step_ * mean_curvature_vector(*mesh_, *topology_, before, laplacian_, v);
+    });
+    if (!positions_.allFinite())
+        throw ComputationError("the result is not finite: use a smaller time step or backward Euler steps");
+}
+
+void ExplicitStepper::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.numbers = {first_limit_, smallest_limit_};
+}
+
+void ExplicitStepper::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = memory.positions;
+    first_limit_ = reader.number();
+    smallest_limit_ = reader.number();
+    reader.require_end();
+}
+
+void ExplicitStepper::describe(FlowReport& report) const
+{
+    if (mesh_->n_faces() == 0)
+        return;
+    report.subdomains = 1;
+    report.colors = 1;
+    report.subdomain_faces = {mesh_->n_faces()};
+    report.subdomain_vertices = {mesh_->n_vertices()};
+    report.subdomain_colors = {0};
+    report.p = {0.0};
+    if (time_step_ > smallest_limit_)
+        report.remarks.push_back("Edges have shrunk so far that the time step is above the square of the shortest one: "
+                                 "explicit Euler steps may no longer be stable.");
+    else if (time_step_ > safe_part * first_limit_)
+        report.remarks.push_back("The time step is above a quarter of the square of the shortest edge: explicit Euler "
+                                 "steps may not be stable.");
+}
+
+}  // namespace seamflow

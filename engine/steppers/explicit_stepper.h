@@ -1,0 +1,51 @@
+#pragma once
+
+#include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The square of the shortest edge that has an end that may move, in length²: the largest step that the paper (after
+/// Desbrun et al. 1999) calls stable for explicit Euler. Edges without length do not count; infinite where nothing
+/// moves. On regular grids of quads or triangles the largest eigenvalue of Δ_F asks for a quarter of it. Runs in
+/// parallel.
+double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions);
+
+/// Takes explicit Euler steps V^{k+1} = (I - dt Δ(V^k)) V^k of the whole mesh, vertex by vertex in parallel. The bits
+/// do not depend on the number of threads.
+class ExplicitStepper final : public Stepper {
+  public:
+    /// @param mesh, topology, progress must outlive the stepper.
+    ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options, Progress& progress);
+
+    /// @throws OptionError naming largest_explicit_step if dt is above it in the first step; ComputationError if the
+    ///         result is not finite.
+    void step(const Points& before) override;
+    [[nodiscard]] const Points& positions() const override { return positions_; }
+    void save(StepMemory& memory) const override;
+    void restore(const StepMemory& memory) override;
+    /// There are no tasks.
+    void add_seconds(PhaseSeconds&) const override {}
+    /// Of a single step there is nothing to tell.
+    void describe(StepReport&) const override {}
+    void describe(FlowReport& report) const override;
+
+  private:
+    void require_stable(const Points& positions);
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    Progress* progress_;
+    Laplacian laplacian_;
+    double time_step_;
+    Points positions_;
+    /// largest_explicit_step of the first step, and the smallest so far.
+    double first_limit_;
+    double smallest_limit_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,93 @@
+#include "engine/steppers/interface_gaps.h"
+
+#include <algorithm>
+
+#include "engine/tasks/parallel_loop.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Where the copies of a vertex of Γ lie: one row of a sub-mesh's positions each.
+class CopiesOfVertex {
+  public:
+    CopiesOfVertex(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i)
+        : states_(&states)
+        , sub_meshes_(interface.sharing[i])
+        , vertices_(interface.index_in_sharing[i])
+    {
+    }
+
+    [[nodiscard]] std::size_t size() const { return sub_meshes_.size(); }
+    [[nodiscard]] Point operator[](std::size_t k) const
+    {
+        return (*states_)[sub_meshes_[k]].position.row(vertices_[k]);
+    }
+
+  private:
+    const std::vector<SubMeshState>* states_;
+    std::span<const Index> sub_meshes_;
+    std::span<const Index> vertices_;
+};
+
+Point mean_of(const CopiesOfVertex& copies)
+{
+    Point sum = Point::Zero();
+    for (std::size_t k = 0; k < copies.size(); ++k)
+        sum += copies[k];
+    return sum / static_cast<double>(copies.size());
+}
+
+double largest_distance(const CopiesOfVertex& copies)
+{
+    double largest = 0.0;
+    for (std::size_t k = 0; k < copies.size(); ++k)
+        for (std::size_t l = 0; l < k; ++l)
+            largest = std::max(largest, (copies[k] - copies[l]).norm());
+    return largest;
+}
+
+}  // namespace
+
+InterfaceGaps::InterfaceGaps(const PolygonMesh& mesh, const Decomposition& decomposition, bool keeps_pieces)
+    : decomposition_(&decomposition)
+    , gaps_(decomposition.n_interface_vertices, 0.0)
+{
+    if (keeps_pieces)
+        separated_ = separate(mesh, decomposition);
+    std::size_t n = 0;
+    for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
+        first_gap_.push_back(n);
+        const auto& interface = decomposition.sub_meshes[s].interface;
+        for (Index i = 0; i < interface.size(); ++i)
+            n += interface.sharing[i].front() == static_cast<Index>(s) ? 1 : 0;
+    }
+}
+
+void InterfaceGaps::join(const std::vector<SubMeshState>& states, Points& positions)
+{
+    for_each(run_in_parallel, static_cast<Index>(states.size()), [&](Index s) {
+        join_interface_of(s, states, positions);
+        if (!separated_)
+            return;
+        const auto& vertex_of = separated_->vertex_of[s];
+        for (std::size_t v = 0; v < vertex_of.size(); ++v)
+            separated_->mesh.vertices.row(vertex_of[v]) = states[s].position.row(static_cast<Eigen::Index>(v));
+    });
+}
+
+void InterfaceGaps::join_interface_of(Index s, const std::vector<SubMeshState>& states, Points& positions)
+{
+    const SubMesh& sub_mesh = decomposition_->sub_meshes[s];
+    const auto& interface = sub_mesh.interface;
+    std::size_t gap = first_gap_[s];
+    for (Index i = 0; i < interface.size(); ++i) {
+        if (interface.sharing[i].front() != s)
+            continue;
+        const CopiesOfVertex copies(states, interface, i);
+        positions.row(sub_mesh.local_to_global[interface.vertices[i]]) = mean_of(copies);
+        gaps_[gap++] = largest_distance(copies);
+    }
+}
+
+}  // namespace seamflow

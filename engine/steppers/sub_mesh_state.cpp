@@ -1,0 +1,166 @@
+#include "engine/steppers/sub_mesh_state.h"
+
+#include "engine/tasks/stopwatch.h"
+#include "solvers/direct/columns.h"
+
+namespace seamflow {
+
+namespace {
+
+void copy(const Points& source, Points& target)
+{
+    set_rows(target, source.rows());
+    target = source;
+}
+
+/// Carries rows of one array of the senders into the receiver's.
+void receive(const std::vector<SubMeshState>& states, std::span<const Transfer> transfers, Points SubMeshState::*array,
+             Points& target)
+{
+    for (const Transfer& transfer : transfers) {
+        const Points& source = states[transfer.from].*array;
+        for (std::size_t i = 0; i < transfer.source.size(); ++i)
+            target.row(transfer.target[i]) = source.row(transfer.source[i]);
+    }
+}
+
+/// What a sub-mesh of a mutual sweep can know of the other side, with `array_of` the latest array of each sender.
+template <class ArrayOf>
+void receive_other_side(const std::vector<SubMeshState>& states, const std::vector<Transfer>& halo,
+                        const std::vector<Transfer>& copies, ArrayOf array_of, const SubMeshState& state,
+                        Points& other_side)
+{
+    copy(state.position, other_side);
+    for (const Transfer& transfer : halo)
+        receive(states, std::span(&transfer, 1), array_of(transfer.from), other_side);
+    const auto& interface = state.sub_mesh->interface;
+    for (const Index v : interface.vertices)
+        other_side.row(v).setZero();
+    for (const Transfer& transfer : copies) {
+        const Points& source = states[transfer.from].*array_of(transfer.from);
+        for (std::size_t i = 0; i < transfer.source.size(); ++i)
+            other_side.row(transfer.target[i]) += source.row(transfer.source[i]);
+    }
+    for (Index i = 0; i < interface.size(); ++i)
+        other_side.row(interface.vertices[i]) /= static_cast<double>(interface.sharing[i].size() - 1);
+}
+
+void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span<const InterfaceRole> roles,
+                        double time_step, SolverWorkspace& workspace, Stopwatch& watch)
+{
+    state.system->assemble(state.position, other_side, time_step, state.p, roles, workspace);
+    state.seconds.assemble += watch.lap();
+    state.system->factorise(workspace);
+    state.seconds.factorise += watch.lap();
+}
+
+}  // namespace
+
+SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> equations, const Points& positions)
+    : sub_mesh(&mesh)
+    , system(std::move(equations))
+    , position(mesh.n_vertices + mesh.n_halo, 3)
+    , solved(mesh.n_vertices + mesh.n_halo, 3)
+{
+    for (std::size_t i = 0; i < mesh.local_to_global.size(); ++i)
+        position.row(static_cast<Eigen::Index>(i)) = positions.row(mesh.local_to_global[i]);
+    solved = position;
+}
+
+void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                            std::span<const InterfaceRole> roles, double time_step, SolverWorkspace& workspace)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    receive(states, halo, &SubMeshState::position, state.position);
+    fill_and_factorise(state, state.position, roles, time_step, workspace, watch);
+}
+
+void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                                   const SweepPlan& plan, double time_step, SolverWorkspace& workspace)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    receive(states, halo, &SubMeshState::position, state.position);
+    receive_other_side(
+        states, halo, plan.copies[s], [](Index) { return &SubMeshState::position; }, state, workspace.other_side);
+    fill_and_factorise(state, workspace.other_side, plan.roles[s], time_step, workspace, watch);
+}
+
+void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    state.system->predict(state.position, state.solved, workspace);
+    state.seconds.solve += watch.lap();
+}
+
+void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
+                     SolverWorkspace& workspace)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    copy(state.position, workspace.other_side);
+    receive(states, predictions, &SubMeshState::solved, workspace.other_side);
+    state.system->use_other_side(state.position, workspace.other_side);
+    state.seconds.solve += watch.lap();
+}
+
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    for (const Index v : state.sub_mesh->interface.vertices)
+        state.solved.row(v) = state.position.row(v);
+    receive(states, traces, &SubMeshState::solved, state.solved);
+    state.system->solve(state.position, state.solved, workspace);
+    state.seconds.solve += watch.lap();
+}
+
+void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
+                  SolverWorkspace& workspace)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    const auto latest = [&](Index t) {
+        return plan.rank[t] < plan.rank[s] ? &SubMeshState::solved : &SubMeshState::position;
+    };
+    receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
+    state.system->use_other_side(state.position, workspace.other_side);
+    state.system->solve(state.position, state.solved, workspace);
+    state.seconds.solve += watch.lap();
+}
+
+void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    receive(states, halo, &SubMeshState::solved, state.solved);
+    state.seconds.correct += watch.lap();
+}
+
+void accept(std::vector<SubMeshState>& states, Index s)
+{
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    state.position.topRows(state.sub_mesh->n_vertices) = state.solved.topRows(state.sub_mesh->n_vertices);
+    state.seconds.correct += watch.lap();
+}
+
+void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
+{
+    accept(states, s);
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    receive(states, halo, &SubMeshState::solved, state.solved);
+    const auto& seam = state.sub_mesh->seam;
+    for (Index i = 0; i < static_cast<Index>(seam.vertices.size()); ++i) {
+        Point sum = Point::Zero();
+        for (const Index neighbour : seam.neighbours[i])
+            sum += state.solved.row(neighbour);
+        state.position.row(seam.vertices[i]) = sum / static_cast<double>(seam.neighbours[i].size());
+    }
+    state.seconds.correct += watch.lap();
+}
+
+}  // namespace seamflow

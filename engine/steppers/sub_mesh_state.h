@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+#include "partition/decomposition/sweep_plan.h"
+#include "solvers/systems/sub_mesh_system.h"
+
+namespace seamflow {
+
+/// Seconds spent on one sub-mesh, summed over all steps.
+struct SubMeshSeconds {
+    double assemble = 0.0;
+    double factorise = 0.0;
+    double solve = 0.0;
+    double correct = 0.0;
+};
+
+/// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read
+/// the states of the senders that a Transfer names, and write to their own alone.
+struct SubMeshState {
+    SubMeshState(const SubMesh& sub_mesh, std::unique_ptr<SubMeshSystem> system, const Points& positions);
+
+    const SubMesh* sub_mesh;
+    std::unique_ptr<SubMeshSystem> system;
+    /// Robin parameter, in 1/length.
+    double p = 0.0;
+    /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
+    Points position;
+    /// #local by 3: Vᵏ⁺¹ as solved, before the correction. Until then, at own vertices, the prediction: what the
+    /// sub-mesh would do with Γ held at Vᵏ. Sub-meshes that read the prediction lead somewhere on this sub-mesh's Γ, so
+    /// that it waits for them before it solves.
+    Points solved;
+    SubMeshSeconds seconds;
+};
+
+/// Fetches Vᵏ for the halo, fills the equations and factorises them.
+void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                            std::span<const InterfaceRole> roles, double time_step, SolverWorkspace& workspace);
+
+/// The same in a mutual sweep: also fetches the copies that the others have of Γ.
+void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
+                                   const SweepPlan& plan, double time_step, SolverWorkspace& workspace);
+
+/// Solves with Γ held at Vᵏ.
+void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
+
+/// Fetches what the sub-meshes beyond Γ predict, where this one leads.
+void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
+                     SolverWorkspace& workspace);
+
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
+void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
+
+/// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of lower rank and
+/// Vᵏ from those of higher rank, and solves. Where a vertex has several other copies, their mean is taken.
+void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
+                  SolverWorkspace& workspace);
+
+/// Fetches Vᵏ⁺¹ as it was solved for the halo.
+void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
+
+/// Accepts Vᵏ⁺¹ as it was solved.
+void accept(std::vector<SubMeshState>& states, Index s);
+
+/// Fetches Vᵏ⁺¹ for the halo and accepts Vᵏ⁺¹, the vertices of Γ moved to the centroids of their edge neighbours
+/// (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.
+void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
+
+}  // namespace seamflow

@@ -1,0 +1,136 @@
+#include "engine/steppers/sweep_graph.h"
+
+#include <algorithm>
+#include <cassert>
+#include <memory>
+#include <utility>
+
+namespace seamflow {
+
+namespace {
+
+using Node = StepGraph::Node;
+
+/// Whether a sub-mesh takes over something that another has solved.
+[[maybe_unused]] bool follows(const SweepPlan& plan, Index s, Index leader)
+{
+    return std::ranges::any_of(plan.traces[s], [&](const Transfer& trace) { return trace.from == leader; });
+}
+
+/// Adds the tasks of one kind after the other, each with what it waits for.
+class SweepBuilder {
+  public:
+    SweepBuilder(StepGraph& graph, const SweepPlan& plan, const std::vector<std::vector<Index>>& adjacency,
+                 SweepTasks tasks)
+        : graph_(graph)
+        , plan_(plan)
+        , adjacency_(adjacency)
+        , tasks_(std::make_shared<const SweepTasks>(std::move(tasks)))
+        , root_(graph.add_root())
+    {
+    }
+
+    void build(const FactorWindow& window)
+    {
+        add_factorisations_and_solves();
+        wait_for_room(window);
+        wait_for_traces();
+        if (tasks_->predict)
+            add_predictions();
+        add_acceptances();
+    }
+
+  private:
+    Node add(TaskKind phase, Index s, TaskPriority priority, SweepTasks::Task SweepTasks::*task)
+    {
+        return graph_.add_task({phase, s, priority}, [tasks = tasks_, task, s] { (*tasks.*task)(s); });
+    }
+
+    [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(adjacency_.size()); }
+
+    void add_factorisations_and_solves()
+    {
+        for (Index s = 0; s < n_sub_meshes(); ++s) {
+            factorised_.push_back(
+                add(TaskKind::AssembleAndFactorise, s, TaskPriority::Normal, &SweepTasks::assemble_and_factorise));
+            solved_.push_back(add(TaskKind::Solve, s, TaskPriority::High, &SweepTasks::solve));
+            graph_.add_dependency(root_, factorised_.back());
+            graph_.add_dependency(factorised_.back(), solved_.back());
+        }
+    }
+
+    /// Factorisation waits until a factor before it is gone.
+    void wait_for_room(const FactorWindow& window)
+    {
+        for (std::size_t i = 0; i + at(window.size) < window.order.size(); ++i)
+            graph_.add_dependency(solved_[window.order[i]], factorised_[window.order[i + at(window.size)]]);
+    }
+
+    /// A solve waits for those whose Vᵏ⁺¹ it takes.
+    void wait_for_traces()
+    {
+        for (std::size_t s = 0; s < solved_.size(); ++s) {
+            for (const Transfer& trace : plan_.traces[s])
+                graph_.add_dependency(solved_[trace.from], solved_[s]);
+            for (const Transfer& copies : plan_.copies[s])
+                if (plan_.rank[copies.from] < plan_.rank[s])
+                    graph_.add_dependency(solved_[copies.from], solved_[s]);
+        }
+    }
+
+    /// Between factorisation and solve, every sub-mesh that follows another one makes a prediction, which the leading
+    /// one reads.
+    void add_predictions()
+    {
+        std::vector<Node> predicted(solved_.size(), -1);
+        for (Index s = 0; s < n_sub_meshes(); ++s) {
+            if (plan_.traces[s].empty())
+                continue;
+            predicted[s] = add(TaskKind::Predict, s, TaskPriority::High, &SweepTasks::predict);
+            graph_.add_dependency(factorised_[s], predicted[s]);
+            graph_.add_dependency(predicted[s], solved_[s]);
+        }
+        for (Index s = 0; s < n_sub_meshes(); ++s) {
+            if (plan_.predictions[s].empty())
+                continue;
+            const Node used = add(TaskKind::UsePredictions, s, TaskPriority::High, &SweepTasks::use_predictions);
+            graph_.add_dependency(factorised_[s], used);
+            graph_.add_dependency(used, solved_[s]);
+            if (predicted[s] >= 0)
+                graph_.add_dependency(predicted[s], used);
+            for (const Transfer& prediction : plan_.predictions[s]) {
+                // A sub-mesh that predicts follows here, and its solution waits: see SubMeshState::solved.
+                assert(follows(plan_, prediction.from, s));
+                graph_.add_dependency(predicted[prediction.from], used);
+            }
+        }
+    }
+
+    void add_acceptances()
+    {
+        for (Index s = 0; s < n_sub_meshes(); ++s) {
+            const Node accepted = add(TaskKind::Accept, s, TaskPriority::High, &SweepTasks::accept);
+            graph_.add_dependency(solved_[s], accepted);
+            for (const Index neighbour : adjacency_[s])
+                graph_.add_dependency(solved_[neighbour], accepted);
+        }
+    }
+
+    StepGraph& graph_;
+    const SweepPlan& plan_;
+    const std::vector<std::vector<Index>>& adjacency_;
+    std::shared_ptr<const SweepTasks> tasks_;
+    Node root_;
+    std::vector<Node> factorised_;
+    std::vector<Node> solved_;
+};
+
+}  // namespace
+
+void add_sweep(StepGraph& graph, const SweepPlan& plan, const std::vector<std::vector<Index>>& adjacency,
+               const FactorWindow& window, SweepTasks tasks)
+{
+    SweepBuilder(graph, plan, adjacency, std::move(tasks)).build(window);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/memory/factor_window.h"
+#include "engine/tasks/step_graph.h"
+#include "partition/decomposition/sweep_plan.h"
+
+namespace seamflow {
+
+/// What the tasks of a sweep do for sub-mesh s.
+struct SweepTasks {
+    using Task = std::function<void(Index s)>;
+    Task assemble_and_factorise;
+    /// None where sub-meshes do not tell each other what they would do.
+    Task predict;
+    Task use_predictions;
+    Task solve;
+    Task accept;
+};
+
+/// Adds one sweep over all sub-meshes to a graph, with a root of its own. Per sub-mesh it has three tasks:
+///
+///     assemble and factorise ──► solve ──► accept
+///                                  ▲         ▲
+///        solve of the adjacent ────┘         └──── solve of all
+///        sub-meshes that lead                      adjacent sub-meshes
+///        it on Γ
+///
+/// With predictions a fourth, predict, stands between the first two of each sub-mesh that follows another; a sub-mesh
+/// that leads uses the predictions of those that it leads before it solves. With the classical conditions nobody leads,
+/// and solve waits for the adjacent sub-meshes of lower colour. So that few factors live at once, assemble and
+/// factorise also waits for a solve some places before it (see FactorWindow). No barrier stands between colours.
+/// @param plan is not looked at after the call.
+/// @param adjacency per sub-mesh: those with which it shares vertices.
+void add_sweep(StepGraph& graph, const SweepPlan& plan, const std::vector<std::vector<Index>>& adjacency,
+               const FactorWindow& window, SweepTasks tasks);
+
+}  // namespace seamflow

@@ -1,0 +1,256 @@
+#include "engine/steppers/sweep_stepper.h"
+
+#include <algorithm>
+#include <cassert>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/memory/release.h"
+#include "engine/options/flow_remarks.h"
+#include "engine/setup/sub_mesh_options.h"
+#include "engine/steppers/sweep_order.h"
+#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/run_for_sub_mesh.h"
+#include "partition/decomposition/narrow_order.h"
+#include "partition/decomposition/overlap.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Copies in parallel: the first access to new memory is slow.
+Points copied(const Points& positions)
+{
+    Points copy(positions.rows(), 3);
+    run_in_parallel(static_cast<Index>(positions.rows()), [&](Index begin, Index end) {
+        copy.middleRows(begin, end - begin) = positions.middleRows(begin, end - begin);
+    });
+    return copy;
+}
+
+/// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
+Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                 std::span<const Index> rank, int layers)
+{
+    const Overlap overlap{cut.labels, rank, layers};
+    auto faces = faces_by_label(cut.labels, cut.n_parts, run_in_parallel);
+    std::vector<SubMesh> sub_meshes(faces.size());
+    for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
+        sub_meshes[s] = make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[s]));
+    });
+    return connect_overlapping(std::move(sub_meshes), topology, overlap);
+}
+
+}  // namespace
+
+SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                           const FlowOptions& options, const std::vector<double>& curvature, Progress& progress)
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
+    , graph_(options.report.record_schedule, progress)
+    , positions_(copied(mesh.vertices))
+    , factorisation_(options.resources.factorisation)
+{
+    const auto rank = rank_sub_meshes(decomposition_, options.interface.coloring, curvature);
+    if (options.interface.conditions == Conditions::Schwarz)
+        decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.interface.overlap);
+    progress.require_going_on();
+    if (is_classical(options.interface.conditions))
+        copies_.emplace(mesh, decomposition_, options.report.keep_gaps);
+    make_states(mesh, options, progress);
+    run_both(
+        [&] {
+            if (options.interface.conditions != Conditions::Schwarz)
+                error_.emplace(decomposition_, mesh, topology, options);
+        },
+        [&] {
+            plans_.push_back(make_plan(decomposition_, options, rank));
+            if (alternates(options, states_.size()))
+                plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
+        });
+    limit_factors(options);
+    for (const SweepPlan& plan : plans_)
+        add_sweep(graph_, plan, decomposition_.adjacency, window_, tasks_of(plan, options));
+}
+
+/// Without a limit, each thread has work enough within the window.
+void SweepStepper::limit_factors(const FlowOptions& options)
+{
+    constexpr Index places_per_thread = 4;
+    std::size_t largest = 1;
+    for (const SubMeshState& state : states_)
+        largest = std::max(largest, state.system->factor_bytes());
+    factors_.use_blocks_of(largest);
+    workspaces_.use(factors_);
+
+    window_.order = narrow_order(decomposition_.adjacency);
+    Index least = 0;
+    for (const SweepPlan& plan : plans_)
+        least = std::max(least, least_window(plan, window_.order));
+    const auto n = static_cast<Index>(states_.size());
+    window_.size = std::min(n, least + places_per_thread * workspaces_.size());
+    if (!options.resources.memory_limit)
+        return;
+    const std::size_t places = *options.resources.memory_limit / largest;
+    if (places < at(least))
+        throw OptionError("memory_limit is " + std::to_string(*options.resources.memory_limit) + " bytes, but the " +
+                          std::to_string(least) + " factorisations that a step needs at once take " +
+                          std::to_string(at(least) * largest) + ": raise it, or use more sub-meshes");
+    window_.size = static_cast<Index>(std::min(at(n), places));
+}
+
+void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)
+{
+    std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
+    progress.expect(static_cast<double>(made.size()));
+    for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
+        progress.require_going_on();
+        SubMesh& sub_mesh = decomposition_.sub_meshes[s];
+        run_for_sub_mesh(sub_mesh, s, [&] {
+            SubMeshState& state =
+                made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
+            state.p = robin_parameter(sub_mesh, state.position, options);
+            // The estimate looks at the corners of the faces at Γ.
+            release_faces(std::max(state.system->faces_in_use(), FacesInUse::Corners), sub_mesh);
+        });
+        progress.count();
+    });
+    states_.reserve(made.size());
+    for (auto& state : made)
+        states_.push_back(std::move(*state));
+}
+
+SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& options)
+{
+    const double time_step = options.time_step;
+    const auto task = [this](auto body) {
+        return
+            [this, body](Index s) { run_for_sub_mesh(*states_[s].sub_mesh, s, [&] { body(s, workspaces_.local()); }); };
+    };
+    SweepTasks tasks;
+    if (is_classical(options.interface.conditions)) {
+        tasks.assemble_and_factorise = task([this, &plan, time_step](Index s, SolverWorkspace& workspace) {
+            assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan, time_step, workspace);
+        });
+        tasks.solve = task([this, &plan](Index s, SolverWorkspace& workspace) {
+            solve_mutual(states_, s, decomposition_.halo[s], plan, workspace);
+        });
+    } else {
+        tasks.assemble_and_factorise = task([this, &plan, time_step](Index s, SolverWorkspace& workspace) {
+            assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step, workspace);
+        });
+        tasks.solve =
+            task([this, &plan](Index s, SolverWorkspace& workspace) { solve(states_, s, plan.traces[s], workspace); });
+    }
+    if (predicts(options)) {
+        tasks.predict = task([this](Index s, SolverWorkspace& workspace) { predict(states_, s, workspace); });
+        tasks.use_predictions = task([this, &plan](Index s, SolverWorkspace& workspace) {
+            use_predictions(states_, s, plan.predictions[s], workspace);
+        });
+    }
+    tasks.accept = task([this, corrected = corrects(options)](Index s, SolverWorkspace& workspace) {
+        if (error_)
+            error_->measure(states_, s, workspace);
+        corrected ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_, s);
+        if (error_)
+            error_->note_correction(states_, s);
+    });
+    return tasks;
+}
+
+void SweepStepper::step(const Points& before)
+{
+    graph_.run(static_cast<std::size_t>(steps_done_) % graph_.n_roots(), 0.0, [&] {
+        ++steps_done_;
+        if (error_)
+            error_->add_step(before);
+        join();
+    });
+}
+
+void SweepStepper::join()
+{
+    for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
+        const SubMesh& sub_mesh = *states_[s].sub_mesh;
+        for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+            if (sub_mesh.owned[v] != 0)
+                positions_.row(sub_mesh.local_to_global[v]) = states_[s].position.row(v);
+    });
+    if (copies_)
+        copies_->join(states_, positions_);
+}
+
+/// Sub-meshes that do not differ have no more than the whole mesh has.
+void SweepStepper::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.numbers = {static_cast<double>(steps_done_)};
+    for (const SubMeshState& state : states_)
+        if (has_copies())
+            memory.arrays.emplace_back(state.position.topRows(state.sub_mesh->n_vertices));
+    if (error_)
+        error_->save(memory);
+}
+
+void SweepStepper::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = memory.positions;
+    steps_done_ = reader.count();
+    for (SubMeshState& state : states_) {
+        const SubMesh& sub_mesh = *state.sub_mesh;
+        if (has_copies())
+            state.position.topRows(sub_mesh.n_vertices) = reader.array(sub_mesh.n_vertices);
+        else
+            for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+                state.position.row(v) = positions_.row(sub_mesh.local_to_global[v]);
+    }
+    if (error_)
+        error_->restore(reader);
+    reader.require_end();
+    join();
+}
+
+void SweepStepper::add_seconds(PhaseSeconds& seconds) const
+{
+    for (const SubMeshState& state : states_) {
+        seconds.assemble += state.seconds.assemble;
+        seconds.factorise += state.seconds.factorise;
+        seconds.solve += state.seconds.solve;
+        seconds.correct += state.seconds.correct;
+    }
+}
+
+void SweepStepper::describe(StepReport& report) const
+{
+    if (copies_)
+        report.gap = copies_->gap();
+    if (error_)
+        report.estimated_v_max = error_->largest();
+}
+
+void SweepStepper::describe(FlowReport& report) const
+{
+    report.subdomains = static_cast<Index>(states_.size());
+    report.interface_vertices = decomposition_.n_interface_vertices;
+    report.subdomain_colors = plans_.front().rank;
+    report.live_factors = window_.size;
+    report.factor_memory_bytes = factors_.bytes();
+    report.colors = states_.empty() ? 0 : *std::max_element(plans_.front().rank.begin(), plans_.front().rank.end()) + 1;
+    std::vector<Index> n_nearly_singular;
+    std::vector<Factorisation> factorisations;
+    for (const SubMeshState& state : states_) {
+        report.subdomain_faces.push_back(static_cast<Index>(state.sub_mesh->faces.size()));
+        report.subdomain_vertices.push_back(state.sub_mesh->n_vertices);
+        report.p.push_back(state.p);
+        n_nearly_singular.push_back(state.system->n_nearly_singular());
+        factorisations.push_back(state.system->factorisation());
+    }
+    remark_on_factorisation(factorisation_, factorisations, report);
+    remark_on_near_singularity(n_nearly_singular, report);
+    add_seconds(report.seconds);
+    report.schedule = graph_.schedule();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,32 @@
+#include "engine/tasks/parallel_loop.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include "engine/tasks/thread_order.h"
+
+namespace seamflow {
+
+namespace tbb = oneapi::tbb;
+
+void run_in_parallel(Index n, const LoopBody& body)
+{
+    const SharedWork work;
+    tbb::parallel_for(tbb::blocked_range<Index>(0, n), [&](const tbb::blocked_range<Index>& range) {
+        const SharedWork::Part part(work);
+        body(range.begin(), range.end());
+    });
+}
+
+void run_both(const std::function<void()>& one, const std::function<void()>& other)
+{
+    const SharedWork work;
+    const auto run = [&](const std::function<void()>& body) {
+        const SharedWork::Part part(work);
+        body();
+    };
+    tbb::parallel_invoke([&] { run(one); }, [&] { run(other); });
+}
+
+}  // namespace seamflow

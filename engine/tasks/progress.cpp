@@ -1,0 +1,131 @@
+#include "engine/tasks/progress.h"
+
+#include <algorithm>
+
+#include "engine/tasks/parallel_loop.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What is worth telling: so much of the whole, or anything after so many seconds.
+constexpr double noticeable = 1.0 / 500.0;
+constexpr double seconds_between = 0.1;
+
+/// Clears a flag that was set, whatever happens.
+class Cleared {
+  public:
+    explicit Cleared(std::atomic_flag& flag)
+        : flag_(flag)
+    {
+    }
+    ~Cleared() { flag_.clear(std::memory_order_release); }
+    Cleared(const Cleared&) = delete;
+    Cleared& operator=(const Cleared&) = delete;
+
+  private:
+    std::atomic_flag& flag_;
+};
+
+}  // namespace
+
+Progress::Progress(const FlowControl& control)
+    : control_(&control)
+{
+}
+
+void Progress::require_going_on() const
+{
+    if (is_stopped())
+        throw Cancelled("the flow was stopped before its end");
+}
+
+void Progress::enter(FlowPhase phase, int step, double begin, double end)
+{
+    now_.phase = phase;
+    now_.step = step;
+    begin_ = begin;
+    end_ = end;
+    expect(1.0);
+    tell(begin, true);
+    require_going_on();
+}
+
+void Progress::expect(double parts)
+{
+    parts_ = std::max(parts, 1.0);
+    done_.store(0.0, std::memory_order_relaxed);
+}
+
+void Progress::count(double parts)
+{
+    if (!control_->on_progress)
+        return;
+    const double done = done_.fetch_add(parts, std::memory_order_relaxed) + parts;
+    tell(begin_ + std::min(done / parts_, 1.0) * (end_ - begin_), false);
+}
+
+void Progress::finish()
+{
+    tell(1.0, true);
+}
+
+/// Of several threads at once one tells, and the others have better things to do.
+void Progress::tell(double fraction, bool at_once)
+{
+    if (!control_->on_progress || telling_.test_and_set(std::memory_order_acquire))
+        return;
+    const Cleared cleared(telling_);
+    fraction = std::clamp(fraction, told_, 1.0);
+    if (!at_once && fraction - told_ < noticeable && since_told_.seconds() < seconds_between)
+        return;
+    told_ = now_.fraction = fraction;
+    since_told_ = Stopwatch();
+    control_->on_progress(now_);
+}
+
+Loop Progress::loop() const
+{
+    return [this](Index n, const LoopBody& body) {
+        require_going_on();
+        run_in_parallel(n, [&](Index begin, Index end) {
+            require_going_on();
+            body(begin, end);
+        });
+    };
+}
+
+Loop Progress::counted_loop()
+{
+    return [this](Index n, const LoopBody& body) {
+        require_going_on();
+        expect(n);
+        run_in_parallel(n, [&](Index begin, Index end) {
+            require_going_on();
+            body(begin, end);
+            count(end - begin);
+        });
+    };
+}
+
+Loop LoopCount::begin()
+{
+    counted_ = 0.0;
+    loops_ = 0;
+    return [this, loop = progress_->loop()](Index n, const LoopBody& body) {
+        loop(n, body);
+        ++loops_;
+        const double part = std::min(parts_ / expected_, parts_ - counted_);
+        counted_ += part;
+        progress_->count(part);
+    };
+}
+
+void LoopCount::end()
+{
+    expected_ = std::max(loops_, 1);
+    progress_->count(parts_ - counted_);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <atomic>
+
+#include "engine/options/flow_control.h"
+#include "engine/tasks/stopwatch.h"
+#include "partition/loop.h"
+
+namespace seamflow {
+
+/// Tells an observer how far a flow is, and the flow whether it is to stop. Phases begin in one thread; what they
+/// consist of is counted from any thread. Costs an addition for each count, and with an observer a few hundred calls of
+/// it, and ten more per second.
+class Progress {
+  public:
+    /// @param control must outlive this.
+    explicit Progress(const FlowControl& control);
+
+    [[nodiscard]] bool is_stopped() const { return control_->stop.stop_requested(); }
+
+    /// A place where the flow may stop.
+    /// @throws Cancelled if it is to.
+    void require_going_on() const;
+
+    /// Sets `steps` of FlowProgress.
+    void set_steps(int steps) { now_.steps = steps; }
+
+    /// Begins a phase.
+    /// @param step its number; 0: before the first.
+    /// @param begin, end the fraction of the whole then, and when everything is counted.
+    /// @throws Cancelled if the flow is to stop.
+    void enter(FlowPhase phase, int step, double begin, double end);
+
+    /// Says of how many parts the present phase consists.
+    void expect(double parts);
+
+    /// So many of them are done.
+    void count(double parts = 1.0);
+
+    /// All is done.
+    void finish();
+
+    /// Loops that may stop at each of their ranges, on the threads of the arena.
+    [[nodiscard]] Loop loop() const;
+
+    /// The same, counting each index.
+    [[nodiscard]] Loop counted_loop();
+
+  private:
+    void tell(double fraction, bool at_once);
+
+    const FlowControl* control_;
+    FlowProgress now_;
+    double begin_ = 0.0;
+    double end_ = 0.0;
+    double parts_ = 1.0;
+    std::atomic<double> done_{0.0};
+    /// Set while the observer is called.
+    std::atomic_flag telling_;
+    double told_ = 0.0;
+    Stopwatch since_told_;
+};
+
+/// Counts a task that takes an unknown number of loops: it is expected to take as many as when it was last done.
+class LoopCount {
+  public:
+    /// @param parts that the task counts for (see Progress::expect).
+    /// @param progress must outlive this.
+    LoopCount(double parts, Progress& progress)
+        : progress_(&progress)
+        , parts_(parts)
+    {
+    }
+
+    [[nodiscard]] double parts() const { return parts_; }
+
+    /// Loops that count and may stop. This must outlive them; one at a time.
+    [[nodiscard]] Loop begin();
+
+    /// Counts what is left.
+    void end();
+
+  private:
+    Progress* progress_;
+    double parts_;
+    double counted_ = 0.0;
+    int loops_ = 0;
+    int expected_ = 200;
+};
+
+}  // namespace seamflow

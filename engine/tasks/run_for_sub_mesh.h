@@ -1,0 +1,30 @@
+#pragma once
+
+#include <new>
+#include <string>
+
+#include "engine/tasks/single_threaded_libraries.h"
+#include "partition/decomposition/sub_mesh.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+/// Runs `body` for sub-mesh s, in one thread; failures come out with its name.
+template <class Body>
+void run_for_sub_mesh(const SubMesh& sub_mesh, Index s, Body&& body)
+{
+    const auto name = [&] {
+        return "sub-mesh " + std::to_string(s) + " (" + std::to_string(sub_mesh.n_vertices) +
+               " vertices, among its faces number " + std::to_string(sub_mesh.faces.front()) + "): ";
+    };
+    const SingleThreadedOpenMp single_threaded;
+    try {
+        body();
+    } catch (const ComputationError& error) {
+        throw ComputationError(name() + error.what());
+    } catch (const std::bad_alloc&) {
+        throw ComputationError(name() + "out of memory: use more sub-meshes");
+    }
+}
+
+}  // namespace seamflow

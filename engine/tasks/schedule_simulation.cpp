@@ -1,0 +1,162 @@
+#include "engine/tasks/schedule_simulation.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The tasks that ran in a step, numbered from 0 in the order of their numbers in the schedule.
+struct TasksOfStep {
+    std::vector<Index> task;
+    std::vector<double> seconds;
+    std::vector<TaskPriority> priority;
+    std::vector<std::vector<Index>> before;
+    std::vector<std::vector<Index>> after;
+
+    [[nodiscard]] Index size() const { return static_cast<Index>(task.size()); }
+};
+
+std::span<const TaskRecord> records_of(const Schedule& schedule, int step)
+{
+    if (step < 1 || at(step) > schedule.steps.size())
+        throw OptionError("step " + std::to_string(step) + " is not in the schedule, which has " +
+                          std::to_string(schedule.steps.size()) + " steps");
+    const auto first = std::ranges::lower_bound(schedule.records, step, {}, &TaskRecord::step);
+    const auto last = std::ranges::upper_bound(schedule.records, step, {}, &TaskRecord::step);
+    return {first, last};
+}
+
+TasksOfStep graph_of(const Schedule& schedule, int step)
+{
+    TasksOfStep graph;
+    std::vector<Index> place(schedule.tasks.size(), -1);
+    for (const TaskRecord& record : records_of(schedule, step)) {
+        place[record.task] = graph.size();
+        graph.task.push_back(record.task);
+        graph.seconds.push_back(record.end - record.start);
+        graph.priority.push_back(schedule.tasks[record.task].priority);
+    }
+    graph.before.resize(graph.task.size());
+    graph.after.resize(graph.task.size());
+    for (const Dependency& dependency : schedule.dependencies) {
+        const Index before = place[dependency.before];
+        const Index after = place[dependency.after];
+        if (before < 0 || after < 0)
+            continue;
+        graph.before[after].push_back(before);
+        graph.after[before].push_back(after);
+    }
+    return graph;
+}
+
+/// When each task ends, in seconds since the first one starts.
+class ListSchedule {
+  public:
+    ListSchedule(const TasksOfStep& graph, int workers)
+        : end(graph.task.size(), 0.0)
+        , graph_(&graph)
+        , idle_(workers)
+    {
+        for (Index i = 0; i < graph.size(); ++i) {
+            waits_for_.push_back(graph.before[i].size());
+            if (waits_for_.back() == 0)
+                make_ready(i);
+        }
+        start_tasks();
+        while (!running_.empty()) {
+            makespan = running_.top().first;
+            while (!running_.empty() && running_.top().first == makespan)
+                finish_task();
+            start_tasks();
+        }
+    }
+
+    std::vector<double> end;
+    double makespan = 0.0;
+
+  private:
+    template <class Value>
+    using SmallestFirst = std::priority_queue<Value, std::vector<Value>, std::greater<>>;
+
+    void make_ready(Index i) { ready_.emplace(graph_->priority[i] == TaskPriority::High ? 0 : 1, i); }
+
+    void start_tasks()
+    {
+        for (; idle_ > 0 && !ready_.empty(); --idle_) {
+            const Index i = ready_.top().second;
+            ready_.pop();
+            end[i] = makespan + graph_->seconds[i];
+            running_.emplace(end[i], i);
+        }
+    }
+
+    void finish_task()
+    {
+        for (const Index next : graph_->after[running_.top().second])
+            if (--waits_for_[next] == 0)
+                make_ready(next);
+        running_.pop();
+        ++idle_;
+    }
+
+    const TasksOfStep* graph_;
+    int idle_;
+    std::vector<std::size_t> waits_for_;
+    /// 0: high, 1: normal priority.
+    SmallestFirst<std::pair<int, Index>> ready_;
+    /// By their end.
+    SmallestFirst<std::pair<double, Index>> running_;
+};
+
+/// With a worker for each task, one that waits starts when the last one that it waits for ends.
+void find_critical_path(const TasksOfStep& graph, Simulation& simulation)
+{
+    const ListSchedule unlimited(graph, graph.size());
+    simulation.critical_path_seconds = unlimited.makespan;
+    const auto ends_earlier = [&](Index a, Index b) { return unlimited.end[a] < unlimited.end[b]; };
+    const auto last = std::max_element(unlimited.end.begin(), unlimited.end.end());
+    auto i = static_cast<Index>(last - unlimited.end.begin());
+    simulation.critical_path.push_back(graph.task[i]);
+    while (!graph.before[i].empty()) {
+        i = *std::max_element(graph.before[i].begin(), graph.before[i].end(), ends_earlier);
+        simulation.critical_path.push_back(graph.task[i]);
+    }
+    std::reverse(simulation.critical_path.begin(), simulation.critical_path.end());
+}
+
+}  // namespace
+
+double Simulation::speed_up() const
+{
+    return makespan > 0.0 ? work / makespan : 1.0;
+}
+
+double Simulation::efficiency() const
+{
+    return speed_up() / workers;
+}
+
+Simulation simulate(const Schedule& schedule, int step, int workers)
+{
+    if (workers < 1)
+        throw OptionError("workers is " + std::to_string(workers) + ", but must be at least 1");
+    const TasksOfStep graph = graph_of(schedule, step);
+    Simulation simulation;
+    simulation.workers = workers;
+    for (const double seconds : graph.seconds)
+        simulation.work += seconds;
+    simulation.makespan = ListSchedule(graph, workers).makespan;
+    if (graph.size() > 0)
+        find_critical_path(graph, simulation);
+    return simulation;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/options/schedule.h"
+#include "engine/tasks/schedule_recorder.h"
+#include "engine/tasks/task_graph.h"
+
+namespace seamflow {
+
+/// The task graph of a step, in which every task has a name: what it does, and for which sub-mesh. It is built once and
+/// run once for each step. Where asked to, it records what ran when.
+class StepGraph {
+  public:
+    using Node = TaskGraph::Node;
+
+    /// @param is_recorded whether there is a schedule.
+    /// @param progress counts the tasks and says whether to stop; must outlive the graph.
+    StepGraph(bool is_recorded, Progress& progress);
+
+    /// A place to start from: the tasks that are added up to the next one belong to it.
+    Node add_root();
+
+    /// A task that starts as soon as all tasks and the root before it are done.
+    Node add_task(const ScheduledTask& task, std::function<void()> body);
+
+    /// Makes `after` wait for `before`.
+    void add_dependency(Node before, Node after) { graph_.add_dependency(before, after); }
+
+    /// Takes a step: runs all tasks of a root and waits for them, then calls `join` in this thread.
+    /// @param root its number, from 0.
+    /// @param further_parts that tasks count themselves (see Progress).
+    /// @throws whatever a task has thrown; Cancelled if tasks were skipped because the flow is to stop.
+    void run(std::size_t root = 0, double further_parts = 0.0, const std::function<void()>& join = {});
+
+    [[nodiscard]] std::size_t n_roots() const { return roots_.size(); }
+
+    /// What ran when; empty where nothing is recorded.
+    [[nodiscard]] std::optional<Schedule> schedule() const;
+
+  private:
+    std::unique_ptr<ScheduleRecorder> recorder_;
+    TaskGraph graph_;
+    std::vector<Node> roots_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,161 @@
+#include "engine/tasks/task_graph.h"
+
+#include <atomic>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+#include <oneapi/tbb/flow_graph.h>
+
+#include "engine/tasks/progress.h"
+#include "engine/tasks/schedule_recorder.h"
+#include "engine/tasks/thread_order.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+namespace flow = oneapi::tbb::flow;
+
+}  // namespace
+
+class TaskGraph::Nodes {
+  public:
+    /// The failure of the task with the lowest number.
+    class FirstFailure {
+      public:
+        void record(TaskGraph::Node node, std::exception_ptr failure)
+        {
+            const std::lock_guard lock(mutex_);
+            if (!failure_ || node < node_)
+                failure_ = std::move(failure), node_ = node;
+            failed_.store(true, std::memory_order_release);
+        }
+
+        [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
+
+        /// Forgets the failure, if there is one, by throwing it.
+        void rethrow()
+        {
+            failed_.store(false, std::memory_order_release);
+            if (auto failure = std::exchange(failure_, nullptr))
+                std::rethrow_exception(failure);
+        }
+
+      private:
+        std::mutex mutex_;
+        std::atomic<bool> failed_{false};
+        std::exception_ptr failure_;
+        TaskGraph::Node node_ = -1;
+    };
+
+    /// What there is to do at a node. oneTBB copies what a node is given, and loses a copy where memory lacks for the
+    /// next one: so it is given no more than where this is.
+    struct Task {
+        Node node = -1;
+        std::function<void()> body;
+    };
+
+    ~Nodes() { graph.wait_for_all(); }
+
+    /// Runs a task, or leaves it out. Exceptions stay inside: a flow graph that one has left starts its next run with
+    /// wrong counts.
+    void perform(const Task& task);
+
+    std::deque<Task> tasks;
+    flow::graph graph;
+    std::deque<flow::continue_node<flow::continue_msg>> nodes;
+    TaskOrder order;
+    ScheduleRecorder* recorder = nullptr;
+    Progress* progress = nullptr;
+    FirstFailure failure;
+    /// Set where a task was not run because the flow is to stop. oneTBB's own cancellation would also make the loops
+    /// within running tasks leave out what they have not begun.
+    std::atomic<bool> skipped{false};
+    /// Of each root.
+    std::unordered_map<Node, Index> n_tasks;
+    Node latest_root = -1;
+};
+
+void TaskGraph::Nodes::perform(const Task& task)
+{
+    if (failure.failed())
+        return;
+    if (progress != nullptr && progress->is_stopped()) {
+        skipped.store(true, std::memory_order_relaxed);
+        return;
+    }
+    try {
+        recorder != nullptr ? recorder->timed(task.node, task.body) : task.body();
+        if (progress != nullptr)
+            progress->count();
+    } catch (...) {
+        failure.record(task.node, std::current_exception());
+    }
+}
+
+/// What oneTBB runs at a node of the graph.
+struct TaskGraph::OrderedTask {
+    flow::continue_msg operator()(const flow::continue_msg& message) const
+    {
+        nodes->order.begin(at(task->node));
+        nodes->perform(*task);
+        nodes->order.end(at(task->node));
+        return message;
+    }
+
+    Nodes* nodes;
+    const Nodes::Task* task;
+};
+
+TaskGraph::TaskGraph(ScheduleRecorder* recorder, Progress* progress)
+    : nodes_(std::make_unique<Nodes>())
+{
+    nodes_->recorder = recorder;
+    nodes_->progress = progress;
+}
+
+TaskGraph::~TaskGraph() = default;
+
+TaskGraph::Node TaskGraph::add_root()
+{
+    nodes_->nodes.emplace_back(nodes_->graph, [](const flow::continue_msg& message) { return message; });
+    return nodes_->latest_root = static_cast<Node>(nodes_->nodes.size()) - 1;
+}
+
+TaskGraph::Node TaskGraph::add_task(std::function<void()> body, TaskPriority priority)
+{
+    const auto node = static_cast<Node>(nodes_->nodes.size());
+    nodes_->tasks.push_back({node, std::move(body)});
+    nodes_->nodes.emplace_back(nodes_->graph, OrderedTask{nodes_.get(), &nodes_->tasks.back()},
+                               priority == TaskPriority::High ? flow::node_priority_t{1} : flow::no_priority);
+    ++nodes_->n_tasks[nodes_->latest_root];
+    return node;
+}
+
+void TaskGraph::add_dependency(Node before, Node after)
+{
+    flow::make_edge(nodes_->nodes[before], nodes_->nodes[after]);
+    nodes_->order.add_dependency(at(before), at(after));
+    if (nodes_->recorder != nullptr)
+        nodes_->recorder->add_dependency(before, after);
+}
+
+void TaskGraph::run(Node root, double further_parts)
+{
+    if (nodes_->progress != nullptr)
+        nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);
+    nodes_->order.end(at(root));
+    nodes_->nodes[root].try_put(flow::continue_msg());
+    nodes_->graph.wait_for_all();
+    nodes_->order.end_run();
+    const bool skipped = nodes_->skipped.exchange(false, std::memory_order_relaxed);
+    nodes_->failure.rethrow();
+    if (skipped)
+        throw Cancelled("the flow was stopped in the middle of a step");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/options/schedule.h"
+#include "partition/index.h"
+
+namespace seamflow {
+
+class Progress;
+class ScheduleRecorder;
+
+/// A graph of tasks with fixed dependencies, built once and run as often as wanted (a oneTBB flow graph of continue
+/// nodes). Belongs to the arena in which it is constructed.
+///
+/// Tasks may throw: tasks that have not started by then are skipped, and `run` throws what the task with the lowest
+/// number among those that failed has thrown (with several failures, which ones happened depends on timing). The same
+/// tasks are skipped when the flow is to stop. The graph can be run again.
+class TaskGraph {
+  public:
+    /// Number of a task or of a root.
+    using Node = Index;
+
+    /// @param recorder hears of dependencies and times the tasks; must outlive the graph. nullptr: none.
+    /// @param progress counts the tasks and says whether to stop; must outlive the graph. nullptr: none.
+    explicit TaskGraph(ScheduleRecorder* recorder = nullptr, Progress* progress = nullptr);
+    ~TaskGraph();
+    TaskGraph(const TaskGraph&) = delete;
+    TaskGraph& operator=(const TaskGraph&) = delete;
+
+    /// A place to start from. A run reaches the tasks behind one root, which are to be added before the next one.
+    Node add_root();
+
+    /// A task that starts as soon as all tasks and the root before it are done.
+    Node add_task(std::function<void()> body, TaskPriority priority);
+
+    /// Makes `after` wait for `before`.
+    void add_dependency(Node before, Node after);
+
+    /// Runs all tasks behind a root and waits for them.
+    /// @param further_parts that tasks count themselves (see Progress).
+    /// @throws whatever a task has thrown; Cancelled if tasks were skipped because the flow is to stop.
+    void run(Node root, double further_parts = 0.0);
+
+  private:
+    class Nodes;
+    struct OrderedTask;
+    std::unique_ptr<Nodes> nodes_;
+};
+
+}  // namespace seamflow

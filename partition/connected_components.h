@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// Appends `start` and all nodes of a graph that can be reached from it to `nodes`, breadth first.
+/// @param expand called with each of them in this order, and with a function that it calls with those neighbours of the
+///        node that have not been reached before, which it has to keep track of; `start` counts as reached.
+template <class Expand>
+void append_reachable(Index start, std::vector<Index>& nodes, Expand&& expand)
+{
+    std::size_t next = nodes.size();
+    nodes.push_back(start);
+    for (; next < nodes.size(); ++next)
+        expand(nodes[next], [&nodes](Index node) { nodes.push_back(node); });
+}
+
+/// The connected components of a graph.
+struct Components {
+    /// One entry per node, from 0 to count() - 1, numbered by their lowest nodes.
+    std::vector<Index> component_of;
+    /// The nodes of each component, breadth first from its lowest one.
+    IndexLists nodes;
+
+    [[nodiscard]] Index count() const { return nodes.size(); }
+};
+
+/// Finds the connected components of a graph.
+/// @param for_each_neighbour called with a node and a function that it calls with each neighbour of the node; who is a
+///        neighbour has the node as a neighbour, too.
+template <class ForEachNeighbour>
+Components connected_components(Index n_nodes, ForEachNeighbour&& for_each_neighbour)
+{
+    Components found;
+    found.component_of.assign(n_nodes, -1);
+    for (Index lowest = 0; lowest < n_nodes; ++lowest) {
+        if (found.component_of[lowest] >= 0)
+            continue;
+        const Index component = found.count();
+        found.component_of[lowest] = component;
+        append_reachable(lowest, found.nodes.values, [&](Index node, auto&& reach) {
+            for_each_neighbour(node, [&](Index neighbour) {
+                if (found.component_of[neighbour] >= 0)
+                    return;
+                found.component_of[neighbour] = component;
+                reach(neighbour);
+            });
+        });
+        found.nodes.close();
+    }
+    return found;
+}
+
+/// Calls visit(half-edge, face across it) for the half-edges of face f that have a twin.
+template <class Visit>
+void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index f, Visit&& visit)
+{
+    for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+        if (const Index twin = topology.twin[h]; twin >= 0)
+            visit(h, topology.face_of[twin]);
+}
+
+/// The connected components of the faces of a mesh. Faces are connected through edges of exactly two faces: a shared
+/// vertex or an edge of three or more faces connects nothing. Linear in the size of the mesh.
+Components face_components(const PolygonMesh& mesh, const Topology& topology);
+
+}  // namespace seamflow

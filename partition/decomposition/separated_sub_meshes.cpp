@@ -1,0 +1,53 @@
+#include "partition/decomposition/separated_sub_meshes.h"
+
+#include <cstdint>
+
+namespace seamflow {
+
+namespace {
+
+/// Numbers the copies; what is `taken` already gets a new vertex, noted in `originals`.
+std::vector<Index> number_vertices(const SubMesh& sub_mesh, std::vector<std::uint8_t>& taken,
+                                   std::vector<Index>& originals)
+{
+    std::vector<Index> vertex_of;
+    vertex_of.reserve(sub_mesh.n_vertices);
+    for (Index v = 0; v < sub_mesh.n_vertices; ++v) {
+        const Index global = sub_mesh.local_to_global[v];
+        if (taken[global] == 0) {
+            taken[global] = 1;
+            vertex_of.push_back(global);
+        } else {
+            vertex_of.push_back(static_cast<Index>(originals.size()));
+            originals.push_back(global);
+        }
+    }
+    return vertex_of;
+}
+
+}  // namespace
+
+SeparatedSubMeshes separate(const PolygonMesh& mesh, const Decomposition& decomposition)
+{
+    SeparatedSubMeshes separated;
+    separated.mesh.face_offsets = mesh.face_offsets;
+    separated.mesh.face_vertices = mesh.face_vertices;
+    std::vector<Index> originals(mesh.n_vertices());
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        originals[v] = v;
+    std::vector<std::uint8_t> taken(mesh.n_vertices(), 0);
+    for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+        const auto& vertex_of = separated.vertex_of.emplace_back(number_vertices(sub_mesh, taken, originals));
+        for (std::size_t f = 0; f < sub_mesh.faces.size(); ++f) {
+            const auto corners = sub_mesh.face_vertices[static_cast<Index>(f)];
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                separated.mesh.face_vertices[mesh.face_offsets[sub_mesh.faces[f]] + k] = vertex_of[corners[k]];
+        }
+    }
+    separated.mesh.vertices.resize(static_cast<Eigen::Index>(originals.size()), 3);
+    for (std::size_t v = 0; v < originals.size(); ++v)
+        separated.mesh.vertices.row(static_cast<Eigen::Index>(v)) = mesh.vertices.row(originals[v]);
+    return separated;
+}
+
+}  // namespace seamflow

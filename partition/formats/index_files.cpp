@@ -1,0 +1,211 @@
+#include "partition/formats/index_files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/formats/ply_header.h"
+#include "partition/formats/ply_source.h"
+#include "partition/io/input_file.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What the whole numbers in a text file are called in messages.
+struct IndexWords {
+    /// "a label".
+    const char* name;
+    /// What to do where something else stands there.
+    const char* remedy;
+    /// What to do about a negative one.
+    const char* negative;
+};
+
+/// The line without its comment and without blanks at either end.
+std::string_view trimmed(std::string_view line)
+{
+    line = line.substr(0, line.find('#'));
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first == std::string_view::npos)
+        return {};
+    return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// "path:line: ", with which messages about a line begin.
+std::string place_of_line(const std::filesystem::path& path, std::size_t line)
+{
+    return path.string() + ":" + std::to_string(line) + ": ";
+}
+
+[[noreturn]] void refuse_line(const std::filesystem::path& path, std::size_t line, std::string_view text,
+                              const std::string& why)
+{
+    std::string message = place_of_line(path, line);
+    message.append("'").append(text.substr(0, 40)).append("' ").append(why);
+    throw InputError(message);
+}
+
+Index parse_index(std::string_view text, const std::filesystem::path& path, std::size_t line, const IndexWords& words)
+{
+    Index value = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range)
+        refuse_line(path, line, text, "is too large or too small: use numbers from 0 to 2147483647");
+    if (error != std::errc() || end != text.data() + text.size())
+        refuse_line(path, line, text, std::string("is not ") + words.name + ": " + words.remedy);
+    if (value < 0)
+        refuse_line(path, line, text, std::string("is negative: ") + words.negative);
+    return value;
+}
+
+/// Reads a text file with one whole number of at least 0 a line.
+/// @param take called with each number and its line, counted from 1, in order.
+/// @returns the number of lines.
+template <class Take>
+std::size_t read_lines(const std::filesystem::path& path, const IndexWords& words, Take&& take)
+{
+    std::ifstream file(path);
+    if (!file || std::filesystem::is_directory(path))
+        throw InputError(path.string() + ": cannot open the file for reading: check its name and permissions");
+    std::string text;
+    std::size_t line = 0;
+    while (std::getline(file, text)) {
+        ++line;
+        if (const std::string_view number = trimmed(text); !number.empty())
+            take(parse_index(number, path, line, words), line);
+    }
+    if (file.bad())
+        throw InputError(place_of_line(path, line) + "the file could not be read to its end: copy it to a sound disk");
+    return line;
+}
+
+std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertices)
+{
+    constexpr IndexWords words{
+        .name = "the number of a vertex",
+        .remedy = "write one whole number for each vertex that is meant, each on a line of its own",
+        .negative = "vertices are numbered from 0",
+    };
+    std::vector<Index> vertices;
+    read_lines(path, words, [&](Index v, std::size_t line) {
+        if (v >= n_vertices)
+            throw InputError(place_of_line(path, line) + "there is no vertex " + std::to_string(v) + ": the mesh has " +
+                             std::to_string(n_vertices) +
+                             ", numbered from 0; use the file with the mesh it belongs to");
+        vertices.push_back(v);
+    });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+/// The file has to have a property of vertices of that name, and as many vertices as the mesh.
+void require_property(const TextScanner& scanner, const PlyHeader& header, Index n_vertices, std::string_view property)
+{
+    const PlyElement* const element = header.element("vertex");
+    if (element == nullptr)
+        scanner.fail("the file has no vertices; use one with the mesh's vertices and their property " +
+                     in_quotes(property));
+    if (element->count != static_cast<std::uint64_t>(n_vertices))
+        throw InputError(scanner.position_of(element->line) + ": the file has " + std::to_string(element->count) +
+                         " vertices, but the mesh has " + std::to_string(n_vertices) +
+                         "; use it with the mesh it belongs to");
+    const auto found = std::find_if(element->properties.begin(), element->properties.end(),
+                                    [&](const PlyProperty& p) { return p.name == property; });
+    if (found == element->properties.end() || found->length_type) {
+        std::string names;
+        for (const PlyProperty& p : element->properties)
+            names += (names.empty() ? "" : ", ") + p.name;
+        throw InputError(scanner.position_of(found == element->properties.end() ? element->line : found->line) +
+                         ": the vertices have no number " + in_quotes(property) + ", but " + names +
+                         "; name the property that says which are meant");
+    }
+}
+
+/// Passes over a property of one element.
+template <class Source>
+void pass_over(Source& source, const PlyProperty& property)
+{
+    const std::int64_t n = property.length_type ? source.integer(*property.length_type) : 1;
+    if (n < 0)
+        source.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
+                               "; export the file again");
+    source.require_room(property.type, n);
+    source.pass_over(property.type, n);
+}
+
+template <class Source>
+std::vector<Index> from_elements(Source source, const PlyHeader& header, std::string_view wanted)
+{
+    std::vector<Index> vertices;
+    for (const PlyElement& element : header.elements) {
+        const bool has_vertices = element.name == "vertex";
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            source.begin_element(element, i);
+            for (const PlyProperty& property : element.properties) {
+                if (!has_vertices || property.name != wanted) {
+                    pass_over(source, property);
+                    continue;
+                }
+                const double value = source.number(property.type);
+                if (std::isnan(value))
+                    source.position().fail(in_quotes(property.name) + " is not a number; write 0 or 1 for each vertex");
+                if (value != 0.0)
+                    vertices.push_back(static_cast<Index>(i));
+            }
+            source.end_element();
+        }
+        // What follows does not matter.
+        if (has_vertices)
+            break;
+    }
+    return vertices;
+}
+
+std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+{
+    const InputFile file{OpenFile(path)};
+    TextScanner scanner(path, file.content(), ply_syntax);
+    const PlyHeader header = read_ply_header(scanner);
+    require_property(scanner, header, n_vertices, property);
+    if (header.encoding == Encoding::Ascii)
+        return from_elements(PlyTextSource(scanner), header, property);
+    const std::size_t begin = file.content().size() - scanner.rest().size();
+    return from_elements(PlyBinarySource(path, file.content(), begin, header.encoding), header, property);
+}
+
+}  // namespace
+
+std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
+{
+    constexpr IndexWords words{
+        .name = "a label",
+        .remedy = "write one whole number for each face, each on a line of its own",
+        .negative = "number the parts from 0",
+    };
+    std::vector<Index> labels;
+    const std::size_t n_lines = read_lines(path, words, [&](Index label, std::size_t line) {
+        if (labels.size() == static_cast<std::size_t>(n_faces))
+            throw InputError(place_of_line(path, line) + "more labels than the mesh has faces (" +
+                             std::to_string(n_faces) +
+                             "): remove the surplus, or use the labels with the mesh they belong to");
+        labels.push_back(label);
+    });
+    if (labels.size() != static_cast<std::size_t>(n_faces))
+        throw InputError(place_of_line(path, std::max<std::size_t>(n_lines, 1)) + "the file ends after " +
+                         std::to_string(labels.size()) + " of " + std::to_string(n_faces) +
+                         " labels: give one for each face, or use the labels with the mesh they belong to");
+    return labels;
+}
+
+std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+{
+    return format_of(path) == FileFormat::Ply ? from_ply(path, n_vertices, property) : from_lines(path, n_vertices);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,279 @@
+#include "partition/formats/mesh_io.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "partition/errors.h"
+#include "partition/formats/extras.h"
+#include "partition/formats/mesh_source.h"
+#include "partition/formats/obj.h"
+#include "partition/formats/off.h"
+#include "partition/formats/ply.h"
+#include "partition/formats/stl.h"
+#include "partition/io/input_file.h"
+#include "partition/io/output_file.h"
+
+namespace seamflow {
+
+namespace {
+
+/// A format and what reads and writes it.
+struct Format {
+    FileFormat format;
+    /// In messages.
+    const char* name;
+    /// In lower case.
+    std::string_view extension;
+    /// It has this encoding and those before it.
+    Encoding last_encoding;
+    /// Whether its faces may have more than three sides.
+    bool holds_polygons;
+    MeshFile (*read)(const std::filesystem::path& path, std::string_view content, FaultLog* faults);
+    /// Throws OutputError for a mesh that the format cannot hold; null: it holds all of them.
+    void (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
+    void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding);
+    /// See write_mesh_like; null: there is nothing in a file that `write` does not write.
+    std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                        const PolygonMesh& mesh);
+    /// See extras_of; null: there are none.
+    std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content);
+};
+
+constexpr std::array<Format, 4> all_formats = {{
+    {.format = FileFormat::Obj,
+     .name = "OBJ",
+     .extension = ".obj",
+     .last_encoding = Encoding::Ascii,
+     .holds_polygons = true,
+     .read = [](const std::filesystem::path& path, std::string_view content, FaultLog* faults) -> MeshFile {
+         return {read_obj(path, content, faults), {FileFormat::Obj, Encoding::Ascii}};
+     },
+     .require_fits = nullptr,
+     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding) { write_obj(file, mesh); },
+     .rewrite = rewrite_obj,
+     .extras = extras_of_obj},
+    {.format = FileFormat::Off,
+     .name = "OFF",
+     .extension = ".off",
+     .last_encoding = Encoding::Ascii,
+     .holds_polygons = true,
+     .read = [](const std::filesystem::path& path, std::string_view content, FaultLog* faults) -> MeshFile {
+         return {read_off(path, content, faults), {FileFormat::Off, Encoding::Ascii}};
+     },
+     .require_fits = nullptr,
+     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding) { write_off(file, mesh); },
+     .rewrite = rewrite_off,
+     .extras = extras_of_off},
+    {.format = FileFormat::Ply,
+     .name = "PLY",
+     .extension = ".ply",
+     .last_encoding = Encoding::BinaryBigEndian,
+     .holds_polygons = true,
+     .read = read_ply,
+     .require_fits = nullptr,
+     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding encoding) { write_ply(file, mesh, encoding); },
+     .rewrite = rewrite_ply,
+     .extras = extras_of_ply},
+    {.format = FileFormat::Stl,
+     .name = "STL",
+     .extension = ".stl",
+     .last_encoding = Encoding::BinaryLittleEndian,
+     .holds_polygons = false,
+     .read = read_stl,
+     .require_fits = require_fits_stl,
+     .write = write_stl,
+     .rewrite = nullptr,
+     .extras = nullptr},
+}};
+
+/// The format with that value of a member, or null.
+template <class Value>
+const Format* find_format(Value Format::*member, const Value& value)
+{
+    const auto found = std::ranges::find(all_formats, value, member);
+    return found != all_formats.end() ? &*found : nullptr;
+}
+
+const Format* format_named_by(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return find_format(&Format::extension, std::string_view(extension));
+}
+
+const Format& format_of(const FileKind& kind)
+{
+    return *find_format(&Format::format, kind.format);
+}
+
+/// "a, b or c".
+std::string choice_of(const std::vector<std::string_view>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
+    return text;
+}
+
+/// The format that the extension names.
+/// @throws Error if there is none.
+template <class Error>
+const Format& require_format(const std::filesystem::path& path)
+{
+    if (const Format* const format = format_named_by(path))
+        return *format;
+    throw Error(path.string() + ": the extension '" + path.extension().string() + "' is none of " +
+                extensions_of(FormatGroup::All) + "; give the file the extension of its format");
+}
+
+MeshFile read_known(const std::filesystem::path& path, const Format& format)
+{
+    OpenFile open(path);
+    const InputFile input(open);
+    MeshFile file = format.read(path, input.content(), nullptr);
+    file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind);
+    return file;
+}
+
+/// Finds the format and reads; a lack of memory comes out with the name of the file.
+template <class Read>
+MeshFile read_with(const std::filesystem::path& path, Read&& read)
+{
+    const Format& format = require_format<InputError>(path);
+    try {
+        return read(format);
+    } catch (const std::bad_alloc&) {
+        throw ComputationError(path.string() +
+                               ": there is not enough memory for this mesh; close other programs, raise "
+                               "the limit of this one (ulimit -v), or use a machine with more");
+    }
+}
+
+void require_encoding(const Format& format, Encoding encoding)
+{
+    if (encoding <= format.last_encoding)
+        return;
+    std::vector<std::string_view> names{"Ascii", "BinaryLittleEndian", "BinaryBigEndian"};
+    names.resize(static_cast<std::size_t>(format.last_encoding) + 1);
+    throw OptionError("encoding must be " + choice_of(names) + " for " + format.name + " files");
+}
+
+/// Whatever is written can be read again.
+void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh)
+{
+    if (mesh.n_vertices() == 0)
+        throw OutputError(path.string() + ": cannot be written: the mesh has no vertices; write one that has");
+    try {
+        require_valid(mesh);
+    } catch (const InputError& error) {
+        throw OutputError(path.string() + ": cannot be written: " + error.what());
+    }
+}
+
+}  // namespace
+
+std::optional<FileFormat> format_of(const std::filesystem::path& path)
+{
+    const Format* const format = format_named_by(path);
+    return format != nullptr ? std::optional(format->format) : std::nullopt;
+}
+
+std::string extensions_of(FormatGroup group)
+{
+    std::vector<std::string_view> extensions;
+    for (const Format& format : all_formats)
+        if (group == FormatGroup::All || (group == FormatGroup::Polygons && format.holds_polygons) ||
+            (group == FormatGroup::Text && format.last_encoding == Encoding::Ascii))
+            extensions.push_back(format.extension);
+    return choice_of(extensions);
+}
+
+MeshFile read_mesh(const std::filesystem::path& path)
+{
+    return read_with(path, [&](const Format& format) { return read_known(path, format); });
+}
+
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults)
+{
+    return read_with(
+        path, [&](const Format& format) { return format.read(path, InputFile(OpenFile(path)).content(), &faults); });
+}
+
+FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source)
+{
+    const Format& format = require_format<OptionError>(path);
+    if (format.format == source.format)
+        return source;
+    return {format.format, std::min(Encoding::BinaryLittleEndian, format.last_encoding)};
+}
+
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind)
+{
+    const Format& format = format_of(kind);
+    require_encoding(format, kind.encoding);
+    require_readable(path, mesh);
+    if (format.require_fits != nullptr)
+        format.require_fits(path, mesh, kind.encoding);
+    OutputFile file(path);
+    format.write(file, mesh, kind.encoding);
+    file.commit();
+}
+
+std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
+                                         const PolygonMesh& mesh)
+{
+    require_readable(path, mesh);
+    source.require_same_faces(path, mesh);
+    const Format& format = format_of(source.kind());
+    if (format.rewrite == nullptr) {
+        write_mesh(path, mesh, source.kind());
+        return {};
+    }
+    const InputFile input = source.read_again();
+    OutputFile file(path);
+    auto remarks = format.rewrite(file, source.path(), input.content(), mesh);
+    file.commit();
+    return remarks;
+}
+
+std::vector<std::string> extras_of(const MeshSource& source)
+{
+    const Format& format = format_of(source.kind());
+    const InputFile input = source.read_again();
+    return format.extras != nullptr ? format.extras(source.path(), input.content()) : std::vector<std::string>{};
+}
+
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels)
+{
+    require_readable(path, mesh);
+    if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
+        throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(labels.size()) +
+                          " labels for " + std::to_string(mesh.n_faces()) + " faces; give one label for each face");
+    OutputFile file(path);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {.face_labels = labels});
+    file.commit();
+}
+
+void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
+                      std::span<const VertexValues> values)
+{
+    require_readable(path, mesh);
+    const auto require_each = [&](std::size_t count, const std::string& what) {
+        if (count != at(mesh.n_vertices()))
+            throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(count) + " " + what +
+                              " for " + std::to_string(mesh.n_vertices()) + " vertices; give one for each vertex");
+    };
+    require_each(colours.size(), "colours");
+    for (const VertexValues& list : values)
+        require_each(list.values.size(), "values of '" + list.name + "'");
+    OutputFile file(path);
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {.vertex_colours = colours, .vertex_values = values});
+    file.commit();
+}
+
+}  // namespace seamflow

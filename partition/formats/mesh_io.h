@@ -1,0 +1,131 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "partition/formats/palette.h"
+#include "partition/io/fault_log.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
+enum class FileFormat { Obj, Off, Ply, Stl };
+
+/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, of whose binary files only write_mesh_like
+/// makes others; STL is Ascii or BinaryLittleEndian.
+enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
+
+/// Format and encoding of one file.
+struct FileKind {
+    FileFormat format = FileFormat::Obj;
+    Encoding encoding = Encoding::Ascii;
+
+    friend bool operator==(const FileKind&, const FileKind&) = default;
+};
+
+/// Some of the formats, to be named in a message.
+enum class FormatGroup {
+    All,
+    /// Those whose faces may have any number of sides.
+    Polygons,
+    /// Those that are always written as text.
+    Text,
+};
+
+/// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
+std::string extensions_of(FormatGroup group = FormatGroup::All);
+
+/// The format that the extension of a path names, in upper or lower case; nothing if it names none.
+std::optional<FileFormat> format_of(const std::filesystem::path& path);
+
+/// A mesh file that has been read, as the form for others; see write_mesh_like.
+class MeshSource;
+
+/// A mesh together with the file it came from.
+struct MeshFile {
+    PolygonMesh mesh;
+    FileKind kind;
+    /// The file, which stays open, but not in memory, as long as this or a copy of it lives.
+    std::shared_ptr<const MeshSource> source = {};
+};
+
+/// Reads OBJ, OFF, PLY or STL; the format follows from the extension (upper or lower case), the encoding from the file
+/// itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal coordinates
+/// become one vertex, numbered in order of appearance. What a file holds besides a surface (texture coordinates,
+/// normals, colours, materials, groups, points and lines) is passed over here, but write_mesh_like copies it. A file
+/// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
+/// memory.
+/// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
+///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
+///         that is not finite, a face of less than three corners or one that names a vertex twice.
+/// @throws ComputationError naming the file, or std::bad_alloc, if there is not enough memory.
+MeshFile read_mesh(const std::filesystem::path& path);
+
+/// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
+/// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
+/// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults);
+
+/// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
+/// same format, else binary little-endian where the format has it.
+/// @throws OptionError for an extension that names no format.
+FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source);
+
+/// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
+/// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
+/// a temporary name beside `path` and renamed.
+/// @param mesh valid (see require_valid) and not without vertices.
+/// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
+///         more than three sides, vertices without faces, two corners of a face in one place, and in binary files
+///         also coordinates beyond single precision).
+/// @throws OptionError for an encoding that the format does not have.
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind);
+
+/// Writes the file that was read with the positions of `mesh` in place of its own: texture coordinates, materials,
+/// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
+/// the digits of every coordinate that is the same, bit for bit. Normals become those of the surface as it is now where
+/// they can: normals of the vertices of PLY and OFF files, and those of an OBJ file that belong to one vertex or to one
+/// face. Kind and types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. STL
+/// files, in which facets stand alone, are written as by write_mesh. The file may be written over itself.
+/// @param mesh with as many vertices as the file and the same faces.
+/// @returns what else a user should know, in sentences: normals that could not be made new, rounding.
+/// @throws OutputError naming the file; also if the mesh does not fit the file that was read.
+/// @throws InputError if that file has been changed in place since. That it has been replaced or removed does not
+/// matter.
+std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
+                                         const PolygonMesh& mesh);
+
+/// What the file holds besides a surface, which write_mesh does not write, in a few words each: "normals", "groups".
+/// Comments do not count.
+/// @throws InputError if the file has been changed since it was read.
+std::vector<std::string> extras_of(const MeshSource& source);
+
+/// As write_mesh, with one colour and one label per face, for looking at a cut. Each face gets the properties red,
+/// green, blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the
+/// golden section, so that they differ clearly; negative labels are grey. The file is binary little-endian.
+/// @param labels #F; the label of every face.
+/// @throws OutputError naming the file.
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels);
+
+/// A number for each vertex of a mesh, with a name.
+struct VertexValues {
+    /// Letters, digits and underscores.
+    std::string name;
+    /// #V.
+    std::vector<double> values;
+};
+
+/// As write_mesh, with one colour and any numbers per vertex, for looking at what was measured there. Each vertex gets
+/// the properties red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is
+/// binary little-endian.
+/// @param colours #V.
+/// @throws OutputError naming the file; also if there are not as many colours or values as vertices.
+void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
+                      std::span<const VertexValues> values);
+
+}  // namespace seamflow

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/formats/mesh_io.h"
+#include "partition/io/fault_log.h"
+#include "partition/io/output_file.h"
+
+namespace seamflow {
+
+/// Reads PLY in any of its three encodings: x, y and z of the element `vertex`, of whatever types and in whatever
+/// order, and the list `vertex_indices` or `vertex_index` of the element `face`. Other properties and other elements,
+/// edges among them, are passed over. In a text file each element stands on a line of its own; after the last element
+/// of a binary file only padding (zeros, blanks, line ends) is accepted.
+/// @param path for messages only. @param faults where to note them instead of throwing, if not null.
+/// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file, FaultLog* faults = nullptr);
+
+/// What a PLY file can hold beside the mesh; empty: nothing.
+struct PlyExtras {
+    /// #F; each face has the properties red, green, blue (uchar) and label (int) too.
+    std::span<const Index> face_labels = {};
+    /// #V; each vertex has the properties red, green, blue (uchar) too.
+    std::span<const Colour> vertex_colours = {};
+    /// #V each; each vertex has a property (double) for each of them.
+    std::span<const VertexValues> vertex_values = {};
+};
+
+/// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.
+/// @throws OutputError
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras = {});
+
+/// Writes a file again that `read_ply` has read, with the positions of `mesh`. The properties nx, ny, nz of the
+/// vertices, if they are float or double, become the normals of the surface; everything else stays byte for byte, as do
+/// coordinates in a text that are the same bit for bit. Coordinates keep their type, which may mean rounding to float;
+/// where it cannot hold the results at all (whole numbers, or beyond single precision) it becomes double.
+/// @param path of the content, for messages only. @param mesh with the faces of the file.
+/// @returns what a user should know about it, in sentences.
+/// @throws OutputError
+std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                     const PolygonMesh& mesh);
+
+}  // namespace seamflow

@@ -1,0 +1,182 @@
+#include "partition/formats/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+struct NamedType {
+    std::string_view name;
+    PlyType type;
+};
+
+constexpr std::array<NamedType, 16> named_types = {{{"char", PlyType::Int8},
+                                                    {"int8", PlyType::Int8},
+                                                    {"uchar", PlyType::UInt8},
+                                                    {"uint8", PlyType::UInt8},
+                                                    {"short", PlyType::Int16},
+                                                    {"int16", PlyType::Int16},
+                                                    {"ushort", PlyType::UInt16},
+                                                    {"uint16", PlyType::UInt16},
+                                                    {"int", PlyType::Int32},
+                                                    {"int32", PlyType::Int32},
+                                                    {"uint", PlyType::UInt32},
+                                                    {"uint32", PlyType::UInt32},
+                                                    {"float", PlyType::Float32},
+                                                    {"float32", PlyType::Float32},
+                                                    {"double", PlyType::Float64},
+                                                    {"float64", PlyType::Float64}}};
+
+PlyType read_type(TextScanner& scanner)
+{
+    const auto name = scanner.token();
+    const auto* const found =
+        std::find_if(named_types.begin(), named_types.end(), [&](const NamedType& t) { return t.name == name; });
+    if (found == named_types.end())
+        scanner.fail("expected a type (char, uchar, short, ushort, int, uint, float, double), but found " +
+                     in_quotes(name) + "; correct the header");
+    return found->type;
+}
+
+/// A name that is not yet in the list, which holds the `what` declared so far.
+std::string read_new_name(TextScanner& scanner, const auto& declared, const std::string& what)
+{
+    std::string name(scanner.token());
+    if (name.empty())
+        scanner.fail("expected the name of the " + what + ", but the line ends; correct the header");
+    if (std::any_of(declared.begin(), declared.end(), [&](const auto& d) { return d.name == name; }))
+        scanner.fail("the " + what + " " + in_quotes(name) + " is declared twice; remove or rename one");
+    return name;
+}
+
+void read_magic(TextScanner& scanner)
+{
+    if (!scanner.next_line() || scanner.peek() != "ply")
+        scanner.fail("the file begins with " + in_quotes(scanner.peek()) +
+                     " and not with ply; if it has another format, give it that format's extension");
+}
+
+Encoding read_encoding(TextScanner& scanner)
+{
+    const auto name = scanner.token();
+    if (name == "ascii")
+        return Encoding::Ascii;
+    if (name == "binary_little_endian")
+        return Encoding::BinaryLittleEndian;
+    if (name == "binary_big_endian")
+        return Encoding::BinaryBigEndian;
+    scanner.fail("expected the format ascii, binary_little_endian or binary_big_endian, but found " + in_quotes(name) +
+                 "; correct the header");
+}
+
+PlyElement read_element(TextScanner& scanner, const PlyHeader& header)
+{
+    PlyElement element;
+    element.name = read_new_name(scanner, header.elements, "element");
+    element.line = scanner.line();
+    const std::int64_t count = scanner.integer("the number of elements");
+    if (count < 0)
+        scanner.fail("the number of elements is " + std::to_string(count) + "; correct the header");
+    element.count = static_cast<std::uint64_t>(count);
+    return element;
+}
+
+PlyProperty read_property(TextScanner& scanner, PlyHeader& header)
+{
+    if (header.elements.empty())
+        scanner.fail("a property stands before the first element; correct the header");
+    PlyProperty property;
+    property.line = scanner.line();
+    if (scanner.peek() == "list") {
+        scanner.token();
+        property.length_type = read_type(scanner);
+        if (!is_integer(*property.length_type))
+            scanner.fail("the length of a list must have a whole-number type such as uchar; correct the header");
+    }
+    property.type_word = scanner.peek();
+    property.type = read_type(scanner);
+    property.name = read_new_name(scanner, header.elements.back().properties, "property");
+    return property;
+}
+
+/// The fewest bytes that one element takes.
+std::uint64_t shortest(const PlyElement& element, Encoding encoding)
+{
+    std::uint64_t result = 0;
+    for (const PlyProperty& property : element.properties)
+        result += encoding == Encoding::Ascii ? 2 : size_in_bytes(property.length_type.value_or(property.type));
+    return result;
+}
+
+void require_room(const TextScanner& scanner, const PlyHeader& header)
+{
+    const std::uint64_t room = scanner.rest().size() + (header.encoding == Encoding::Ascii ? 1 : 0);
+    for (const PlyElement& element : header.elements) {
+        const std::uint64_t least = shortest(element, header.encoding);
+        if (element.count > 0 && least == 0)
+            throw InputError(scanner.position_of(element.line) + ": the element " + in_quotes(element.name) +
+                             " has no properties; remove it or declare its properties");
+        if (element.count > 0 && element.count > room / least)
+            throw InputError(scanner.position_of(element.line) + ": announces " + std::to_string(element.count) +
+                             " elements " + in_quotes(element.name) + ", but the " +
+                             std::to_string(scanner.rest().size()) +
+                             " bytes after the header cannot hold so many; the file has been cut off, or the header "
+                             "is wrong: export or copy the mesh again");
+    }
+}
+
+}  // namespace
+
+std::size_t size_in_bytes(PlyType type)
+{
+    constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+    return sizes[static_cast<std::size_t>(type)];
+}
+
+bool is_integer(PlyType type)
+{
+    return type != PlyType::Float32 && type != PlyType::Float64;
+}
+
+const PlyElement* PlyHeader::element(std::string_view name) const
+{
+    const auto found =
+        std::find_if(elements.begin(), elements.end(), [&](const PlyElement& e) { return e.name == name; });
+    return found != elements.end() ? &*found : nullptr;
+}
+
+PlyHeader read_ply_header(TextScanner& scanner)
+{
+    PlyHeader header;
+    bool has_format = false;
+    read_magic(scanner);
+    while (scanner.next_line()) {
+        const auto keyword = scanner.token();
+        if (keyword == "end_header") {
+            if (!has_format)
+                scanner.fail("the header has no line 'format'; add one, such as 'format ascii 1.0'");
+            require_room(scanner, header);
+            return header;
+        }
+        if (keyword == "format") {
+            header.encoding = read_encoding(scanner);
+            has_format = true;
+        } else if (keyword == "element") {
+            header.elements.push_back(read_element(scanner, header));
+        } else if (keyword == "property") {
+            auto property = read_property(scanner, header);
+            header.elements.back().properties.push_back(std::move(property));
+        } else if (keyword != "comment" && keyword != "obj_info") {
+            scanner.fail("the header line " + in_quotes(keyword) +
+                         " is unknown; remove it, or write 'comment' in front of it");
+        }
+    }
+    scanner.fail("the file ends within its header, before the line end_header; export or copy the mesh again");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/formats/mesh_io.h"
+#include "partition/io/text_scanner.h"
+
+namespace seamflow {
+
+inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decides = true};
+
+/// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64.
+enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+
+/// Size of a number in a binary file.
+std::size_t size_in_bytes(PlyType type);
+
+bool is_integer(PlyType type);
+
+/// One number, or one list of numbers, that every element of a kind has.
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::Float32;
+    /// Lists only: the type of their lengths.
+    std::optional<PlyType> length_type;
+    /// The line that declares it.
+    std::size_t line = 0;
+    /// The word for `type` in the header; valid as long as the file.
+    std::string_view type_word = {};
+};
+
+/// A kind of elements: vertices, faces, or anything else.
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+    /// The line that declares it.
+    std::size_t line = 0;
+};
+
+struct PlyHeader {
+    Encoding encoding = Encoding::Ascii;
+    /// In the order in which they follow the header.
+    std::vector<PlyElement> elements;
+
+    /// The element of that name, or null.
+    [[nodiscard]] const PlyElement* element(std::string_view name) const;
+};
+
+/// Reads the header of a PLY file, up to and including the line end_header; what follows is scanner.rest().
+/// @throws InputError naming the line; also for counts that the rest of the file is too short for.
+PlyHeader read_ply_header(TextScanner& scanner);
+
+}  // namespace seamflow

@@ -1,0 +1,211 @@
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "partition/errors.h"
+#include "partition/formats/ply.h"
+#include "partition/formats/ply_header.h"
+#include "partition/formats/ply_source.h"
+#include "partition/io/mesh_builder.h"
+#include "partition/io/text_scanner.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What a property means to the mesh.
+enum class Role {
+    X,
+    Y,
+    Z,
+    Corners,
+    /// Nothing that this reader has a use for.
+    Other
+};
+
+/// Reads the elements that follow the header, in their order.
+template <class Source>
+class ElementReader {
+  public:
+    ElementReader(Source& source, const PlyHeader& header)
+        : source_(source)
+        , builder_(source.position())
+        , n_vertices_(static_cast<std::int64_t>(header.element("vertex")->count))
+    {
+        const PlyElement* const faces = header.element("face");
+        builder_.reserve(static_cast<std::uint64_t>(n_vertices_), faces != nullptr ? faces->count : 0);
+    }
+
+    void read(const PlyElement& element);
+
+    PolygonMesh finish()
+    {
+        source_.finish();
+        return builder_.finish();
+    }
+
+  private:
+    void read_property(const PlyProperty& property, Role role);
+    std::int64_t read_length(const PlyProperty& property);
+    void read_corners(const PlyProperty& property);
+
+    Source& source_;
+    MeshBuilder builder_;
+    std::int64_t n_vertices_;
+    std::array<double, 3> point_{};
+    std::vector<Index> corners_;
+};
+
+std::vector<Role> roles_of(const PlyElement& element)
+{
+    std::vector<Role> roles;
+    for (const PlyProperty& property : element.properties) {
+        Role role = Role::Other;
+        if (element.name == "vertex")
+            role = property.name == "x"   ? Role::X
+                   : property.name == "y" ? Role::Y
+                   : property.name == "z" ? Role::Z
+                                          : Role::Other;
+        else if (element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index"))
+            role = Role::Corners;
+        roles.push_back(role);
+    }
+    return roles;
+}
+
+template <class Source>
+void ElementReader<Source>::read(const PlyElement& element)
+{
+    const std::vector<Role> roles = roles_of(element);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        source_.begin_element(element, i);
+        for (std::size_t p = 0; p < roles.size(); ++p)
+            read_property(element.properties[p], roles[p]);
+        source_.end_element();
+        if (element.name == "vertex")
+            builder_.add_vertex(point_[0], point_[1], point_[2]);
+        else if (element.name == "face")
+            builder_.add_face(corners_);
+    }
+}
+
+template <class Source>
+void ElementReader<Source>::read_property(const PlyProperty& property, Role role)
+{
+    switch (role) {
+    case Role::X:
+        point_[0] = source_.real(property.type);
+        break;
+    case Role::Y:
+        point_[1] = source_.real(property.type);
+        break;
+    case Role::Z:
+        point_[2] = source_.real(property.type);
+        break;
+    case Role::Corners:
+        read_corners(property);
+        break;
+    case Role::Other:
+        source_.pass_over(property.type, property.length_type ? read_length(property) : 1);
+        break;
+    }
+}
+
+template <class Source>
+std::int64_t ElementReader<Source>::read_length(const PlyProperty& property)
+{
+    const std::int64_t n = source_.integer(*property.length_type);
+    if (n < 0)
+        source_.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
+                                "; export the mesh again");
+    source_.require_room(property.type, n);
+    return n;
+}
+
+template <class Source>
+void ElementReader<Source>::read_corners(const PlyProperty& property)
+{
+    corners_.clear();
+    for (std::int64_t n = read_length(property); n > 0; --n)
+        corners_.push_back(builder_.vertex(source_.integer(property.type), n_vertices_));
+}
+
+/// A complaint about a line of the header.
+[[noreturn]] void refuse(const TextScanner& scanner, std::size_t line, const std::string& complaint)
+{
+    throw InputError(scanner.position_of(line) + ": " + complaint);
+}
+
+void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
+{
+    const PlyElement* const vertices = header.element("vertex");
+    if (vertices == nullptr || vertices->count == 0)
+        scanner.fail("the file has no vertices; export the mesh again");
+    std::size_t n_found = 0;
+    for (std::size_t p = 0; const Role role : roles_of(*vertices)) {
+        const PlyProperty& property = vertices->properties[p++];
+        if (role != Role::Other && property.length_type)
+            refuse(scanner, property.line, "a coordinate must be one number, not a list; correct the header");
+        n_found += role != Role::Other ? 1 : 0;
+    }
+    if (n_found < 3)
+        refuse(scanner, vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
+}
+
+void require_corners(const TextScanner& scanner, const PlyElement& faces)
+{
+    std::size_t n_found = 0;
+    for (std::size_t p = 0; const Role role : roles_of(faces)) {
+        const PlyProperty& property = faces.properties[p++];
+        if (role != Role::Corners)
+            continue;
+        if (!property.length_type || !is_integer(property.type))
+            refuse(
+                scanner, property.line,
+                "the corners of a face must be a list of whole numbers; correct the header or export the mesh again");
+        ++n_found;
+    }
+    if (n_found != 1)
+        refuse(scanner, faces.line,
+               "the faces must have one list named vertex_indices or vertex_index, but have " +
+                   std::to_string(n_found) + "; correct the header or export the mesh again");
+}
+
+void require_surface(const TextScanner& scanner, const PlyHeader& header)
+{
+    require_coordinates(scanner, header);
+    const PlyElement* const faces = header.element("face");
+    const PlyElement* const strips = header.element("tristrips");
+    if (faces != nullptr && faces->count > 0)
+        require_corners(scanner, *faces);
+    else if (strips != nullptr && strips->count > 0)
+        refuse(scanner, strips->line, "triangle strips cannot be read; export the mesh with faces instead of strips");
+}
+
+template <class Source>
+PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faults)
+{
+    source.note_faults_in(faults);
+    ElementReader<Source> reader(source, header);
+    for (const PlyElement& element : header.elements)
+        reader.read(element);
+    return reader.finish();
+}
+
+}  // namespace
+
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+{
+    TextScanner scanner(path, file, ply_syntax);
+    const PlyHeader header = read_ply_header(scanner);
+    require_surface(scanner, header);
+    const FileKind kind{FileFormat::Ply, header.encoding};
+    if (header.encoding == Encoding::Ascii)
+        return {read_elements(PlyTextSource(scanner), header, faults), kind};
+    return {read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding), header,
+                          faults),
+            kind};
+}
+
+}  // namespace seamflow

@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "partition/formats/moved_normals.h"
+#include "partition/formats/ply.h"
+#include "partition/formats/ply_header.h"
+#include "partition/formats/ply_source.h"
+#include "partition/formats/splicer.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The numbers of a vertex that are written anew.
+constexpr std::array<std::string_view, 6> columns = {"x", "y", "z", "nx", "ny", "nz"};
+using Row = Eigen::Matrix<double, 1, columns.size()>;
+
+/// What becomes of one property of the vertices.
+struct Change {
+    /// One of the above, or -1: it stays.
+    Index column = -1;
+    /// The type of the number in the file that is written.
+    PlyType type = PlyType::Float64;
+};
+
+/// Calls `act` with a zero of that type.
+auto with_type(PlyType type, const auto& act)
+{
+    switch (type) {
+    case PlyType::Int8:
+        return act(std::int8_t{});
+    case PlyType::UInt8:
+        return act(std::uint8_t{});
+    case PlyType::Int16:
+        return act(std::int16_t{});
+    case PlyType::UInt16:
+        return act(std::uint16_t{});
+    case PlyType::Int32:
+        return act(std::int32_t{});
+    case PlyType::UInt32:
+        return act(std::uint32_t{});
+    case PlyType::Float32:
+        return act(float{});
+    case PlyType::Float64:
+        break;
+    }
+    return act(double{});
+}
+
+/// Whether numbers of that type can be those of the list, floats after rounding.
+bool can_hold(PlyType type, const auto& numbers)
+{
+    return with_type(type, [&numbers](auto zero) {
+        using Limits = std::numeric_limits<decltype(zero)>;
+        return std::all_of(numbers.begin(), numbers.end(), [](double number) {
+            const bool in_range = number >= double{Limits::lowest()} && number <= double{Limits::max()};
+            return in_range && (!Limits::is_integer || std::trunc(number) == number);
+        });
+    });
+}
+
+/// What the properties nx, ny and nz of the vertices are.
+enum class Normals {
+    None,
+    /// Floating-point numbers.
+    Usable,
+    /// Not all three, or whole numbers, whose scale nobody knows, or lists.
+    Other
+};
+
+Normals normals_of(const PlyElement& vertices)
+{
+    Index n_found = 0;
+    Index n_usable = 0;
+    for (const PlyProperty& property : vertices.properties) {
+        if (std::find(columns.begin() + 3, columns.end(), property.name) == columns.end())
+            continue;
+        ++n_found;
+        n_usable += !property.length_type && !is_integer(property.type) ? 1 : 0;
+    }
+    return n_usable == 3 ? Normals::Usable : n_found > 0 ? Normals::Other : Normals::None;
+}
+
+std::vector<Change> changes_of(const PlyElement& vertices, const PolygonMesh& mesh)
+{
+    const auto n_columns = normals_of(vertices) == Normals::Usable ? columns.end() : columns.begin() + 3;
+    std::vector<Change> changes;
+    for (const PlyProperty& property : vertices.properties) {
+        const auto column = std::find(columns.begin(), n_columns, property.name);
+        Change change;
+        if (column != n_columns) {
+            change = {static_cast<Index>(column - columns.begin()), property.type};
+            if (change.column < 3 && !can_hold(property.type, mesh.vertices.col(change.column)))
+                change.type = PlyType::Float64;
+        }
+        changes.push_back(change);
+    }
+    return changes;
+}
+
+/// Writes the vertices of one file.
+template <class Source>
+class VertexRewriter {
+  public:
+    VertexRewriter(Source& source, Splicer& splicer, Encoding encoding)
+        : source_(source)
+        , splicer_(splicer)
+        , encoding_(encoding)
+    {
+    }
+
+    /// Goes past element i, without changes.
+    void pass_over(const PlyElement& element, std::uint64_t i);
+
+    /// Writes vertex v.
+    /// @param normals null: there are none.
+    void rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v, const Point& position,
+                 const MovedNormals* normals);
+
+    [[nodiscard]] bool rounded() const { return rounded_; }
+
+  private:
+    void pass_over(const PlyProperty& property)
+    {
+        source_.pass_over(property.type, property.length_type ? source_.integer(*property.length_type) : 1);
+    }
+
+    Row read(const PlyElement& vertices, const std::vector<Change>& changes, Index v);
+    void exchange(std::string_view part, const Change& change, double number);
+
+    Source& source_;
+    Splicer& splicer_;
+    Encoding encoding_;
+    /// Of one vertex, one per property: the bytes of those that may change.
+    std::vector<std::string_view> parts_;
+    bool rounded_ = false;
+};
+
+template <class Source>
+void VertexRewriter<Source>::pass_over(const PlyElement& element, std::uint64_t i)
+{
+    source_.begin_element(element, i);
+    for (const PlyProperty& property : element.properties)
+        pass_over(property);
+    source_.end_element();
+}
+
+template <class Source>
+Row VertexRewriter<Source>::read(const PlyElement& vertices, const std::vector<Change>& changes, Index v)
+{
+    Row row = Row::Zero();
+    parts_.assign(changes.size(), {});
+    source_.begin_element(vertices, at(v));
+    for (std::size_t p = 0; p < changes.size(); ++p) {
+        const PlyProperty& property = vertices.properties[p];
+        if (changes[p].column < 0) {
+            pass_over(property);
+            continue;
+        }
+        parts_[p] = source_.peek(property.type);
+        row[changes[p].column] = source_.number(property.type);
+    }
+    source_.end_element();
+    return row;
+}
+
+template <class Source>
+void VertexRewriter<Source>::rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v,
+                                     const Point& position, const MovedNormals* normals)
+{
+    const Row before = read(vertices, changes, v);
+    Row after = before;
+    after.head<3>() = position;
+    if (normals != nullptr)
+        if (const auto now = normals->around_vertex(v, before.tail<3>()))
+            after.tail<3>() = *now;
+    for (std::size_t p = 0; p < changes.size(); ++p) {
+        const Index column = changes[p].column;
+        const bool wider = encoding_ != Encoding::Ascii && changes[p].type != vertices.properties[p].type;
+        if (column >= 0 && (wider || differ(before[column], after[column])))
+            exchange(parts_[p], changes[p], after[column]);
+    }
+}
+
+template <class Source>
+void VertexRewriter<Source>::exchange(std::string_view part, const Change& change, double number)
+{
+    OutputFile& file = splicer_.exchange(part);
+    const bool is_position = change.column < 3;
+    if (encoding_ != Encoding::Ascii) {
+        const auto order = encoding_ == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little;
+        with_type(change.type, [&](auto zero) { file.binary(static_cast<decltype(zero)>(number), order); });
+        const bool single = change.type == PlyType::Float32;
+        rounded_ = rounded_ || (is_position && single && double{static_cast<float>(number)} != number);
+    } else if (is_position || change.type == PlyType::Float64) {
+        file.number(number);
+    } else {
+        file.number(static_cast<float>(number));
+    }
+}
+
+/// Declares wider types where that is necessary.
+std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem::path& path, const PlyElement& vertices,
+                                        const std::vector<Change>& changes)
+{
+    std::vector<std::string> remarks;
+    for (std::size_t p = 0; p < changes.size(); ++p) {
+        const PlyProperty& property = vertices.properties[p];
+        if (changes[p].column < 0 || changes[p].type == property.type)
+            continue;
+        splicer.exchange(property.type_word).text("double");
+        remarks.push_back("the type of " + property.name + " is double instead of " + std::string(property.type_word) +
+                          ", as in " + path.string() + ", which cannot hold the result");
+    }
+    return remarks;
+}
+
+/// Writes all that follows the header.
+/// @returns whether positions were rounded.
+template <class Source>
+bool rewrite_elements(Source source, Splicer& splicer, const PlyHeader& header, const std::vector<Change>& changes,
+                      const PolygonMesh& mesh, const MovedNormals* normals)
+{
+    VertexRewriter<Source> rewriter(source, splicer, header.encoding);
+    const PlyElement* const vertices = header.element("vertex");
+    for (const PlyElement* element = header.elements.data(); element != vertices; ++element)
+        for (std::uint64_t i = 0; i < element->count; ++i)
+            rewriter.pass_over(*element, i);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        rewriter.rewrite(*vertices, changes, v, mesh.vertices.row(v), normals);
+    splicer.finish();
+    return rewriter.rounded();
+}
+
+}  // namespace
+
+std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                     const PolygonMesh& mesh)
+{
+    TextScanner scanner(path, content, ply_syntax);
+    const PlyHeader header = read_ply_header(scanner);
+    const PlyElement& vertices = *header.element("vertex");
+    const std::vector<Change> changes = changes_of(vertices, mesh);
+    std::optional<MovedNormals> normals;
+    if (normals_of(vertices) == Normals::Usable)
+        normals.emplace(mesh, read_ply(path, content).mesh.vertices);
+    const MovedNormals* const moved = normals ? &*normals : nullptr;
+    Splicer splicer(file, content);
+    std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
+    bool rounded = false;
+    if (header.encoding == Encoding::Ascii)
+        rounded = rewrite_elements(PlyTextSource(scanner), splicer, header, changes, mesh, moved);
+    else
+        rounded =
+            rewrite_elements(PlyBinarySource(path, content, content.size() - scanner.rest().size(), header.encoding),
+                             splicer, header, changes, mesh, moved);
+    if (normals_of(vertices) == Normals::Other)
+        remarks.push_back("the normals of " + path.string() +
+                          " are written as they were: they are not three floating-point numbers nx, ny, nz");
+    if (rounded)
+        remarks.push_back(rounding_remark(path));
+    return remarks;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,136 @@
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "partition/formats/ply.h"
+
+namespace seamflow {
+
+namespace {
+
+const char* name_of(Encoding encoding)
+{
+    switch (encoding) {
+    case Encoding::Ascii:
+        return "ascii";
+    case Encoding::BinaryLittleEndian:
+        return "binary_little_endian";
+    case Encoding::BinaryBigEndian:
+        return "binary_big_endian";
+    }
+    return "";
+}
+
+bool has_long_face(const PolygonMesh& mesh)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (mesh.face(f).size() > 255)
+            return true;
+    return false;
+}
+
+class PlyWriter {
+  public:
+    PlyWriter(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
+        : file_(file)
+        , mesh_(mesh)
+        , encoding_(encoding)
+        , extras_(extras)
+        , long_faces_(has_long_face(mesh))
+    {
+    }
+
+    void write_header();
+    void write_vertex(Index v);
+    void write_face(Index f);
+
+  private:
+    void write_colour(const Colour& colour);
+    void end_element()
+    {
+        if (encoding_ == Encoding::Ascii)
+            file_.text("\n");
+        begins_line_ = true;
+    }
+
+    void write(auto value)
+    {
+        if (encoding_ != Encoding::Ascii) {
+            file_.binary(value, encoding_ == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little);
+            return;
+        }
+        if (!begins_line_)
+            file_.text(" ");
+        begins_line_ = false;
+        file_.number(value);
+    }
+
+    OutputFile& file_;
+    const PolygonMesh& mesh_;
+    Encoding encoding_;
+    const PlyExtras& extras_;
+    bool long_faces_;
+    bool begins_line_ = true;
+};
+
+void PlyWriter::write_header()
+{
+    const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    std::string header = std::string("ply\nformat ") + name_of(encoding_) + " 1.0\n";
+    header += "element vertex " + std::to_string(mesh_.n_vertices()) + "\n";
+    header += "property double x\nproperty double y\nproperty double z\n";
+    header += extras_.vertex_colours.empty() ? "" : colour;
+    for (const VertexValues& list : extras_.vertex_values)
+        header += "property double " + list.name + "\n";
+    header += "element face " + std::to_string(mesh_.n_faces()) + "\n";
+    header += std::string("property list ") + (long_faces_ ? "int" : "uchar") + " int vertex_indices\n";
+    header += extras_.face_labels.empty() ? "" : colour + "property int label\n";
+    file_.text(header + "end_header\n");
+}
+
+void PlyWriter::write_colour(const Colour& colour)
+{
+    for (const std::uint8_t channel : colour)
+        write(channel);
+}
+
+void PlyWriter::write_vertex(Index v)
+{
+    for (Index k = 0; k < 3; ++k)
+        write(mesh_.vertices(v, k));
+    if (!extras_.vertex_colours.empty())
+        write_colour(extras_.vertex_colours[v]);
+    for (const VertexValues& list : extras_.vertex_values)
+        write(list.values[v]);
+    end_element();
+}
+
+void PlyWriter::write_face(Index f)
+{
+    const auto corners = mesh_.face(f);
+    if (long_faces_)
+        write(static_cast<std::int32_t>(corners.size()));
+    else
+        write(static_cast<std::uint8_t>(corners.size()));
+    for (const Index v : corners)
+        write(v);
+    if (!extras_.face_labels.empty()) {
+        write_colour(colour_of(extras_.face_labels[f]));
+        write(extras_.face_labels[f]);
+    }
+    end_element();
+}
+
+}  // namespace
+
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
+{
+    PlyWriter writer(file, mesh, encoding, extras);
+    writer.write_header();
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        writer.write_vertex(v);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        writer.write_face(f);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "partition/errors.h"
+#include "partition/formats/stl.h"
+
+namespace seamflow {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason)
+{
+    throw OutputError(path.string() + ": cannot be written: " + reason + "; write " +
+                      extensions_of(FormatGroup::Polygons) + ", which can hold this mesh");
+}
+
+void require_triangles(const std::filesystem::path& path, const PolygonMesh& mesh)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (mesh.face(f).size() != 3)
+            refuse(path, "face " + std::to_string(f) + " (numbered from 0) has " + std::to_string(mesh.face(f).size()) +
+                             " sides, but STL holds triangles only");
+}
+
+void require_no_isolated_vertex(const std::filesystem::path& path, const PolygonMesh& mesh)
+{
+    std::vector<bool> used(static_cast<std::size_t>(mesh.n_vertices()), false);
+    for (const Index v : mesh.face_vertices)
+        used[static_cast<std::size_t>(v)] = true;
+    const auto unused = std::find(used.begin(), used.end(), false);
+    if (unused != used.end())
+        refuse(path, "vertex " + std::to_string(unused - used.begin()) +
+                         " (numbered from 0) belongs to no face, and STL holds only vertices of faces");
+}
+
+void require_floats(const std::filesystem::path& path, const PolygonMesh& mesh)
+{
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (mesh.vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
+            refuse(path, "vertex " + std::to_string(v) +
+                             " (numbered from 0) has a coordinate too large for the single precision of binary STL");
+}
+
+template <class Scalar>
+bool coincide(const PolygonMesh& mesh, Index v, Index w)
+{
+    return mesh.vertices.row(v).cast<Scalar>() == mesh.vertices.row(w).cast<Scalar>();
+}
+
+template <class Scalar>
+void require_distinct_corners(const std::filesystem::path& path, const PolygonMesh& mesh)
+{
+    const std::string precision = std::is_same_v<Scalar, float> ? " in the single precision of binary STL" : "";
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto corners = mesh.face(f);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (coincide<Scalar>(mesh, corners[k], corners[(k + 1) % 3]))
+                refuse(path, "the vertices " + std::to_string(corners[k]) + " and " +
+                                 std::to_string(corners[(k + 1) % 3]) + " of face " + std::to_string(f) +
+                                 " (all numbered from 0) are one and the same point" + precision);
+    }
+}
+
+using Facet = std::array<Eigen::Vector3d, 3>;
+
+/// Of unit length; zero for a triangle without area. Scaled beforehand, lest products of large or small coordinates
+/// overflow or vanish.
+Eigen::Vector3f normal_of(const Facet& triangle)
+{
+    const double scale = std::max({triangle[0].cwiseAbs().maxCoeff(), triangle[1].cwiseAbs().maxCoeff(),
+                                   triangle[2].cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
+    const Eigen::Vector3d origin = triangle[0] / scale;
+    const Eigen::Vector3d u = triangle[1] / scale - origin;
+    const Eigen::Vector3d v = triangle[2] / scale - origin;
+    return u.stableNormalized().cross(v.stableNormalized()).stableNormalized().cast<float>();
+}
+
+void write_text_row(OutputFile& file, const char* keyword, const auto& row)
+{
+    file.text(keyword);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        file.text(" ");
+        file.number(row[k]);
+    }
+    file.text("\n");
+}
+
+void write_text_facet(OutputFile& file, const Facet& triangle)
+{
+    write_text_row(file, "facet normal", normal_of(triangle));
+    file.text("outer loop\n");
+    for (const auto& point : triangle)
+        write_text_row(file, "vertex", point);
+    file.text("endloop\nendfacet\n");
+}
+
+void write_binary_facet(OutputFile& file, const Facet& triangle)
+{
+    const Eigen::Vector3f normal = normal_of(triangle);
+    for (const float x : {normal[0], normal[1], normal[2]})
+        file.binary(x, std::endian::little);
+    for (const auto& point : triangle)
+        for (const double x : {point[0], point[1], point[2]})
+            file.binary(static_cast<float>(x), std::endian::little);
+    file.binary(std::uint16_t{0}, std::endian::little);
+}
+
+void write_binary_header(OutputFile& file, Index n_faces)
+{
+    std::string title = "binary STL";
+    title.resize(80, ' ');
+    file.text(title);
+    file.binary(static_cast<std::uint32_t>(n_faces), std::endian::little);
+}
+
+}  // namespace
+
+void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding)
+{
+    require_triangles(path, mesh);
+    require_no_isolated_vertex(path, mesh);
+    if (encoding == Encoding::Ascii) {
+        require_distinct_corners<double>(path, mesh);
+    } else {
+        require_floats(path, mesh);
+        require_distinct_corners<float>(path, mesh);
+    }
+}
+
+void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding)
+{
+    if (encoding == Encoding::Ascii)
+        file.text("solid mesh\n");
+    else
+        write_binary_header(file, mesh.n_faces());
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        Facet triangle;
+        for (std::size_t k = 0; k < 3; ++k)
+            triangle[k] = mesh.vertices.row(mesh.face(f)[k]).transpose();
+        encoding == Encoding::Ascii ? write_text_facet(file, triangle) : write_binary_facet(file, triangle);
+    }
+    if (encoding == Encoding::Ascii)
+        file.text("endsolid mesh\n");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,210 @@
+#include "partition/repair/pieces.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "partition/connected_components.h"
+#include "partition/index.h"
+#include "partition/index_lists.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr Index settled = -1;
+constexpr Index unvisited = -2;
+
+/// The loose pieces of the suspect parts and what is done about them.
+class LoosePieces {
+  public:
+    LoosePieces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, std::size_t n_labels)
+        : mesh_(mesh)
+        , topology_(topology)
+        , labels_(labels)
+        , shared_length_(n_labels, 0.0)
+    {
+    }
+
+    void find(const std::vector<bool>& suspects, const Loop& loop);
+    std::vector<Index> join();
+
+  private:
+    void collect_piece(Index f, IndexLists& pieces);
+    void keep_loose_pieces(const IndexLists& pieces);
+    void enqueue_loose_neighbours(Index f);
+    Index best_neighbour(Index piece);
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    std::vector<Index>& labels_;
+    /// #F: the face's loose piece, or `settled`.
+    std::vector<Index> piece_of_;
+    IndexLists pieces_;
+    std::vector<bool> queued_;
+    std::vector<Index> queue_;
+    /// Scratch: one entry per label, zero between uses.
+    std::vector<double> shared_length_;
+    std::vector<Index> candidates_;
+};
+
+/// Appends the piece of its part that face f lies in, whose faces become settled. Looks at `piece_of_` for faces of
+/// this part alone.
+void LoosePieces::collect_piece(Index f, IndexLists& pieces)
+{
+    piece_of_[f] = settled;
+    append_reachable(f, pieces.values, [&](Index g, auto&& reach) {
+        for_each_neighbour(mesh_, topology_, g, [&](Index, Index across) {
+            if (labels_[across] != labels_[f] || piece_of_[across] != unvisited)
+                return;
+            piece_of_[across] = settled;
+            reach(across);
+        });
+    });
+    pieces.close();
+}
+
+/// All of a part but the largest one.
+void LoosePieces::keep_loose_pieces(const IndexLists& pieces)
+{
+    Index largest = 0;
+    for (Index piece = 1; piece < pieces.size(); ++piece)
+        if (pieces[piece].size() > pieces[largest].size())
+            largest = piece;
+    for (Index piece = 0; piece < pieces.size(); ++piece) {
+        if (piece == largest)
+            continue;
+        for (const Index f : pieces[piece]) {
+            piece_of_[f] = pieces_.size();
+            pieces_.values.push_back(f);
+        }
+        pieces_.close();
+    }
+}
+
+void LoosePieces::find(const std::vector<bool>& suspects, const Loop& loop)
+{
+    piece_of_.assign(labels_.size(), settled);
+    std::vector<Index> lowest(suspects.size(), -1);
+    std::vector<std::size_t> n_faces(suspects.size(), 0);
+    for (Index f = 0; f < mesh_.n_faces(); ++f)
+        if (const auto label = at(labels_[f]); suspects[label]) {
+            piece_of_[f] = unvisited;
+            if (n_faces[label]++ == 0)
+                lowest[label] = f;
+        }
+    // The piece with the lowest face is all there is of most parts.
+    std::vector<IndexLists> found(suspects.size());
+    for_each(loop, static_cast<Index>(found.size()), [&](Index label) {
+        if (n_faces[label] == 0)
+            return;
+        collect_piece(lowest[label], found[label]);
+        if (found[label].values.size() == n_faces[label])
+            found[label] = {};
+    });
+    const auto is_left = [&](Index f) { return piece_of_[f] == unvisited; };
+    for (const Index f : select(loop, mesh_.n_faces(), is_left))
+        if (is_left(f))
+            collect_piece(f, found[labels_[f]]);
+    for (const IndexLists& pieces : found)
+        if (pieces.size() > 0)
+            keep_loose_pieces(pieces);
+    queued_.assign(pieces_.size(), false);
+}
+
+void LoosePieces::enqueue_loose_neighbours(Index f)
+{
+    for_each_neighbour(mesh_, topology_, f, [&](Index, Index g) {
+        const Index piece = piece_of_[g];
+        if (piece == settled || queued_[piece])
+            return;
+        queued_[piece] = true;
+        queue_.push_back(piece);
+    });
+}
+
+/// The settled part with the longest boundary to the piece; of equals the one met first.
+Index LoosePieces::best_neighbour(Index piece)
+{
+    candidates_.clear();
+    for (const Index f : pieces_[piece])
+        for_each_neighbour(mesh_, topology_, f, [&](Index h, Index g) {
+            if (piece_of_[g] != settled)
+                return;
+            const Index from = mesh_.face_vertices[h];
+            const Index to = mesh_.face_vertices[topology_.next(mesh_, h)];
+            double& length = shared_length_[labels_[g]];
+            if (length == 0)
+                candidates_.push_back(labels_[g]);
+            // Not zero even for an edge without length, so that each part becomes a candidate once.
+            length += 1e-300 + (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
+        });
+    const Index best = *std::max_element(candidates_.begin(), candidates_.end(),
+                                         [&](Index a, Index b) { return shared_length_[a] < shared_length_[b]; });
+    for (const Index label : candidates_)
+        shared_length_[label] = 0;
+    return best;
+}
+
+/// Joins the loose pieces in rings around the settled ones.
+std::vector<Index> LoosePieces::join()
+{
+    std::vector<Index> moved;
+    for (const Index f : pieces_.values)
+        for_each_neighbour(mesh_, topology_, f, [&](Index, Index g) {
+            const Index piece = piece_of_[f];
+            if (piece_of_[g] != settled || queued_[piece])
+                return;
+            queued_[piece] = true;
+            queue_.push_back(piece);
+        });
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+        const Index label = best_neighbour(queue_[i]);
+        for (const Index f : pieces_[queue_[i]]) {
+            labels_[f] = label;
+            piece_of_[f] = settled;
+            moved.push_back(f);
+        }
+        for (const Index f : pieces_[queue_[i]])
+            enqueue_loose_neighbours(f);
+    }
+    return moved;
+}
+
+}  // namespace
+
+std::vector<Index> join_loose_pieces(const PolygonMesh& mesh, const Topology& topology,
+                                     const std::vector<bool>& suspects, std::vector<Index>& labels, const Loop& loop)
+{
+    if (std::find(suspects.begin(), suspects.end(), true) == suspects.end())
+        return {};
+    LoosePieces pieces(mesh, topology, labels, suspects.size());
+    pieces.find(suspects, loop);
+    return pieces.join();
+}
+
+Index split_by_component(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
+{
+    const Components components = face_components(mesh, topology);
+    if (components.count() < 2)
+        return n_labels;
+    std::vector<Index> by_component(labels.size());
+    std::iota(by_component.begin(), by_component.end(), 0);
+    std::stable_sort(by_component.begin(), by_component.end(),
+                     [&](Index f, Index g) { return components.component_of[f] < components.component_of[g]; });
+    // For each label, the component seen last and what the label is called there.
+    std::vector<Index> component_of(n_labels, -1);
+    std::vector<Index> name(n_labels, -1);
+    Index n_names = n_labels;
+    for (const Index f : by_component) {
+        const auto label = at(labels[f]);
+        if (component_of[label] != components.component_of[f]) {
+            name[label] = component_of[label] < 0 ? static_cast<Index>(label) : n_names++;
+            component_of[label] = components.component_of[f];
+        }
+        labels[f] = name[label];
+    }
+    return n_names;
+}
+
+}  // namespace seamflow

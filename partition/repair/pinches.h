@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+#include "partition/repair/fans.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// Whether v may be pinched (see PinchMender), found without walking around it; at interior vertices it is if so.
+/// @param labels #F.
+bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v);
+
+/// Finds and mends pinched vertices: those at which the faces of one part form several runs within one fan of the mesh.
+class PinchMender {
+  public:
+    /// Mesh, topology and labels must outlive the object. @param n_labels all labels are below it.
+    PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels);
+
+    /// To be called before faces are moved or parts compared, and after others have changed labels: counts the faces of
+    /// the parts.
+    void count_faces(const Loop& loop = run_serially);
+
+    /// How many runs too many there are at v.
+    Index pinches_at(Index v);
+
+    /// Moves faces at v to other parts until v is not pinched, in small steps, each the best of a few by the parts it
+    /// uses up, the pinches it leaves nearby, the number of faces moved and the length of the cut.
+    /// @param moved gets the faces that changed their label, @param labels_before the labels they had.
+    void mend(Index v, std::vector<Index>& moved, std::vector<Index>& labels_before);
+
+    /// A part pinched at v and the smallest of the parts next to its runs there, the larger of the two first.
+    /// v must be pinched.
+    std::pair<Index, Index> pinched_and_between(Index v);
+
+  private:
+    /// Neighbouring faces of one label, as positions in their fan that may run over its end.
+    struct Run {
+        Index label;
+        std::size_t begin;
+        std::size_t count;
+    };
+    struct Move {
+        std::vector<Index> faces;
+        Index label;
+    };
+    /// What speaks against a move, weightiest first; compared in this order.
+    struct Cost {
+        Index parts_used_up;
+        Index pinches;
+        std::size_t faces;
+        double cut_length;
+        friend auto operator<=>(const Cost&, const Cost&) = default;
+    };
+
+    void find_runs(const FanWalker::Fan& fan);
+    Index count_excess_runs();
+    FanWalker::Fan find_pinch(Index v);
+    void propose(const FanWalker::Fan& fan, std::size_t first_run, std::size_t last_run, Index label);
+    void propose_filling(const FanWalker::Fan& fan);
+    void propose_giving(const FanWalker::Fan& fan);
+    Cost try_out(const Move& move);
+    Index pinches_around(const std::vector<Index>& faces);
+    [[nodiscard]] double cut_length_around(const std::vector<Index>& faces) const;
+    void set_label(Index f, Index label);
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    std::vector<Index>& labels_;
+    FanWalker walker_;
+    /// One entry per label.
+    std::vector<std::int64_t> n_faces_;
+    std::vector<std::size_t> met_in_count_;
+    std::size_t count_ = 0;
+    /// The runs of the fan looked at last, in order, and the label that occurs in several.
+    std::vector<Run> runs_;
+    Index pinched_label_ = -1;
+    std::vector<Move> moves_;
+    std::vector<Index> nearby_;
+    std::vector<Index> labels_before_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,178 @@
+#include "partition/repair/repair.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "partition/labels.h"
+#include "partition/repair/merge.h"
+#include "partition/repair/pieces.h"
+#include "partition/repair/pinches.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Cuts by METIS need two or three rounds; a cut that needs more than this gets its pinched parts merged.
+constexpr int max_repair_rounds = 12;
+
+/// Vertices to look at, each once.
+class VertexQueue {
+  public:
+    VertexQueue(Index n_vertices, std::vector<Index> vertices)
+        : queued_(n_vertices, false)
+        , vertices_(std::move(vertices))
+    {
+        for (const Index v : vertices_)
+            queued_[v] = true;
+    }
+
+    void add_corners_of(const PolygonMesh& mesh, const std::vector<Index>& faces)
+    {
+        for (const Index f : faces)
+            for (const Index v : mesh.face(f))
+                if (!queued_[v]) {
+                    queued_[v] = true;
+                    vertices_.push_back(v);
+                }
+    }
+
+    /// Empties the queue. @returns what was in it.
+    std::vector<Index> take()
+    {
+        for (const Index v : vertices_)
+            queued_[v] = false;
+        return std::exchange(vertices_, {});
+    }
+
+  private:
+    std::vector<bool> queued_;
+    std::vector<Index> vertices_;
+};
+
+/// What to look at first.
+struct Suspects {
+    /// See join_loose_pieces.
+    std::vector<bool> parts;
+    /// All that are pinched, and perhaps others, ascending.
+    std::vector<Index> vertices;
+};
+
+Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
+                     const std::vector<Index>& labels, const Loop& loop)
+{
+    return {
+        .parts = std::vector<bool>(n_labels, true),
+        .vertices = select(loop, mesh.n_vertices(), [&](Index v) { return may_be_pinched(mesh, topology, labels, v); }),
+    };
+}
+
+Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
+                     const std::vector<Index>& labels, const Loop& loop)
+{
+    std::vector<std::uint8_t> is_corner(mesh.n_vertices(), 0);
+    for_each(loop, static_cast<Index>(suspected.faces.size()), [&](Index i) {
+        for (const Index v : mesh.face(suspected.faces[i]))
+            std::atomic_ref(is_corner[v]).store(1, std::memory_order_relaxed);
+    });
+    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    Suspects suspects;
+    suspects.parts = suspected.parts;
+    suspects.vertices = select(loop, mesh.n_vertices(),
+                               [&](Index v) { return is_corner[v] != 0 && may_be_pinched(mesh, topology, labels, v); });
+    return suspects;
+}
+
+/// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
+/// @returns whether no vertex is pinched any more.
+bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects found, std::vector<Index>& labels,
+                    const Loop& loop)
+{
+    auto& suspects = found.parts;
+    if (found.vertices.empty() && std::ranges::find(suspects, true) == suspects.end())
+        return true;
+    const auto n_labels = static_cast<Index>(suspects.size());
+    PinchMender mender(mesh, topology, labels, n_labels);
+    VertexQueue queue(mesh.n_vertices(), std::move(found.vertices));
+    for (int round = 0;; ++round) {
+        queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));
+        if (round == max_repair_rounds)
+            return false;
+        mender.count_faces(loop);
+        std::vector<Index> moved;
+        std::vector<Index> labels_before;
+        for (const Index v : queue.take())
+            mender.mend(v, moved, labels_before);
+        if (moved.empty())
+            return true;
+        queue.add_corners_of(mesh, moved);
+        suspects.assign(n_labels, false);
+        for (const Index label : labels_before)
+            suspects[label] = true;
+    }
+}
+
+/// The labels of all faces as they are at some time.
+class Snapshot {
+  public:
+    Snapshot(const std::vector<Index>& labels, const Loop& loop)
+        : labels_(std::make_unique_for_overwrite<Index[]>(labels.size()))
+    {
+        for_each(loop, static_cast<Index>(labels.size()), [&](Index f) { labels_[f] = labels[f]; });
+    }
+
+    /// Of how many faces they are others now.
+    [[nodiscard]] Index count_changes(const std::vector<Index>& labels, const Loop& loop) const
+    {
+        return static_cast<Index>(
+            sum(loop, static_cast<Index>(labels.size()), [&](Index f) { return labels[f] != labels_[f] ? 1.0 : 0.0; }));
+    }
+
+  private:
+    std::unique_ptr<Index[]> labels_;
+};
+
+/// @param suspects their parts are those of all labels, each within one component.
+/// @returns the number of faces whose labels differ from `before`.
+Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Snapshot& before,
+           std::vector<Index>& labels, const Loop& loop)
+{
+    const auto n_labels = static_cast<Index>(suspects.parts.size());
+    if (!mend_in_rounds(mesh, topology, std::move(suspects), labels, loop))
+        merge_pinched(mesh, topology, n_labels, labels);
+    const Index n_moved = before.count_changes(labels, loop);
+    const auto n_faces = sums_by_value(
+        loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; }, [](Index) { return 1; });
+    if (std::ranges::find(n_faces, 0) != n_faces.end())
+        compact_labels(labels);
+    return n_moved;
+}
+
+}  // namespace
+
+Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, const Loop& loop)
+{
+    Index n_labels = compact_labels(labels);
+    const Snapshot before(labels, loop);
+    n_labels = split_by_component(mesh, topology, n_labels, labels);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
+}
+
+Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
+                               const Loop& loop)
+{
+    const Index n_labels = compact_labels(labels);
+    const Snapshot before(labels, loop);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
+}
+
+Index repair_where_suspected(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
+                             std::vector<Index>& labels, const Loop& loop)
+{
+    const Snapshot before(labels, loop);
+    return mend(mesh, topology, suspects_of(mesh, topology, suspected, labels, loop), before, labels, loop);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "engine/tasks/schedule_simulation.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Who takes the steps.
+enum class Method {
+    /// mean_curvature_flow, decomposed.
+    Ours,
+    /// One sparse factorisation of the whole mesh: Cholesky by CHOLMOD, LU by UMFPACK.
+    Cholmod,
+    Umfpack,
+    /// Conjugate gradients of Eigen with Jacobi, and with incomplete Cholesky. For Δ_P, which is not symmetric, its
+    /// BiCGSTAB with Jacobi, and with incomplete LU.
+    Krylov,
+    KrylovIncomplete,
+    /// Conjugate gradients with the algebraic multigrid BoomerAMG of hypre, in one thread.
+    Amg,
+    /// smooth_shape of CGAL.
+    SmoothShape,
+};
+
+/// Whether a method stops at a tolerance instead of solving exactly.
+bool is_iterative(Method method);
+
+/// Why a method cannot take steps of that Laplacian; empty: it can.
+std::string why_not(Method method, Laplacian laplacian);
+
+/// How a row of the table is called: "ours", "cholmod", "umfpack", "cg", "cg-ic", "bicgstab", "bicgstab-ilut", "amg" or
+/// "cgal".
+std::string_view title_of(Method method, Laplacian laplacian);
+
+/// Everything that decides about the steps of one method.
+struct MethodTask {
+    Method method = Method::Ours;
+    /// Laplacian, time step, number of steps, threads (at least 1). Sub-meshes and conditions are for Ours.
+    FlowOptions options;
+    /// Of an iterative method: the largest residual of a coordinate, in the length of its right-hand side, as libraries
+    /// measure it; with coordinates from the centroid of the mesh, so that it does not matter where that lies.
+    double tolerance = 0.0;
+    /// Of Ours: numbers of threads to replay the median step with (see simulate).
+    std::vector<int> simulated_threads;
+};
+
+/// Wall-clock time of one step, and where it goes.
+struct StepSeconds {
+    double assemble = 0.0;
+    /// Factorisation or preconditioner.
+    double prepare = 0.0;
+    double solve = 0.0;
+    double total = 0.0;
+};
+
+/// What a method did.
+struct MethodResult {
+    /// Why it did not; empty: it did.
+    std::string error;
+    /// Once, before the first step.
+    double setup_seconds = 0.0;
+    /// One per step. Of Ours only `total`, for its tasks overlap.
+    std::vector<StepSeconds> steps;
+    /// Of Ours: per step, summed over all threads; `solve` includes the correction. Of others: of the median step.
+    StepSeconds phases;
+    /// Iterations of all steps and coordinates.
+    int iterations = 0;
+    /// Number of sub-meshes.
+    Index subdomains = 1;
+    /// One for each of MethodTask::simulated_threads.
+    std::vector<Simulation> simulations;
+    /// Of the process that took the steps, the mesh included.
+    std::int64_t peak_memory_bytes = 0;
+    std::vector<std::string> remarks;
+    /// #V by 3, after the last step; empty where the method solves other equations than the task's.
+    Points positions = Points(0, 3);
+
+    /// Median time of the steps after the first, which warms up (of the first if there is no other).
+    [[nodiscard]] double step_seconds() const;
+    /// Setup and all steps.
+    [[nodiscard]] double total_seconds() const;
+};
+
+/// The result of a method that did not.
+MethodResult failed(std::string error);
+
+/// The step, numbered from 0, whose time is the median of those after the first.
+/// @pre there is a step.
+std::size_t median_step(const std::vector<StepSeconds>& steps);
+
+}  // namespace seamflow

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+
+#include "samples/benchmark/methods/method.h"
+#include "samples/benchmark/methods/whole_system.h"
+
+namespace seamflow {
+
+/// A solver by others for the equations of the whole mesh, step after step. All functions throw ComputationError where
+/// the library fails.
+class PeerSolver {
+  public:
+    virtual ~PeerSolver() = default;
+
+    /// What it wants to solve.
+    [[nodiscard]] virtual SystemForm form() const = 0;
+    [[nodiscard]] virtual StorageOrder order() const = 0;
+
+    /// Once, before the values are known.
+    /// @param system must outlive the solver.
+    virtual void analyse(const WholeSystem& system) = 0;
+
+    /// Factorises, or makes the preconditioner, for the values that the system has now.
+    virtual void prepare(const WholeSystem& system) = 0;
+
+    /// Solves for all three columns.
+    /// @param solution n by 3. In: where an iteration may start. Out: the solution.
+    /// @returns iterations of all columns; 0 for direct solvers.
+    virtual int solve(const WholeSystem& system, Columns& solution) = 0;
+};
+
+/// The solver that a task asks for; not for Ours and SmoothShape, which take whole steps.
+/// @throws ComputationError if the program was built without it.
+std::unique_ptr<PeerSolver> make_peer_solver(const MethodTask& task);
+
+/// One maker for each library; `tolerance` as in MethodTask.
+std::unique_ptr<PeerSolver> make_cholmod_solver();
+std::unique_ptr<PeerSolver> make_umfpack_solver();
+std::unique_ptr<PeerSolver> make_krylov_solver(Method method, Laplacian laplacian, double tolerance, int threads);
+std::unique_ptr<PeerSolver> make_amg_solver(double tolerance);
+
+/// Whether make_amg_solver can make anything.
+bool has_amg();
+
+}  // namespace seamflow

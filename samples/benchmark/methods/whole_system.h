@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/direct/umfpack_solver.h"
+#include "solvers/laplacian/laplacian_assembler.h"
+
+namespace seamflow {
+
+/// In which of its equivalent forms the equations of a step are written down.
+enum class SystemForm {
+    /// (I + dt Δ) V^{k+1} = V^k with one row per vertex; V^{k+1} = V^k in the rows of vertices that stay.
+    AsTheyStand,
+    /// Each row divided by the positive diagonal factor of Δ (Δ_F: nᵥ / Σ‖e‖, Δ_A: 1 / vertex area), vertices that stay
+    /// moved to the right-hand side: symmetric positive definite. Not for Δ_P.
+    Symmetric,
+};
+
+/// In which order the entries of the matrix are stored.
+enum class StorageOrder { ByColumns, ByRows };
+
+/// The equations of one backward Euler step on the whole mesh: a fixed pattern, and values that are filled in anew for
+/// each step, by the arithmetic that sub-meshes use, in one thread.
+class WholeSystem {
+  public:
+    /// @param mesh, topology must outlive the system.
+    /// @throws ComputationError if there are 2³¹ or more entries.
+    WholeSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, SystemForm form,
+                StorageOrder order);
+
+    /// Fills matrix and right-hand side.
+    /// @param positions #V by 3: Vᵏ.
+    /// @param time_step dt, in length².
+    void assemble(const Points& positions, double time_step);
+
+    /// Number of unknowns n.
+    [[nodiscard]] Index n() const { return pattern_.n(); }
+    /// Vertex of each unknown, ascending.
+    [[nodiscard]] const std::vector<Index>& vertices() const { return vertices_; }
+    /// With StorageOrder::ByRows its offsets are those of rows, and its `rows` are columns.
+    [[nodiscard]] const SparsePattern& pattern() const { return pattern_; }
+    /// One per entry of the pattern.
+    [[nodiscard]] std::span<const double> values() const;
+    /// n by 3.
+    [[nodiscard]] const Columns& right_hand_side() const { return right_hand_side_; }
+
+    /// The unknowns at given positions, n by 3.
+    [[nodiscard]] Columns unknowns_at(const Points& positions) const;
+    /// Moves the vertices that may move to where a solution, n by 3, says.
+    void move(const Columns& solution, Points& positions) const;
+
+  private:
+    /// A vertex that stays, in the row of an unknown.
+    struct Coupling {
+        Index row;
+        Index fixed_vertex;
+    };
+
+    void make_slots(const std::vector<MatrixEntry>& entries, const std::vector<Index>& unknown_of);
+    void make_symmetric(const Points& positions);
+
+    const Topology* topology_;
+    SystemForm form_;
+    StorageOrder order_;
+    std::unique_ptr<LaplacianAssembler> assembler_;
+    std::vector<Index> vertices_;
+    SparsePattern pattern_;
+    /// Where the Laplacian's contributions go: into the pattern, behind it into the couplings, or, one past those,
+    /// where nobody reads them.
+    std::vector<Index> slots_;
+    std::vector<Index> diagonal_slots_;
+    std::vector<Coupling> couplings_;
+    std::vector<double> values_;
+    /// Per unknown: M_v.
+    std::vector<double> row_factor_;
+    Columns right_hand_side_;
+};
+
+}  // namespace seamflow

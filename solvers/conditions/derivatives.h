@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "partition/decomposition/sub_mesh.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+/// The stencil of a derivative at each vertex of a sub-mesh's Γ: the vertices of its own faces there.
+struct DerivativeStencils {
+    /// One list per vertex of Γ, ascending.
+    IndexLists columns;
+    /// One list per vertex of Γ: the places in `columns` of the corners of its own faces, face after face.
+    IndexLists corner_places;
+    /// Places in `columns` of the vertex itself and of its neighbours along the boundary; one per vertex of Γ.
+    std::vector<Index> centre;
+    std::vector<Index> before;
+    std::vector<Index> after;
+};
+
+/// The stencils of all vertices of Γ.
+DerivativeStencils make_derivative_stencils(const SubMesh& sub_mesh);
+
+/// The outward conormal N / ‖N‖ of a fan of faces at the i-th vertex of Γ (paper, Definition newNormalDerivative), with
+/// N = S - ατ, S = Σ_f (v - c_f), τ = v_after - v_before, α = ⟨S, τ⟩ / ⟨τ, τ⟩.
+struct Conormal {
+    double alpha = 0.0;
+    /// ‖N‖, in length.
+    double norm = 0.0;
+    /// N / ‖N‖.
+    Point direction = Point::Zero();
+};
+
+/// The conormal of the sub-mesh's own side. Empty where it does not exist: N vanishes to rounding.
+/// @param positions #local by 3, the halo included.
+std::optional<Conormal> own_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
+
+/// The conormal of the other side: that of the complement fan.
+std::optional<Conormal> complement_conormal(const SubMesh& sub_mesh, Index i, const Points& positions);
+
+/// The row of ∂n at the i-th vertex of Γ, linear in the positions with α and ‖N‖ held: (Σ_f (e_i - Σ_{k∈f} e_k / p_f)
+/// - α (e_after - e_before)) / ‖N‖, in 1/length. Applied to the positions it was made from it gives the conormal.
+/// @param row receives one coefficient per vertex of the stencil.
+void normal_derivative_row(const SubMesh& sub_mesh, const DerivativeStencils& stencils, Index i,
+                           const Conormal& conormal, std::span<double> row);
+
+/// ∂n of the other side at the i-th vertex of Γ, applied to positions, α and ‖N‖ held as above. Without dimension.
+/// @param other_side #local by 3, the halo included.
+Point complement_normal_derivative(const SubMesh& sub_mesh, Index i, const Conormal& conormal,
+                                   const Points& other_side);
+
+/// The weights of ∂t at a vertex v of Γ, in 1/length² (paper, eq. 23): ∂t = before (v - v_before) +
+/// after (v - v_after), with before = 2 / (l₁ + l₂) / l₁ and after = 2 / (l₁ + l₂) / l₂.
+struct TangentialWeights {
+    double before = 0.0;
+    double after = 0.0;
+};
+
+/// The weights at the i-th vertex of Γ, with l₁ and l₂ the lengths of its two edges along Γ.
+TangentialWeights tangential_weights(const SubMesh& sub_mesh, Index i, const Points& positions);
+
+/// Adds a multiple of the row of ∂t at the i-th vertex of Γ, weights held.
+/// @param row one coefficient per vertex of the stencil.
+void add_tangential_derivative(const DerivativeStencils& stencils, Index i, const TangentialWeights& weights,
+                               double factor, std::span<double> row);
+
+/// ∂t at the i-th vertex of Γ, applied to positions, weights held. In 1/length.
+Point tangential_derivative(const SubMesh& sub_mesh, Index i, const TangentialWeights& weights,
+                            const Points& positions);
+
+}  // namespace seamflow

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "partition/decomposition/sub_mesh.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+/// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
+enum class PEdge {
+    /// Minimum where the shortest edge is in proportion, at least a tenth of Percentile; Percentile where it is that of
+    /// a sliver.
+    Automatic,
+    /// The shortest, as in the paper. One sliver makes p* huge.
+    Minimum,
+    /// The edge that 5 % of all are shorter than.
+    Percentile,
+    /// The mean over half-edges.
+    Mean,
+};
+
+/// p* of a sub-mesh (paper, eqs. 26 and 27, after Gander 2006): ((k_min² + η)(k_max² + η))^¼ with k_min = π /
+/// l and k_max = π / ‖e‖, in 1/length; ‖e‖ is an edge of the sub-mesh, and l the largest distance from Γ along its
+/// edges (for a strip with Γ on one side, its width). Edges of length zero carry no frequency and do not count; where
+/// every vertex lies on Γ, l is ‖e‖.
+/// @param positions #local by 3.
+/// @param eta η, in 1/length²; the paper's 1 makes p* depend on the unit of length.
+/// @returns 0 for a sub-mesh without Γ or without an edge of positive length.
+double optimal_robin_parameter(const SubMesh& sub_mesh, const Points& positions, double eta = 1.0,
+                               PEdge edge = PEdge::Minimum);
+
+}  // namespace seamflow

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace seamflow {
+
+/// Whose factorisation solves sparse systems.
+enum class Factorisation {
+    /// What is fastest for the size: the library's own, of large systems CHOLMOD's or UMFPACK's.
+    Automatic,
+    /// The library's own: L D Lᵀ of symmetric systems, L U with pivots from the diagonal of others; UMFPACK's where
+    /// those pivots are too small.
+    Own,
+    /// L Lᵀ by CHOLMOD of symmetric systems, L U by UMFPACK of others.
+    Cholmod,
+    /// L U by UMFPACK of all.
+    Umfpack,
+};
+
+}  // namespace seamflow

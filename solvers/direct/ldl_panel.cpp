@@ -1,0 +1,247 @@
+#include "solvers/direct/ldl_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace seamflow {
+
+namespace {
+
+/// Columns that are factorised at once, and those of a source that are used in one go.
+constexpr Index group = 8;
+constexpr Index chunk = 64;
+/// Targets that are computed at once, at most.
+constexpr Index most_lanes = 16;
+
+/// Some rows of a panel times D Lᵀ of as many others as there are lanes.
+/// @param rows the first row's first entry; there are `width` from one row to the next.
+/// @param use(r, sums) takes the sums of row r.
+template <Index Rows, class Vector, class Use>
+[[gnu::always_inline]] inline void multiply(const double* rows, std::size_t width, const double* factors, Index n,
+                                            Use&& use)
+{
+    Vector sums[Rows];
+    for (Index c = 0; c < n; ++c) {
+        Vector factor;
+        factor.load(factors + c * Vector::lanes);
+        for (Index r = 0; r < Rows; ++r)
+            sums[r].add_product(rows[at(r) * width + at(c)], factor);
+    }
+    for (Index r = 0; r < Rows; ++r)
+        use(r, sums[r]);
+}
+
+/// Their sums fill eight registers at most.
+template <class Vector>
+constexpr Index rows_at_once = Vector::lanes / Vector::lanes_of_part > 2 ? 2 : 4;
+
+/// Rows of a panel that are the targets of others', each in a lane of its own; what is in other lanes remains.
+struct Targets {
+    /// The first one, and how many follow each other.
+    Index first;
+    Index n;
+    std::array<Index, at(most_lanes)> lane;
+};
+
+Targets in_order(Index first, Index n)
+{
+    Targets targets{first, n, {}};
+    std::iota(targets.lane.begin(), targets.lane.end(), 0);
+    return targets;
+}
+
+/// The rows from that of the first target on times D Lᵀ of the targets, over the panel's columns [first, last).
+/// @param use(i, sums) takes the sums of the i-th of the rows; more than one call for each if there are many columns.
+template <class Vector, class Use>
+[[gnu::always_inline]] inline void multiply_all(const LdlPanel& panel, Index first, Index last, const Targets& targets,
+                                                Use&& use)
+{
+    const std::size_t width = at(panel.width);
+    const double* rows = panel.values + at(targets.first) * width;
+    const Index n_rows = static_cast<Index>(panel.rows.size()) - targets.first;
+    std::array<double, at(chunk * Vector::lanes)> factors;
+    for (Index begin = first; begin < last; begin += chunk) {
+        const Index size = std::min(chunk, last - begin);
+        if (targets.n < Vector::lanes)
+            std::fill_n(factors.begin(), at(size * Vector::lanes), 0.0);
+        for (Index c = 0; c < size; ++c) {
+            const double pivot = panel.values[at(begin + c) * (width + 1)];
+            for (Index t = 0; t < targets.n; ++t)
+                factors[c * Vector::lanes + targets.lane[t]] = pivot * rows[at(t) * width + at(begin + c)];
+        }
+        constexpr Index at_once = rows_at_once<Vector>;
+        Index i = 0;
+        for (; i + at_once <= n_rows; i += at_once)
+            multiply<at_once, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                                      [&](Index r, const Vector& sums) { use(i + r, sums); });
+        for (; i < n_rows; ++i)
+            multiply<1, Vector>(rows + at(i) * width + at(begin), width, factors.data(), size,
+                                [&](Index, const Vector& sums) { use(i, sums); });
+    }
+}
+
+/// How many of the first of these columns, ascending, are among `width` neighbouring ones.
+[[gnu::always_inline]] inline Index count_neighbours(const Index* columns, Index n, Index width)
+{
+    Index count = 1;
+    while (count < n && count < width && columns[count] - columns[0] < width)
+        ++count;
+    return count;
+}
+
+/// An update of columns among as many neighbouring ones as there are lanes. The others in between lose 0.
+template <class Vector>
+[[gnu::always_inline]] inline void update_columns(const LdlPanel& earlier, Index place, Index n,
+                                                  const Index* target_rows, const LdlPanel& later)
+{
+    const std::size_t width = at(later.width);
+    const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - Vector::lanes));
+    Targets targets{place, n, {}};
+    for (Index t = 0; t < n; ++t)
+        targets.lane[t] = target_rows[t] - begin;
+    double* columns = later.values + begin;
+    if (later.width >= Vector::lanes)
+        multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
+            sums.subtract_from(columns + at(target_rows[i]) * width);
+        });
+    else
+        multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
+            sums.subtract_from(columns + at(target_rows[i]) * width, later.width);
+        });
+}
+
+/// Takes what the panel's columns [first, last) contribute away from the n after them.
+template <class Vector>
+[[gnu::always_inline]] inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Index n)
+{
+    if (first == last || n == 0)
+        return;
+    const std::size_t width = at(panel.width);
+    double* target = panel.values + at(last) * (width + 1);
+    const Targets targets = in_order(last, n);
+    if (n == Vector::lanes)
+        multiply_all<Vector>(panel, first, last, targets,
+                             [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width); });
+    else
+        multiply_all<Vector>(panel, first, last, targets,
+                             [&](Index i, const Vector& sums) { sums.subtract_from(target + at(i) * width, n); });
+}
+
+/// Factorises columns that depend on each other alone.
+/// @param Columns 1 to 4.
+template <Index Columns>
+[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel& panel, Index first)
+{
+    const std::size_t width = at(panel.width);
+    double* top = panel.values + at(first) * (width + 1);
+    double inverse[Columns];
+    double factor[Columns][Columns];
+    double* row = top;
+    bool positive = true;
+    for (Index i = 0; i < Columns; ++i, row += width) {
+        for (Index c = 0; c < i; ++c) {
+            for (Index k = 0; k < c; ++k)
+                row[c] -= row[k] * factor[c][k];
+        }
+        for (Index c = 0; c < i; ++c) {
+            factor[i][c] = row[c] * inverse[c];
+            row[i] -= row[c] * factor[i][c];
+            row[c] = factor[i][c];
+        }
+        positive &= row[i] > 0.0 && std::isfinite(row[i]);
+        inverse[i] = 1.0 / row[i];
+    }
+    const auto n_rows = static_cast<Index>(panel.rows.size());
+    for (Index m = first + Columns; m < n_rows; ++m, row += width) {
+        double scaled[Columns];
+        for (Index c = 0; c < Columns; ++c) {
+            scaled[c] = row[c];
+            for (Index k = 0; k < c; ++k)
+                scaled[c] -= scaled[k] * factor[c][k];
+        }
+        for (Index c = 0; c < Columns; ++c)
+            row[c] = scaled[c] * inverse[c];
+    }
+    return positive;
+}
+
+[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
+{
+    switch (n) {
+    case 0:
+        return true;
+    case 1:
+        return factorise_columns<1>(panel, first);
+    case 2:
+        return factorise_columns<2>(panel, first);
+    case 3:
+        return factorise_columns<3>(panel, first);
+    default:
+        return factorise_columns<4>(panel, first);
+    }
+}
+
+struct SubtractUpdate {
+    template <class Machine>
+    void operator()(Machine, const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+                    const LdlPanel& later) const
+    {
+        for (Index t = 0, n = 0; t < n_columns; t += n) {
+            const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
+            if constexpr (Machine::width == 8)
+                if (n_columns - t > 8 && (n = among(16)) > 8) {
+                    update_columns<typename Machine::template Neighbours<16>>(earlier, place + t, n, target_rows + t,
+                                                                              later);
+                    continue;
+                }
+            if (n = among(8); n > 4)
+                update_columns<typename Machine::template Neighbours<8>>(earlier, place + t, n, target_rows + t, later);
+            else if (n = among(4); n > 2)
+                update_columns<typename Machine::template Neighbours<4>>(earlier, place + t, n, target_rows + t, later);
+            else {
+                n = among(2);
+                update_columns<typename Machine::template Neighbours<2>>(earlier, place + t, n, target_rows + t, later);
+            }
+        }
+    }
+};
+
+struct FactorisePanel {
+    template <class Machine>
+    bool operator()(Machine, const LdlPanel& panel) const
+    {
+        using Four = typename Machine::template Neighbours<4>;
+        using Eight = typename Machine::template Neighbours<8>;
+        for (Index first = 0; first < panel.width; first += group) {
+            const Index n = std::min(group, panel.width - first);
+            const Index half = std::min(group / 2, n);
+            if (n > half)
+                subtract_columns<Eight>(panel, 0, first, n);
+            else
+                subtract_columns<Four>(panel, 0, first, n);
+            if (!factorise_columns(panel, first, half))
+                return false;
+            subtract_columns<Four>(panel, first, first + half, n - half);
+            if (!factorise_columns(panel, first + half, n - half))
+                return false;
+        }
+        return true;
+    }
+};
+
+}  // namespace
+
+void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+                     const LdlPanel& later, Index width)
+{
+    on_machine(width, SubtractUpdate(), earlier, place, n_columns, target_rows, later);
+}
+
+bool factorise_panel(const LdlPanel& panel, Index width)
+{
+    return on_machine(width, FactorisePanel(), panel);
+}
+
+}  // namespace seamflow

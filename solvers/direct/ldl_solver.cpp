@@ -1,0 +1,156 @@
+#include "solvers/direct/ldl_solver.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "partition/errors.h"
+#include "solvers/direct/columns.h"
+
+namespace seamflow {
+
+namespace {
+
+/// In numbers: how far before it is used what substitution goes through backwards is asked for, and in what portions.
+constexpr std::ptrdiff_t substituted_ahead = 1024;
+constexpr std::ptrdiff_t cache_line = 64 / sizeof(double);
+
+/// Per unknown, its block.
+std::vector<Index> blocks_of_unknowns(const FactorPattern& pattern)
+{
+    std::vector<Index> block_of(pattern.n());
+    for (Index b = 0; b < pattern.n_blocks(); ++b)
+        std::fill_n(block_of.begin() + pattern.first[b], pattern.width(b), b);
+    return block_of;
+}
+
+}  // namespace
+
+LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last, const EliminationTree& tree)
+    : n_last_(n_last)
+    , pattern_(make_symmetric_factor_pattern(upper, n_last, tree, places_))
+{
+    panels_.reserve(pattern_.first.size());
+    for (Index b = 0; b < pattern_.n_blocks(); ++b) {
+        const std::size_t end = at(panels_.back()) + at(pattern_.width(b)) * pattern_.rows[b].size();
+        if (end > at(std::numeric_limits<Index>::max()))
+            throw ComputationError("the system's factor is too large: use more sub-meshes");
+        panels_.push_back(static_cast<Index>(end));
+    }
+    const std::vector<Index> block_of = blocks_of_unknowns(pattern_);
+    list_updates(block_of);
+    find_places(upper, block_of);
+}
+
+void LdlSolver::list_updates(const std::vector<Index>& block_of)
+{
+    const auto for_each_update = [&](auto use) {
+        for (Index earlier = 0; earlier < pattern_.n_blocks(); ++earlier) {
+            const auto rows = pattern_.rows[earlier];
+            const auto n_rows = static_cast<Index>(rows.size());
+            for (Index place = pattern_.width(earlier), end = place; place < n_rows; place = end) {
+                const Index later = block_of[rows[place]];
+                while (end < n_rows && block_of[rows[end]] == later)
+                    ++end;
+                use(later, Update{earlier, place, end - place});
+            }
+        }
+    };
+    update_offsets_.assign(at(pattern_.n_blocks()) + 1, 0);
+    for_each_update([&](Index later, const Update&) { ++update_offsets_[later + 1]; });
+    std::partial_sum(update_offsets_.begin(), update_offsets_.end(), update_offsets_.begin());
+    updates_.resize(update_offsets_.back());
+    std::vector<Index> next = update_offsets_;
+    for_each_update([&](Index later, const Update& update) { updates_[next[later]++] = update; });
+}
+
+/// An entry of column j belongs to the block of its row, which is eliminated first; where j stands among the rows of
+/// that block is known.
+void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>& block_of)
+{
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        const Index row = upper.rows[k];
+        const Index block = block_of[row];
+        places_[k] = panels_[block] + places_[k] * pattern_.width(block) + row - pattern_.first[block];
+    }
+}
+
+bool LdlSolver::factorise(std::span<const double> values, FactorMemory& memory, LdlWorkspace& workspace)
+{
+    if (memory_.empty() && n() > 0)
+        memory_ = memory.take(factor_bytes());
+    if (workspace.row_of.size() < at(n())) {
+        workspace.row_of.resize(n());
+        workspace.target_rows.resize(n());
+    }
+    double* factor = this->values();
+    std::fill_n(factor, panels_.back(), 0.0);
+    for (std::size_t k = 0; k < places_.size(); ++k)
+        factor[places_[k]] = values[k];
+    for (Index b = 0; b < pattern_.n_blocks(); ++b) {
+        subtract_updates(b, workspace);
+        if (!factorise_panel(panel(b))) {
+            free_factor(memory);
+            return false;
+        }
+    }
+    return true;
+}
+
+void LdlSolver::subtract_updates(Index block, LdlWorkspace& workspace) const
+{
+    const LdlPanel later = panel(block);
+    for (std::size_t i = 0; i < later.rows.size(); ++i)
+        workspace.row_of[later.rows[i]] = static_cast<Index>(i);
+    for (Index u = update_offsets_[block]; u < update_offsets_[block + 1]; ++u) {
+        const Update& update = updates_[u];
+        const LdlPanel earlier = panel(update.earlier);
+        const auto rows = earlier.rows.subspan(update.place);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            workspace.target_rows[i] = workspace.row_of[rows[i]];
+        subtract_update(earlier, update.place, update.n_columns, workspace.target_rows.data(), later);
+    }
+}
+
+void LdlSolver::free_factor(FactorMemory& memory)
+{
+    if (!memory_.empty())
+        memory.give_back(std::exchange(memory_, {}));
+}
+
+DenseLdl LdlSolver::last() const
+{
+    return {n_last_ > 0 ? values() + panels_[pattern_.n_blocks() - 1] : nullptr, n_last_, n_last_};
+}
+
+void LdlSolver::solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const
+{
+    workspace.solution.resize(3 * at(n()));
+    Eigen::Map<Points> x(workspace.solution.data(), n(), 3);
+    x = right_hand_side;
+    eliminate(x.data(), n());
+    substitute_back(x.data(), n());
+    set_rows(solution, n());
+    solution = x;
+}
+
+void LdlSolver::eliminate(double* x, Index n) const
+{
+    for (Index b = 0; b < pattern_.n_blocks() && pattern_.first[b] < n; ++b)
+        eliminate_panel(panel(b), x);
+}
+
+void LdlSolver::substitute_back(double* x, Index n) const
+{
+    for (Index b = pattern_.n_blocks(); b-- > 0;)
+        if (pattern_.first[b] < n) {
+            // Processors foresee only ways forward. Not in a function of its own: compilers leave out calls of
+            // functions that do nothing but this.
+            for (std::ptrdiff_t i = panels_[b]; i < panels_[b + 1]; i += cache_line)
+                __builtin_prefetch(values() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
+            substitute_panel(panel(b), x);
+        }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,186 @@
+#include "solvers/direct/lu_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace seamflow {
+
+namespace {
+
+/// An entry of L and the one of U across the diagonal.
+using Pair = Eigen::Array2d;
+constexpr Eigen::Index lower = 0;
+constexpr Eigen::Index upper = 1;
+
+/// Takes what some columns of a block contribute away from the column of L and the row of U of the unknown
+/// rows[place].
+/// @param columns the first of them; each has as many entries as there are rows.
+template <std::size_t Width>
+void subtract(const Pair* columns, std::span<const Index> rows, std::size_t place, Pair* elimination)
+{
+    std::array<const Pair*, Width> column;
+    std::array<Pair, Width> factor;
+    for (std::size_t c = 0; c < Width; ++c) {
+        column[c] = columns + c * rows.size();
+        factor[c] = column[c][place].reverse();
+    }
+    for (std::size_t m = place; m < rows.size(); ++m) {
+        Pair sum = elimination[rows[m]];
+        for (std::size_t c = 0; c < Width; ++c)
+            sum -= column[c][m] * factor[c];
+        elimination[rows[m]] = sum;
+    }
+}
+
+/// The same for any number of columns: four at once save memory traffic, more do not.
+void subtract(const Pair* columns, Index n_columns, std::span<const Index> rows, Index place, Pair* elimination)
+{
+    for (; n_columns >= 4; n_columns -= 4, columns += 4 * rows.size())
+        subtract<4>(columns, rows, at(place), elimination);
+    if (n_columns == 3)
+        subtract<3>(columns, rows, at(place), elimination);
+    else if (n_columns == 2)
+        subtract<2>(columns, rows, at(place), elimination);
+    else if (n_columns == 1)
+        subtract<1>(columns, rows, at(place), elimination);
+}
+
+}  // namespace
+
+LuSolver::LuSolver(const SparsePattern& pattern)
+    : pattern_(make_factor_pattern(pattern))
+{
+    for (Index b = 0; b < pattern_.n_blocks(); ++b)
+        panels_.push_back(panels_.back() + at(pattern_.width(b)) * pattern_.rows[b].size());
+    list_loads(pattern);
+}
+
+/// A value belongs to that of its row and its column which is eliminated first.
+void LuSolver::list_loads(const SparsePattern& pattern)
+{
+    const auto for_each_value = [&](auto use) {
+        for (Index column = 0; column < pattern.n(); ++column)
+            for (Index slot = pattern.column_offsets[column]; slot < pattern.column_offsets[column + 1]; ++slot)
+                use(slot, pattern_.position[pattern.rows[slot]], pattern_.position[column]);
+    };
+    load_offsets_.assign(at(pattern.n()) + 1, 0);
+    for_each_value([&](Index, Index row, Index column) { ++load_offsets_[std::min(row, column) + 1]; });
+    std::partial_sum(load_offsets_.begin(), load_offsets_.end(), load_offsets_.begin());
+    loads_.resize(pattern.rows.size());
+    std::vector<Index> next = load_offsets_;
+    for_each_value([&](Index slot, Index row, Index column) {
+        loads_[next[std::min(row, column)]++] = {slot, row >= column ? 2 * row : 2 * column + 1};
+    });
+}
+
+bool LuSolver::factorise(std::span<const double> values, FactorMemory& memory, LuWorkspace& workspace)
+{
+    measure_rows(values, workspace);
+    workspace.elimination.assign(pattern_.n(), Pair::Zero());
+    if (memory_.empty())
+        memory_ = memory.take(factor_bytes());
+    for (Index b = 0; b < pattern_.n_blocks(); ++b)
+        for (Index column = 0; column < pattern_.width(b); ++column) {
+            load(pattern_.first[b] + column, values, workspace);
+            eliminate(b, column, workspace);
+            if (!store(b, column, workspace)) {
+                free_factor(memory);
+                return false;
+            }
+        }
+    return true;
+}
+
+void LuSolver::free_factor(FactorMemory& memory)
+{
+    if (!memory_.empty())
+        memory.give_back(std::exchange(memory_, {}));
+}
+
+void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspace) const
+{
+    workspace.row_sizes.assign(pattern_.n(), 0.0);
+    for (Index u = 0; u < pattern_.n(); ++u)
+        for (Index k = load_offsets_[u]; k < load_offsets_[u + 1]; ++k) {
+            const auto [slot, place] = loads_[k];
+            const Index row = place % 2 == 0 ? place / 2 : u;
+            workspace.row_sizes[row] += std::abs(values[slot]);
+        }
+}
+
+void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& workspace) const
+{
+    for (Index k = load_offsets_[unknown]; k < load_offsets_[unknown + 1]; ++k) {
+        const auto [slot, place] = loads_[k];
+        workspace.elimination[place / 2][place % 2] = values[slot];
+    }
+}
+
+/// Takes away what earlier columns contribute, those of the same block last.
+void LuSolver::eliminate(Index block, Index column, LuWorkspace& workspace) const
+{
+    Pair* elimination = workspace.elimination.data();
+    const Index unknown = pattern_.first[block] + column;
+    for (Index k = pattern_.update_offsets[unknown]; k < pattern_.update_offsets[unknown + 1]; ++k) {
+        const auto [earlier, place] = pattern_.updates[k];
+        subtract(column_of(earlier, 0), pattern_.width(earlier), pattern_.rows[earlier], place, elimination);
+    }
+    subtract(column_of(block, 0), column, pattern_.rows[block], column, elimination);
+}
+
+/// Moves a column and a row to the factor.
+/// @returns whether the pivot will do.
+bool LuSolver::store(Index block, Index column, LuWorkspace& workspace)
+{
+    constexpr double largest_multiplier = 1000.0;
+    constexpr double largest_growth = 1e6;
+    constexpr double least_pivot = 1e-12;
+    const auto rows = pattern_.rows[block];
+    Pair* result = column_of(block, column);
+    const double* sizes = workspace.row_sizes.data();
+    const double size = sizes[rows[column]];
+    const double inverse = 1.0 / workspace.elimination[rows[column]][lower];
+    bool will_do = std::isfinite(inverse) && std::abs(inverse) * size * least_pivot <= 1.0;
+    for (std::size_t m = at(column); m < rows.size(); ++m) {
+        Pair& entry = workspace.elimination[rows[m]];
+        const double multiplier = entry[lower] * inverse;
+        will_do &= std::abs(multiplier) * size <= largest_multiplier * sizes[rows[m]];
+        will_do &= std::abs(entry[upper]) <= largest_growth * size;
+        result[m] = Pair(multiplier, entry[upper]);
+        entry.setZero();
+    }
+    result[column][lower] = inverse;
+    return will_do;
+}
+
+void LuSolver::solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const
+{
+    workspace.solution.resize(pattern_.n());
+    Eigen::Array4d* x = workspace.solution.data();
+    for (Index v = 0; v < pattern_.n(); ++v)
+        x[pattern_.position[v]] << right_hand_side.row(v).transpose().array(), 0.0;
+    for (Index b = 0; b < pattern_.n_blocks(); ++b)
+        for (Index c = 0; c < pattern_.width(b); ++c) {
+            const auto rows = pattern_.rows[b];
+            const Pair* column = column_of(b, c);
+            const Eigen::Array4d known = x[rows[c]];
+            for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
+                x[rows[m]] -= column[m][lower] * known;
+        }
+    for (Index b = pattern_.n_blocks(); b-- > 0;)
+        for (Index c = pattern_.width(b); c-- > 0;) {
+            const auto rows = pattern_.rows[b];
+            const Pair* row = column_of(b, c);
+            Eigen::Array4d sum = x[rows[c]];
+            for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
+                sum -= row[m][upper] * x[rows[m]];
+            x[rows[c]] = sum * row[c][lower];
+        }
+    for (Index v = 0; v < pattern_.n(); ++v)
+        solution.row(v) = x[pattern_.position[v]].head<3>().matrix().transpose();
+}
+
+}  // namespace seamflow

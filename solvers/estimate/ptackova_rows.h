@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/topology.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+/// Rows of the undecomposed step with Δ_P at some vertices of the whole mesh, without a matrix: they reach two rings.
+class PtackovaRows {
+  public:
+    /// @param vertices of kind Interior, each once.
+    PtackovaRows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> vertices);
+
+    /// The residuals of the rows, each multiplied by the area M_v of its vertex: M_v (Vᵏ⁺¹ - Vᵏ + dt Δ_P(Vᵏ) Vᵏ⁺¹).
+    /// Allocates nothing.
+    /// @param before, after #V by 3: Vᵏ and Vᵏ⁺¹.
+    /// @param time_step dt, in length².
+    /// @param residuals #vertices by 3.
+    void evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                  double time_step, const Loop& loop, Points& residuals);
+
+  private:
+    /// A face of a mesh, and what is needed of it.
+    struct Face {
+        Index index;
+        /// See PtackovaVelho::flux_map: b and |f| at Vᵏ, x = Vᵏ⁺¹.
+        Eigen::Matrix3d flux;
+        double area;
+        /// What each of its corners has of ΔV, M_v times.
+        Point share;
+    };
+
+    std::vector<Index> vertices_;
+    /// Those at the vertices, then those that share an edge with one of them.
+    std::vector<Face> faces_;
+    Index n_inner_ = 0;
+    /// #F: the number of a face in that list, or -1.
+    std::vector<Index> number_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,167 @@
+#include "solvers/estimate/residual_indicator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "solvers/laplacian/kernels.h"
+
+namespace seamflow {
+
+namespace {
+
+/// A row in the making.
+struct Draft {
+    const Points& before;
+    const Points& after;
+    Index vertex;
+    std::span<const Index> neighbours;
+    std::span<double> couplings;
+    IndicatorRow row;
+    /// Couplings to vertices that share a face but no edge: their sum, and that of their products with squared
+    /// distances, across Γ and in all.
+    double far = 0.0;
+    double far_across = 0.0;
+    double far_squares = 0.0;
+    /// Unit vector along Γ; zero where it has none.
+    Point along = Point::Zero();
+
+    [[nodiscard]] Point to(Index other) const { return before.row(other) - before.row(vertex); }
+    [[nodiscard]] double square_across(const Point& difference) const
+    {
+        const double tangential = difference.dot(along);
+        return std::max(0.0, difference.squaredNorm() - tangential * tangential);
+    }
+};
+
+/// What the rows of the edges at the vertex add to the residual, to the couplings and to M.
+template <EdgeKernel Kernel>
+void add_edges(double time_step, Draft& draft)
+{
+    double sum = 0.0;
+    for (std::size_t j = 0; j < draft.neighbours.size(); ++j) {
+        const typename Kernel::Edge edge(draft.to(draft.neighbours[j]));
+        sum += edge.mass();
+        draft.couplings[j] = edge.weight(time_step);
+        draft.row.residual -=
+            draft.couplings[j] * (draft.after.row(draft.neighbours[j]) - draft.after.row(draft.vertex));
+    }
+    draft.row.mass = sum / static_cast<double>(draft.neighbours.size());
+}
+
+/// The coupling of the vertex to another corner of one of its faces.
+void add_coupling(Index other, double coupling, Draft& draft)
+{
+    draft.row.residual -= coupling * (draft.after.row(other) - draft.after.row(draft.vertex));
+    const auto place = std::find(draft.neighbours.begin(), draft.neighbours.end(), other);
+    if (place != draft.neighbours.end()) {
+        draft.couplings[static_cast<std::size_t>(place - draft.neighbours.begin())] += coupling;
+        return;
+    }
+    const Point difference = draft.to(other);
+    draft.far += coupling;
+    draft.far_across += coupling * draft.square_across(difference);
+    draft.far_squares += coupling * difference.squaredNorm();
+}
+
+/// What the row of one face at its corner `own`, the vertex, adds.
+template <FaceKernel Kernel>
+void add_face(std::span<const Index> corners, std::size_t own, double time_step, Draft& draft)
+{
+    measure_corner<Kernel>(corners, own, draft.before, [&](const auto& face, std::size_t i) {
+        draft.row.mass += face.mass(i);
+        const auto row = face.row(i, time_step / face.divisor());
+        for (std::size_t k = 0; k < face.size(); ++k)
+            if (k != i)
+                add_coupling(face.corner(k), -row(k), draft);
+    });
+}
+
+/// Calls action(corners, k) for every face of a fan, k being the place of vertex v in it.
+template <class Action>
+void for_each_face(std::span<const Index> fan, const IndexLists& faces, Index v, Action&& action)
+{
+    for (const Index f : fan) {
+        const auto corners = faces[f];
+        action(corners, static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin()));
+    }
+}
+
+Point unit(const Point& vector)
+{
+    const double norm = vector.norm();
+    return norm > 0.0 ? Point(vector / norm) : Point::Zero();
+}
+
+/// How far a disturbance spreads in a step, squared: dt D, D = ΣK d² / 4M. It is dt for a Laplacian that is exact on
+/// quadratic functions; obtuse triangles are kept from making it meaningless.
+double spread(const Draft& draft, double time_step)
+{
+    double squares = draft.far_squares;
+    for (std::size_t j = 0; j < draft.neighbours.size(); ++j)
+        squares += draft.couplings[j] * draft.to(draft.neighbours[j]).squaredNorm();
+    return std::clamp(0.25 * squares / draft.row.mass, 0.25 * time_step, 4.0 * time_step);
+}
+
+/// Fills in the diagonal, and drops the couplings that are not between vertices of Γ.
+void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft)
+{
+    double held = 0.0;
+    double beyond = draft.far;
+    double across = draft.far_across;
+    for (std::size_t j = 0; j < kinds.size(); ++j) {
+        double& coupling = draft.couplings[j];
+        if (kinds[j] == off_interface) {
+            beyond += coupling;
+            across += coupling * draft.square_across(draft.to(draft.neighbours[j]));
+        } else {
+            held += std::max(coupling, 0.0);
+        }
+        coupling = kinds[j] >= 0 ? std::max(coupling, 0.0) : 0.0;
+    }
+    draft.row.diagonal = draft.row.mass + held;
+    if (beyond <= 0.0)
+        return;
+    const double cosh_less_one = 0.5 * std::max(0.0, across / beyond) / spread_squared;
+    const double left = 1.0 / (1.0 + cosh_less_one + std::sqrt(cosh_less_one * (cosh_less_one + 2.0)));
+    draft.row.yielded = beyond * left;
+    draft.row.diagonal += beyond - draft.row.yielded;
+}
+
+/// The Laplacian whose matrix stands for that of another: Δ_A for those that reach two rings.
+template <class Kernel>
+using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings, AlexaWardetzky, Kernel>;
+
+}  // namespace
+
+IndicatorRow indicator_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
+                           const Points& before, const Points& after, double time_step, std::span<double> couplings)
+{
+    const auto& interface = sub_mesh.interface;
+    const Index v = interface.vertices[i];
+    std::fill(couplings.begin(), couplings.end(), 0.0);
+    Draft draft{before, after, v, sub_mesh.seam.neighbours[i], couplings, {}};
+    draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
+    with_kernel(laplacian, [&]<class Given>(Given) {
+        using Kernel = WithinOneRing<Given>;
+        const auto visit = [&](std::span<const Index> corners, std::size_t k) {
+            if constexpr (FaceKernel<Kernel>)
+                add_face<Kernel>(corners, k, time_step, draft);
+            const std::size_t p = corners.size();
+            const Index next = corners[k + 1 == p ? 0 : k + 1];
+            const Index previous = corners[k == 0 ? p - 1 : k - 1];
+            draft.row.normal += draft.to(next).cross(draft.to(previous));
+        };
+        for_each_face(interface.own_faces[i], sub_mesh.face_vertices, v, visit);
+        if constexpr (FaceKernel<Kernel>)
+            for_each_face(interface.complement_faces[i], interface.halo_faces, v, visit);
+        else
+            add_edges<Kernel>(time_step, draft);
+    });
+    draft.row.normal = unit(draft.row.normal);
+    draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));
+    close_row(kinds, spread(draft, time_step), draft);
+    return draft.row;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "partition/vector_area.h"
+#include "solvers/krylov/stopping_criterion.h"
+#include "solvers/krylov/sums.h"
+
+namespace seamflow {
+
+/// What conjugate gradients work with, in Saad's letters, each n by 3: three right-hand sides at once, each with
+/// coefficients of its own.
+struct ConjugateGradientVectors {
+    explicit ConjugateGradientVectors(Index n)
+        : r(n, 3)
+        , p(n, 3)
+        , q(n, 3)
+        , z(n, 3)
+    {
+    }
+
+    /// For x = 0.
+    void begin(const Points& b, const Loop& loop)
+    {
+        r = b;
+        b_norms = column_norms(b, loop);
+        p.setZero();
+        q.setZero();
+        pq.setZero();
+        alpha.setOnes();
+    }
+
+    /// The residual B - A X, the direction and its product, and the preconditioned residual.
+    Points r;
+    Points p;
+    Points q;
+    Points z;
+    /// The norms of B; (p, A p); how far the last step went along p.
+    Point b_norms = Point::Zero();
+    Point pq = Point::Zero();
+    Point alpha = Point::Ones();
+};
+
+/// Where the denominator is not positive, 0.
+inline Point quotients(const Point& numerators, const Point& denominators)
+{
+    return (denominators.array() > 0.0).select(numerators.array() / denominators.array(), 0.0).matrix();
+}
+
+/// The largest of the three; one whose denominator is 0 does not count. Not a number where one of them is none.
+inline double largest_ratio(const Point& norms, const Point& first)
+{
+    double largest = 0.0;
+    for (Eigen::Index c = 0; c < 3; ++c)
+        if (const double ratio = norms[c] / first[c]; first[c] != 0.0 && !(ratio <= largest))
+            largest = std::isnan(largest) ? largest : ratio;
+    return largest;
+}
+
+/// x goes along p to where the energy is least; r follows.
+template <class Multiply>
+void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Loop& loop)
+{
+    multiply(v.p, v.q);
+    v.pq = column_products(v.p, v.q, loop);
+    v.alpha = quotients(column_products(v.p, v.r, loop), v.pq);
+    for_each(loop, static_cast<Index>(x.rows()), [&](Index i) {
+        x.row(i) += v.p.row(i).cwiseProduct(v.alpha);
+        v.r.row(i) -= v.q.row(i).cwiseProduct(v.alpha);
+    });
+}
+
+/// Conjugate gradients for A X = B with a symmetric positive definite A, preconditioned (Saad, Iterative Methods for
+/// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: now and then the residual is
+/// measured anew, without beginning anew. Sums are taken in a fixed order: the bits do not depend on how loops are run.
+/// @param multiply multiply(p, q) makes q = A p. @param precondition precondition(r, z) makes z = M⁻¹ r.
+/// @param measure measure(x, r) makes r = B - A X exactly.
+/// @param stop relative to the norms of B, for each column.
+/// @param x in: where to start. Out: the solution.
+/// @param v in: begun, and brought to x by `advance`, or not at all.
+template <class Multiply, class Precondition, class Measure>
+IterationResult conjugate_gradients(const Multiply& multiply, const Precondition& precondition, const Measure& measure,
+                                    const IterationStop& stop, Points& x, ConjugateGradientVectors& v, const Loop& loop)
+{
+    // A residual that is larger, relative to B, need not be measured; from one measurement to the next so many
+    // iterations, and so much of the residual; what may be left of it then without too little progress.
+    constexpr double largest_to_measure = 1e-3;
+    constexpr int most_iterations_at_once = 100;
+    constexpr double most_reduction_at_once = 1e-4;
+    constexpr double most_left = 0.5;
+
+    const auto norms_as_measured = [&] {
+        if (const Point norms = column_norms(v.r, loop); largest_ratio(norms, v.b_norms) > largest_to_measure)
+            return norms;
+        measure(x, v.r);
+        return column_norms(v.r, loop);
+    };
+    Point norms = norms_as_measured();
+    StoppingCriterion criterion(stop, most_left, largest_ratio(norms, v.b_norms));
+    while (!criterion.is_met()) {
+        const Point goals = (stop.tolerance * v.b_norms).cwiseMax(most_reduction_at_once * norms);
+        const int most = std::min(criterion.iterations_left(), most_iterations_at_once);
+        int iterations = 0;
+        for (bool is_reached = false; iterations < most && !is_reached; ++iterations) {
+            precondition(v.r, v.z);
+            // Conjugate to the direction before even where the residual has just been measured.
+            const Point beta = -quotients(column_products(v.z, v.q, loop), v.pq);
+            for_each(loop, static_cast<Index>(x.rows()),
+                     [&](Index i) { v.p.row(i) = v.z.row(i) + v.p.row(i).cwiseProduct(beta); });
+            advance(multiply, x, v, loop);
+            is_reached = (column_norms(v.r, loop).array() <= goals.array()).all();
+        }
+        const Point before = std::exchange(norms, norms_as_measured());
+        criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));
+        // Rounding can spoil the directions so much that they lead nowhere: new ones then.
+        if (criterion.is_stalling())
+            v.pq.setZero();
+    }
+    return criterion.result(largest_ratio(norms, v.b_norms));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "solvers/krylov/hessenberg.h"
+#include "solvers/krylov/krylov_basis.h"
+#include "solvers/krylov/stopping_criterion.h"
+#include "solvers/krylov/sums.h"
+
+namespace seamflow {
+
+/// How a cycle of GMRES ended.
+struct GmresCycle {
+    /// Products with A.
+    int iterations = 0;
+    /// See HessenbergLeastSquares::amplification.
+    double amplification = 1.0;
+};
+
+/// The generalised minimal residual method of Saad and Schultz (1986) for A X = B with any regular matrix A and three
+/// right-hand sides, which look for their solutions in one subspace together (block GMRES, Vital 1990). It does not
+/// break down: directions that depend on others are left out. Adds to X what makes the residual smallest. Sums are
+/// taken in a fixed order: the bits do not depend on how loops are run.
+/// @param multiply multiply(v, product) makes the product A v.
+/// @param residual B - A X.
+/// @param goal ends when the residual is estimated to be no larger, in the Euclidean norm over all three columns. Where
+///        that says too little of X, because the amplification is more than most_amplification, the goal is divided by
+///        what it is too much.
+/// @param most products with A, for each of which 24 n bytes are kept.
+/// @param V its memory is used again.
+template <class Multiply>
+GmresCycle gmres_cycle(const Multiply& multiply, const Points& residual, double goal, int most, KrylovBasis& V,
+                       Points& x, const Loop& loop)
+{
+    HessenbergLeastSquares least_squares(V.begin(residual, loop));
+    int iterations = 0;
+    for (; iterations < most && !least_squares.has_reached(goal); ++iterations) {
+        V.extend(multiply);
+        least_squares.append(V.orthogonalise(loop));
+    }
+    V.add_combination(least_squares.solution(), x, loop);
+    return {iterations, least_squares.amplification()};
+}
+
+/// How GMRES ended.
+struct GmresResult : IterationResult {
+    /// The largest of all cycles.
+    double amplification = 1.0;
+};
+
+/// Restarted GMRES: cycles that forget the directions of those before, the residual being measured after each.
+/// @param measure brings the residual up to date with X.
+/// @param stop residuals in the Euclidean norm over all three columns; as the goal of a cycle they count for more where
+///        the amplification is large.
+/// @param most_in_cycle see gmres_cycle.
+/// @param x in: where to start. Out: the solution.
+/// @param residual that `measure` brings up to date. In: of x.
+template <class Multiply, class Measure>
+GmresResult gmres(const Multiply& multiply, const Measure& measure, const IterationStop& stop, int most_in_cycle,
+                  KrylovBasis& V, Points& x, const Points& residual, const Loop& loop)
+{
+    // What a cycle may leave of the residual without too little progress. The residual that GMRES estimates is about
+    // the true one.
+    constexpr double most_left = 0.95;
+    constexpr double safety = 0.8;
+
+    double size = norm(residual, loop);
+    double amplification = 1.0;
+    const auto excess = [&] { return std::max(1.0, amplification / most_amplification); };
+    StoppingCriterion criterion(stop, most_left, size);
+    while (!criterion.is_met()) {
+        const GmresCycle cycle = gmres_cycle(multiply, residual, safety * stop.tolerance / excess(),
+                                             std::min(most_in_cycle, criterion.iterations_left()), V, x, loop);
+        amplification = std::max(amplification, cycle.amplification);
+        measure();
+        const double before = std::exchange(size, norm(residual, loop));
+        criterion.note(cycle.iterations, size * excess(), size / before);
+    }
+    return {criterion.result(size), amplification};
+}
+
+}  // namespace seamflow

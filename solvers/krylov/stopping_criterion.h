@@ -1,0 +1,76 @@
+#pragma once
+
+namespace seamflow {
+
+/// When an iteration ends.
+struct IterationStop {
+    /// A residual that is small enough, in the unit in which the iteration measures residuals.
+    double tolerance = 0.0;
+    /// Most iterations.
+    int iterations = 0;
+};
+
+/// How it ended.
+struct IterationResult {
+    int iterations = 0;
+    /// As measured last, in the unit of the tolerance.
+    double residual = 0.0;
+    /// Whether it ended above the tolerance, with iterations left, because they no longer made the residual smaller.
+    bool stagnated = false;
+};
+
+/// The stopping criterion of all iterations: the residual, measured now and then, is small enough; or there are no
+/// iterations left; or the iteration stagnates, several measurements one after the other having found too little
+/// progress. One of them alone may be on a plateau that ends.
+class StoppingCriterion {
+  public:
+    /// So many of them.
+    static constexpr int most_stalls = 3;
+
+    /// @param most_left the part of the residual before that may be left without it being too little progress.
+    /// @param residual at the beginning.
+    StoppingCriterion(const IterationStop& stop, double most_left, double residual)
+        : stop_(stop)
+        , most_left_(most_left)
+        , residual_(residual)
+    {
+    }
+
+    /// Takes note of a measurement.
+    /// @param iterations since the one before.
+    /// @param left the part of the residual before that is left; not a number: no progress.
+    void note(int iterations, double residual, double left)
+    {
+        iterations_ += iterations;
+        residual_ = residual;
+        stalls_ = left <= most_left_ ? 0 : stalls_ + 1;
+    }
+
+    /// Whether the iteration is to end; so it is where the residual is not a number.
+    [[nodiscard]] bool is_met() const
+    {
+        return iterations_left() <= 0 || !(residual_ > stop_.tolerance) || stalls_ >= most_stalls;
+    }
+
+    /// Whether the last measurement has found too little progress.
+    [[nodiscard]] bool is_stalling() const { return stalls_ > 0; }
+
+    [[nodiscard]] int iterations_left() const { return stop_.iterations - iterations_; }
+
+    /// @param residual as measured last.
+    [[nodiscard]] IterationResult result(double residual) const
+    {
+        // Where iterations have run out, the last ones may have been too few to get on.
+        const bool stagnated = stalls_ >= most_stalls && residual > stop_.tolerance && iterations_left() > 0;
+        return {.iterations = iterations_, .residual = residual, .stagnated = stagnated};
+    }
+
+  private:
+    IterationStop stop_;
+    double most_left_;
+    double residual_;
+    int iterations_ = 0;
+    int stalls_ = 0;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The sum of value(i) over 0 … n - 1, of some matrix type. Always added up in the same order.
+template <class Sum, class Value>
+Sum sum_of(const Loop& loop, Index n, Value&& value)
+{
+    std::vector<Sum> of_block(at(n / block_size) + 1, Sum::Zero());
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+        Sum total = Sum::Zero();
+        for (Index i = begin; i < end; ++i)
+            total += value(i);
+        of_block[block] = total;
+    });
+    Sum total = Sum::Zero();
+    for (const Sum& part : of_block)
+        total += part;
+    return total;
+}
+
+/// The inner products of each column of A with the same of B.
+inline Eigen::RowVector3d column_products(const Points& a, const Points& b, const Loop& loop)
+{
+    return sum_of<Eigen::RowVector3d>(loop, static_cast<Index>(a.rows()),
+                                      [&](Index i) { return a.row(i).cwiseProduct(b.row(i)); });
+}
+
+/// The Euclidean norm of each column.
+inline Eigen::RowVector3d column_norms(const Points& a, const Loop& loop)
+{
+    return column_products(a, a, loop).cwiseSqrt();
+}
+
+/// The Euclidean norm over all three columns.
+inline double norm(const Points& a, const Loop& loop)
+{
+    return std::sqrt(sum(loop, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).squaredNorm(); }));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,133 @@
+#include "solvers/laplacian/degenerate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The first corner of face f from which an edge of no sound length leads, and where that matters; -1 if there is none.
+Index edge_without_length(const PolygonMesh& mesh, const Topology& topology, Index f)
+{
+    const auto corners = mesh.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Index start = corners[k];
+        const Index end = corners[k + 1 < corners.size() ? k + 1 : 0];
+        const bool matters = topology.moves(start) || topology.moves(end);
+        if (matters && !std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
+            return static_cast<Index>(k);
+    }
+    return -1;
+}
+
+[[noreturn]] void refuse_edge(const PolygonMesh& mesh, Index f, Index corner)
+{
+    const auto corners = mesh.face(f);
+    throw InputError("vertices " + std::to_string(corners[corner]) + " and " +
+                     std::to_string(corners[(at(corner) + 1) % corners.size()]) +
+                     " (numbered from 0) are joined by an edge of face " + std::to_string(f) +
+                     " and lie at the same place, or so near or far that the distance is no normal double: "
+                     "merge them, move one, or scale the mesh");
+}
+
+bool may_move(const PolygonMesh& mesh, const Topology& topology, Index f)
+{
+    const auto corners = mesh.face(f);
+    return std::any_of(corners.begin(), corners.end(), [&](Index v) { return topology.moves(v); });
+}
+
+/// Does the row of a vertex that may move divide by the area of face f? Those of Ptáčková-Velho also reach the faces
+/// across the edges of the vertex's own.
+bool area_matters(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
+{
+    if (may_move(mesh, topology, f))
+        return true;
+    if (traits_of(laplacian).reach != Reach::TwoRings)
+        return false;
+    const auto twins = std::span<const Index>(topology.twin).subspan(mesh.face_offsets[f], mesh.face(f).size());
+    return std::any_of(twins.begin(), twins.end(),
+                       [&](Index twin) { return twin >= 0 && may_move(mesh, topology, topology.face_of[twin]); });
+}
+
+bool has_area(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f)
+{
+    return std::isnormal(area(mesh.face(f), mesh.vertices)) || !area_matters(mesh, topology, laplacian, f);
+}
+
+bool divides_by_lengths(Laplacian laplacian)
+{
+    return traits_of(laplacian).divisor == Divisor::EdgeLengths;
+}
+
+/// The faces by whose edges or areas the row of a vertex that may move divides in vain.
+std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                    const Loop& loop)
+{
+    return select(loop, mesh.n_faces(), [&](Index f) {
+        return divides_by_lengths(laplacian) ? edge_without_length(mesh, topology, f) >= 0
+                                             : !has_area(mesh, topology, laplacian, f);
+    });
+}
+
+/// Both ends of every edge of face f that has no sound length.
+void append_ends(const PolygonMesh& mesh, Index f, std::vector<Index>& vertices)
+{
+    const auto corners = mesh.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Index start = corners[k];
+        const Index end = corners[(k + 1) % corners.size()];
+        if (!std::isnormal((mesh.vertices.row(end) - mesh.vertices.row(start)).norm()))
+            vertices.insert(vertices.end(), {start, end});
+    }
+}
+
+/// The vertices whose rows divide by the area of face f.
+void append_vertices_around(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, Index f,
+                            std::vector<Index>& vertices)
+{
+    const auto append = [&](Index face) {
+        vertices.insert(vertices.end(), mesh.face(face).begin(), mesh.face(face).end());
+    };
+    append(f);
+    if (traits_of(laplacian).reach != Reach::TwoRings)
+        return;
+    for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+        if (const Index twin = topology.twin[h]; twin >= 0)
+            append(topology.face_of[twin]);
+}
+
+}  // namespace
+
+std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                        const Loop& loop)
+{
+    std::vector<Index> vertices;
+    for (const Index f : degenerate_faces(mesh, topology, laplacian, loop)) {
+        if (divides_by_lengths(laplacian))
+            append_ends(mesh, f, vertices);
+        else
+            append_vertices_around(mesh, topology, laplacian, f, vertices);
+    }
+    std::erase_if(vertices, [&](Index v) { return !topology.moves(v); });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop)
+{
+    const auto bad = degenerate_faces(mesh, topology, laplacian, loop);
+    if (bad.empty())
+        return;
+    if (divides_by_lengths(laplacian))
+        refuse_edge(mesh, bad.front(), edge_without_length(mesh, topology, bad.front()));
+    throw InputError("face " + std::to_string(bad.front()) +
+                     " (numbered from 0) has no area that is a normal double: remove it, move one of its vertices, "
+                     "or use the Laplacian fujiwara, which does not divide by areas");
+}
+
+}  // namespace seamflow

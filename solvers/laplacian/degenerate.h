@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/topology.h"
+#include "solvers/laplacian/geometry.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// Checks that the Laplacian's coefficients are finite at all vertices that may move: Fujiwara divides by the lengths
+/// of their edges, Alexa-Wardetzky by the areas of their faces, Ptáčková-Velho also by those of the faces next to them.
+/// @throws InputError naming the first edge without length or face without area, and what to do.
+void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                            const Loop& loop = run_serially);
+
+/// The vertices that may move and at which that is not so, ascending.
+std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                                        const Loop& loop = run_serially);
+
+}  // namespace seamflow

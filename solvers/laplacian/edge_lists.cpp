@@ -1,0 +1,69 @@
+#include "solvers/laplacian/edge_lists.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace seamflow {
+
+namespace {
+
+/// Calls action(h, start, end) for every half-edge h.
+template <class Action>
+void for_each_halfedge(const IndexLists& faces, Action&& action)
+{
+    for (Index f = 0; f < faces.size(); ++f) {
+        const auto corners = faces[f];
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            action(at(faces.offsets[f]) + k, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1]);
+    }
+}
+
+/// Each of them once, in ascending order.
+OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vertices)
+{
+    // By first vertices: where those of each begin, which moves on to where they end.
+    std::vector<Index> ends(at(n_vertices) + 1, 0);
+    for (const VertexPair& e : edges)
+        ++ends[e.first + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Index> seconds(edges.size());
+    for (const VertexPair& e : edges)
+        seconds[ends[e.first]++] = e.second;
+    OuterEdges outer;
+    auto second = seconds.begin();
+    for (Index first = 0; first < n_vertices; ++first) {
+        const auto end = seconds.begin() + ends[first];
+        std::sort(second, end);
+        while (second != end) {
+            const auto next = std::find_if(second, end, [&](Index v) { return v != *second; });
+            (next - second == 1 ? outer.rim : outer.inner).push_back({first, *second});
+            second = next;
+        }
+    }
+    return outer;
+}
+
+}  // namespace
+
+OuterEdges list_outer_edges(const FacesOnBothSides& faces)
+{
+    std::vector<VertexPair> edges;
+    const auto add = [&](Index start, Index end) { edges.push_back({std::min(start, end), std::max(start, end)}); };
+    for_each_halfedge(faces.own, [&](std::size_t h, Index start, Index end) {
+        if (faces.twin[h] < 0)
+            add(start, end);
+    });
+    for_each_halfedge(faces.beyond, [&](std::size_t, Index start, Index end) { add(start, end); });
+    return by_number_of_faces(edges, faces.n_vertices);
+}
+
+void append_own_edges(const FacesOnBothSides& faces, bool on_rim, std::vector<VertexPair>& edges)
+{
+    for_each_halfedge(faces.own, [&](std::size_t h, Index start, Index end) {
+        const Index twin = faces.twin[h];
+        if ((twin < 0) == on_rim && (twin < 0 || h < at(twin)))
+            edges.push_back({start, end});
+    });
+}
+
+}  // namespace seamflow

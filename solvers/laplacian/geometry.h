@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "partition/decomposition/sub_mesh.h"
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+/// |f|: length of the vector area, in length².
+inline double area(std::span<const Index> corners, const Points& positions)
+{
+    return vector_area(corners, positions).norm();
+}
+
+/// What each corner of a p-gon has of its area, |f| / p. The sum at a vertex is its area, the inverse of the paper's
+/// W_V (eq. 11).
+inline double corner_area(double face_area, std::size_t p)
+{
+    return face_area / static_cast<double>(p);
+}
+
+/// Mean of a polygon's corners.
+inline Point centroid(std::span<const Index> corners, const Points& positions)
+{
+    Point sum = Point::Zero();
+    for (const Index v : corners)
+        sum += positions.row(v);
+    return sum / static_cast<double>(corners.size());
+}
+
+/// bₖ = ½ (vₖ₊₁ - vₖ₋₁) of a polygon's corner k. With E the polygon's edge vectors as rows, d0 its exterior derivative
+/// and R the matrix of the paper (eqs. 7 to 9), the rows of d0ᵀ R E are these bₖ: R E maps to centroid minus
+/// edge midpoint.
+inline Point corner_bisector(std::span<const Index> corners, std::size_t k, const Points& positions)
+{
+    const std::size_t p = corners.size();
+    return 0.5 * (positions.row(corners[k + 1 == p ? 0 : k + 1]) - positions.row(corners[k == 0 ? p - 1 : k - 1]));
+}
+
+/// The faces that a Laplacian is assembled from: those of a sub-mesh or of a whole mesh.
+struct FaceView {
+    std::span<const Index> offsets;
+    std::span<const Index> vertices;
+    /// As SubMesh::twin and Topology::twin.
+    std::span<const Index> twin;
+    Index n_vertices = 0;
+
+    [[nodiscard]] Index n_faces() const { return static_cast<Index>(offsets.size()) - 1; }
+
+    /// The vertices of face f.
+    [[nodiscard]] std::span<const Index> face(Index f) const
+    {
+        return vertices.subspan(offsets[f], offsets[f + 1] - offsets[f]);
+    }
+};
+
+/// The faces of a sub-mesh, which must outlive the view.
+inline FaceView faces_of(const SubMesh& sub_mesh)
+{
+    return {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, sub_mesh.twin, sub_mesh.n_vertices};
+}
+
+}  // namespace seamflow

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "partition/errors.h"
+#include "solvers/laplacian/alexa_wardetzky.h"
+#include "solvers/laplacian/fujiwara.h"
+#include "solvers/laplacian/ptackova_velho.h"
+
+namespace seamflow {
+
+/// A Laplacian M⁻¹ K that is a sum over edges. It has a class `Edge`, made from the difference of an edge's ends:
+/// - `weight(factor)`: -factor · K of the two ends; the rows of K sum to zero;
+/// - `mass()`: its mean over the edges at v is M_v.
+template <class Kernel>
+concept EdgeKernel = requires
+{
+    typename Kernel::Edge;
+};
+
+/// A Laplacian M⁻¹ K that is a sum over faces, with K = N / d in each. It has functions `polygon(corners, positions,
+/// size)`, for one row, and `whole_polygon(corners, positions, size, scratch)`, for all; `size(corners, positions)` is
+/// a number that both need, and `Scratch` what the latter stores, which must outlive the result. They return what has:
+/// - `size()`, `corner(k)`: the number of vertices, and the k-th of them;
+/// - `row(i, scale)(k)`: scale · N_ik; the rows of N sum to zero;
+/// - `divisor()`, `divided(x)`: d and x / d;
+/// - `mass(k)`: what the face adds to M at corner k;
+/// - `difference(i, k)`: V_k - V_i, for i < k.
+///
+/// Where it has a class `Triangle` too, made from three corners, that one says the same of triangles in fewer
+/// operations.
+template <class Kernel>
+concept FaceKernel = requires
+{
+    typename Kernel::Scratch;
+};
+
+/// Calls action(face, i) with what is needed for the row of corner k of a face, i being its place there.
+template <FaceKernel Kernel, class Action>
+void measure_corner(std::span<const Index> corners, std::size_t k, const Points& positions, Action&& action)
+{
+    if constexpr (requires { typename Kernel::Triangle; })
+        if (corners.size() == 3) {
+            const std::array turned{corners[k], corners[k == 2 ? 0 : k + 1], corners[k == 0 ? 2 : k - 1]};
+            return action(typename Kernel::Triangle(turned, positions), std::size_t{0});
+        }
+    action(Kernel::polygon(corners, positions, Kernel::size(corners, positions)), k);
+}
+
+/// Calls action(face) with what is needed for all rows of a face.
+template <FaceKernel Kernel, class Action>
+void measure_face(std::span<const Index> corners, const Points& positions, typename Kernel::Scratch& scratch,
+                  Action&& action)
+{
+    if constexpr (requires { typename Kernel::Triangle; })
+        if (corners.size() == 3)
+            return action(typename Kernel::Triangle({corners[0], corners[1], corners[2]}, positions));
+    action(Kernel::whole_polygon(corners, positions, Kernel::size(corners, positions), scratch));
+}
+
+/// Calls action with the formula of a Laplacian.
+/// @throws OptionError for what is no Laplacian.
+template <class Action>
+auto with_kernel(Laplacian laplacian, Action&& action)
+{
+    switch (laplacian) {
+    case Laplacian::Fujiwara:
+        return action(Fujiwara{});
+    case Laplacian::AlexaWardetzky:
+        return action(AlexaWardetzky{});
+    case Laplacian::PtackovaVelho:
+        return action(PtackovaVelho{});
+    }
+    throw OptionError("no such Laplacian");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,131 @@
+#include "solvers/laplacian/two_ring_assembler.h"
+
+#include <algorithm>
+
+#include "partition/index_lists.h"
+#include "solvers/laplacian/ptackova_velho.h"
+
+namespace seamflow {
+
+namespace {
+
+class TwoRingAssembler final : public LaplacianAssembler {
+  public:
+    explicit TwoRingAssembler(const FaceView& faces)
+        : faces_(faces)
+        , face_areas_(faces.n_faces())
+        , vertex_areas_(faces.n_vertices)
+        , face_of_(faces.vertices.size())
+    {
+        for (Index f = 0; f < faces_.n_faces(); ++f)
+            std::fill(face_of_.begin() + faces_.offsets[f], face_of_.begin() + faces_.offsets[f + 1], f);
+        for (Index f = 0; f < faces_.n_faces(); ++f)
+            list_stencil(f);
+    }
+
+    [[nodiscard]] std::vector<MatrixEntry> entries() const override
+    {
+        std::vector<MatrixEntry> entries;
+        for (Index f = 0; f < faces_.n_faces(); ++f)
+            for (const Index row : faces_.face(f))
+                for (const Index column : stencil_[f])
+                    entries.push_back({column, row});
+        return entries;
+    }
+
+    void add(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values) override
+    {
+        measure_areas(positions);
+        const Index* slot = slots.data();
+        const Index* place = place_.data();
+        for (Index f = 0; f < faces_.n_faces(); ++f) {
+            place = measure_flux(f, positions, place);
+            const auto corners = faces_.face(f);
+            for (const Index v : corners) {
+                const double scale = factor / (vertex_areas_[v] * static_cast<double>(corners.size()));
+                for (const double coefficient : flux_)
+                    values[*slot++] += scale * coefficient;
+            }
+        }
+    }
+
+    [[nodiscard]] double mass(Index v) const override { return vertex_areas_[v]; }
+
+  private:
+    [[nodiscard]] PtackovaVelho::Across across(Index h) const { return PtackovaVelho::across(h, faces_.twin[h]); }
+
+    /// The face whose flux counts at half-edge h.
+    [[nodiscard]] Index face_across(Index h) const { return face_of_[across(h).halfedge]; }
+
+    /// All vertices on which Φ_f depends, and where among them the corners of each face across are.
+    void list_stencil(Index f)
+    {
+        const std::size_t begin = stencil_.values.size();
+        for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h)
+            for (const Index v : faces_.face(face_across(h)))
+                stencil_.values.push_back(v);
+        const auto first = stencil_.values.begin() + static_cast<std::ptrdiff_t>(begin);
+        std::sort(first, stencil_.values.end());
+        stencil_.values.erase(std::unique(first, stencil_.values.end()), stencil_.values.end());
+        stencil_.close();
+        for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h)
+            for (const Index v : faces_.face(face_across(h))) {
+                const auto columns = stencil_[f];
+                place_.push_back(
+                    static_cast<Index>(std::lower_bound(columns.begin(), columns.end(), v) - columns.begin()));
+            }
+    }
+
+    void measure_areas(const Points& positions)
+    {
+        std::fill(vertex_areas_.begin(), vertex_areas_.end(), 0.0);
+        for (Index f = 0; f < faces_.n_faces(); ++f) {
+            const auto corners = faces_.face(f);
+            face_areas_[f] = area(corners, positions);
+            for (const Index v : corners)
+                vertex_areas_[v] += corner_area(face_areas_[f], corners.size());
+        }
+    }
+
+    /// Φ_f as coefficients of the vertices of its stencil, in `flux_`.
+    /// @returns where the places of the next face begin.
+    const Index* measure_flux(Index f, const Points& positions, const Index* place)
+    {
+        flux_.assign(stencil_[f].size(), 0.0);
+        for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h) {
+            const auto [halfedge, sign] = across(h);
+            const Index f_across = face_of_[halfedge];
+            const auto corners = faces_.face(f_across);
+            const Point half_flux =
+                PtackovaVelho::half_flux(edge_vector(halfedge, f_across, positions), sign, face_areas_[f_across]);
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                flux_[*place++] += half_flux.dot(corner_bisector(corners, k, positions));
+        }
+        return place;
+    }
+
+    [[nodiscard]] Point edge_vector(Index h, Index f, const Points& positions) const
+    {
+        const Index next = h + 1 == faces_.offsets[f + 1] ? faces_.offsets[f] : h + 1;
+        return positions.row(faces_.vertices[next]) - positions.row(faces_.vertices[h]);
+    }
+
+    FaceView faces_;
+    std::vector<double> face_areas_;
+    std::vector<double> vertex_areas_;
+    std::vector<Index> face_of_;
+    /// Per face: the vertices on which Φ depends, ascending.
+    IndexLists stencil_;
+    /// Per half-edge of each face and corner of the face across: its place in the stencil.
+    std::vector<Index> place_;
+    std::vector<double> flux_;
+};
+
+}  // namespace
+
+std::unique_ptr<LaplacianAssembler> make_two_ring_assembler(const FaceView& faces)
+{
+    return std::make_unique<TwoRingAssembler>(faces);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,128 @@
+#include "solvers/sparse/elimination_order.h"
+
+#include <limits>
+#include <utility>
+
+#include <amd.h>
+#include <camd.h>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+[[noreturn]] void fail_for_memory()
+{
+    throw ComputationError("out of memory in the analysis of the system: use more sub-meshes");
+}
+
+void require_ok(int status, int ok)
+{
+    if (status < ok)
+        fail_for_memory();
+}
+
+/// What AMD says of unknowns that are eliminated together: they are named by one of them, their principal.
+struct AmdResult {
+    explicit AmdResult(SparsePattern neighbours);
+
+    /// Per unknown: its place in the order, and the unknown at each place.
+    std::vector<Index> position;
+    std::vector<Index> order;
+    /// Per principal, the number of its unknowns, which is 0 for all others. They are consecutive in the order, the
+    /// principal last.
+    std::vector<Index> width;
+    /// Per principal, the number of rows on which its unknowns' columns have entries, those of its own among them.
+    std::vector<Index> front;
+    /// Per principal, the next one that has to do with it, or -1; per other unknown, its principal, or -1 where AMD has
+    /// put it last without looking because it has very many neighbours.
+    std::vector<Index> parent;
+};
+
+/// By AMD's inner routine, which says more than the outer one but destroys what it is given, and does not check it.
+AmdResult::AmdResult(SparsePattern neighbours)
+{
+    const auto n = static_cast<std::size_t>(neighbours.n());
+    const std::size_t n_entries = neighbours.rows.size();
+    // AMD's own measure of the room to work in.
+    const std::size_t room = n_entries + n_entries / 5 + n;
+    if (room > at(std::numeric_limits<Index>::max()))
+        fail_for_memory();
+    const Index end = neighbours.n_entries();
+    std::vector<Index>& lists = neighbours.rows;
+    lists.resize(room);
+    std::vector<Index> length(n);
+    for (std::size_t i = 0; i < n; ++i)
+        length[i] = neighbours.column_offsets[i + 1] - neighbours.column_offsets[i];
+    parent.assign(neighbours.column_offsets.begin(), neighbours.column_offsets.end() - 1);
+    for (auto* result : {&position, &order, &width, &front})
+        result->resize(n);
+    std::vector<Index> head(n);
+    std::vector<Index> degree(n);
+    std::vector<Index> marks(n);
+    amd_2(static_cast<Index>(n), parent.data(), lists.data(), length.data(), static_cast<Index>(room), end,
+          width.data(), position.data(), order.data(), head.data(), front.data(), degree.data(), marks.data(), nullptr,
+          nullptr);
+}
+
+/// Nothing if some unknowns were not looked at.
+EliminationTree tree_of(const AmdResult& amd)
+{
+    const std::size_t n = amd.order.size();
+    // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
+    EliminationTree tree;
+    tree.parent.resize(n);
+    tree.count.resize(n);
+    const auto first_of = [&](Index principal) { return amd.position[principal] - amd.width[principal] + 1; };
+    for (std::size_t principal = 0; principal < n; ++principal) {
+        const Index parent = amd.parent[principal];
+        if (amd.width[principal] == 0) {
+            if (parent < 0)
+                return {};
+            continue;
+        }
+        Index n_rows = amd.front[principal];
+        for (Index column = first_of(static_cast<Index>(principal)); column <= amd.position[principal]; ++column) {
+            tree.parent[column] = column + 1;
+            tree.count[column] = --n_rows;
+        }
+        tree.parent[amd.position[principal]] = parent < 0 ? -1 : first_of(parent);
+    }
+    return tree;
+}
+
+}  // namespace
+
+Elimination eliminate(SparsePattern neighbours)
+{
+    if (neighbours.n() == 0)
+        return {};
+    AmdResult amd(std::move(neighbours));
+    EliminationTree tree = tree_of(amd);
+    return {std::move(amd.order), std::move(tree)};
+}
+
+std::vector<Index> elimination_order(const SparsePattern& upper)
+{
+    std::vector<Index> order(upper.n());
+    if (!order.empty())
+        require_ok(amd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr),
+                   AMD_OK);
+    return order;
+}
+
+std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last)
+{
+    // CAMD has as many groups as there are unknowns at most: a single one cannot be in the second.
+    if (is_last.size() < 2)
+        return elimination_order(upper);
+    std::vector<Index> order(is_last.size());
+    const std::vector<Index> groups(is_last.begin(), is_last.end());
+    require_ok(camd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr,
+                          groups.data()),
+               CAMD_OK);
+    return order;
+}
+
+}  // namespace seamflow

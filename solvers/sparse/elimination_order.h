@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/sparse/sparse_pattern.h"
+
+namespace seamflow {
+
+/// Per column of the factor L of a symmetric matrix whose unknowns are numbered in the order of elimination: how many
+/// rows it has below the diagonal, and which column after it has all of them but itself, or -1 where there are none.
+/// Entries that stay zero may count, where that gives columns the same rows, and the parent need not have to do with
+/// the column: hardly ever in a mesh, but in graphs like stars.
+struct EliminationTree {
+    std::vector<Index> parent;
+    std::vector<Index> count;
+};
+
+/// An order of elimination with little fill-in.
+struct Elimination {
+    /// Entry i is the i-th unknown to be eliminated.
+    std::vector<Index> order;
+    /// What is known of the factor then; empty where that is nothing.
+    EliminationTree tree;
+};
+
+/// By approximate minimum degree, postordered. The tree is not known where unknowns with very many neighbours were put
+/// last without looking.
+/// @param neighbours of a symmetric matrix, all entries off the diagonal; rows in any order.
+/// @throws ComputationError if there is too little memory for it.
+Elimination eliminate(SparsePattern neighbours);
+
+/// An order of elimination with little fill-in for symmetric matrices of this pattern (approximate minimum degree,
+/// postordered): entry i is the i-th unknown to be eliminated.
+/// @param upper the entries on and above the diagonal.
+/// @throws ComputationError if there is too little memory for it.
+std::vector<Index> elimination_order(const SparsePattern& upper);
+
+/// The same with some unknowns last.
+/// @param is_last one per unknown.
+std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last);
+
+}  // namespace seamflow

@@ -1,0 +1,188 @@
+#include "solvers/sparse/factor_pattern.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "solvers/sparse/elimination_order.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The entries on and above the diagonal of the pattern made symmetric, its unknowns renumbered.
+SparsePattern symmetrised(const SparsePattern& pattern, const std::vector<Index>& position)
+{
+    std::vector<MatrixEntry> entries;
+    entries.reserve(pattern.n() + pattern.n_entries());
+    for (Index column = 0; column < pattern.n(); ++column) {
+        entries.push_back({position[column], position[column]});
+        for (Index k = pattern.column_offsets[column]; k < pattern.column_offsets[column + 1]; ++k) {
+            const Index a = position[column];
+            const Index b = position[pattern.rows[k]];
+            entries.push_back({std::max(a, b), std::min(a, b)});
+        }
+    }
+    return make_pattern(pattern.n(), entries);
+}
+
+/// Without entries that stay zero.
+EliminationTree make_tree(const SparsePattern& upper)
+{
+    EliminationTree tree{std::vector<Index>(upper.n(), -1), std::vector<Index>(upper.n(), 0)};
+    std::vector<Index> visited(upper.n(), -1);
+    for (Index row = 0; row < upper.n(); ++row) {
+        visited[row] = row;
+        for (Index k = upper.column_offsets[row]; k < upper.column_offsets[row + 1]; ++k)
+            for (Index column = upper.rows[k]; visited[column] != row; column = tree.parent[column]) {
+                visited[column] = row;
+                ++tree.count[column];
+                if (tree.parent[column] < 0)
+                    tree.parent[column] = row;
+            }
+    }
+    return tree;
+}
+
+/// Whether two consecutive columns have the same rows but for the second one itself.
+bool belong_together(const EliminationTree& tree, Index column)
+{
+    return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
+}
+
+/// The last of the columns that have the same rows as the first one but for each other; the last n_last are one block.
+Index end_of_block(const EliminationTree& tree, Index first, Index n_last)
+{
+    const auto n = static_cast<Index>(tree.parent.size());
+    Index last = first == n - n_last ? n - 1 : first;
+    while (last + 1 < n && last + 1 != n - n_last && belong_together(tree, last))
+        ++last;
+    return last;
+}
+
+/// Wider blocks are not made of narrower ones.
+constexpr Index most_relaxed_columns = 32;
+
+/// Whether a block of so many columns, and rows below them, is worth having so many entries that stay zero: fewer and
+/// wider blocks are faster (measured on triangle meshes; more zeros save no more time, but take memory).
+bool is_worth(double zeros, Index width, Index n_rows)
+{
+    const double size = 0.5 * width * (width + 1.0) + 1.0 * width * n_rows;
+    return (width <= 8 && zeros <= 0.4 * size) || (width <= most_relaxed_columns && zeros <= 0.15 * size);
+}
+
+/// The furthest end of a block without zeros that is worth it and to which parents lead from all columns before it in
+/// the block: none of those has a row outside that the last one does not have.
+Index end_of_relaxed_block(const EliminationTree& tree, Index first, Index last, Index n_last)
+{
+    const auto n = static_cast<Index>(tree.parent.size());
+    double entries_before = 0.0;
+    Index furthest_parent = first;
+    Index n_seen = first;
+    for (Index top = last; top >= 0 && top < std::min(n - n_last, first + most_relaxed_columns);
+         top = tree.parent[top]) {
+        for (; n_seen < top; ++n_seen) {
+            const Index parent = tree.parent[n_seen];
+            furthest_parent = parent < 0 ? n : std::max(furthest_parent, parent);
+            entries_before += tree.count[n_seen] + 1.0;
+        }
+        const Index width = top + 1 - first;
+        const Index n_rows = tree.count[top];
+        const double zeros = 0.5 * (width - 1.0) * width + (width - 1.0) * (n_rows + 1.0) - entries_before;
+        const bool is_end = top + 1 == n - n_last || !belong_together(tree, top);
+        if (is_end && furthest_parent <= top && is_worth(zeros, width, n_rows))
+            last = top;
+    }
+    return last;
+}
+
+/// Which entries of L that stay zero blocks may have.
+enum class Zeros {
+    None,
+    Few,
+};
+
+/// Fills in the blocks. Calls on_row(row, block, place) for each row that a block has outside itself, rows ascending;
+/// `place` is where the row stands among those of the block. Calls on_entry(slot, place) for each entry of the matrix
+/// in order; there `place` is where its column stands among the rows of the block of its row.
+template <class OnRow, class OnEntry>
+void list_blocks(const SparsePattern& upper, const EliminationTree& tree, Zeros zeros, Index n_last,
+                 FactorPattern& factor, OnRow on_row, OnEntry on_entry)
+{
+    const Index n = upper.n();
+    std::vector<Index> block_of(n);
+    std::vector<Index> parent;
+    for (Index first = 0, last = 0; first < n; first = ++last) {
+        last = end_of_block(tree, first, n_last);
+        if (zeros == Zeros::Few)
+            last = end_of_relaxed_block(tree, first, last, n_last);
+        std::fill(block_of.begin() + first, block_of.begin() + last + 1, factor.n_blocks());
+        parent.push_back(tree.parent[last]);
+        factor.first.push_back(last + 1);
+        for (Index u = first; u <= last; ++u)
+            factor.rows.values.push_back(u);
+        factor.rows.values.resize(factor.rows.values.size() + at(tree.count[last]));
+        factor.rows.close();
+    }
+    factor.first.shrink_to_fit();
+    factor.rows.shrink_to_fit();
+    std::vector<Index> next(factor.n_blocks());
+    for (Index b = 0; b < factor.n_blocks(); ++b)
+        next[b] = factor.rows.offsets[b] + factor.width(b);
+    std::vector<Index> visited(factor.n_blocks(), -1);
+    for (Index row = 0; row < n; ++row) {
+        const Index own = block_of[row];
+        visited[own] = row;
+        for (Index k = upper.column_offsets[row]; k < upper.column_offsets[row + 1]; ++k) {
+            const Index block = block_of[upper.rows[k]];
+            for (Index b = block; visited[b] != row; b = block_of[parent[b]]) {
+                visited[b] = row;
+                factor.rows.values[next[b]] = row;
+                on_row(row, b, next[b]++ - factor.rows.offsets[b]);
+            }
+            on_entry(k, block == own ? row - factor.first[own] : next[block] - 1 - factor.rows.offsets[block]);
+        }
+    }
+    assert(std::equal(next.begin(), next.end(), factor.rows.offsets.begin() + 1) &&
+           "blocks have as many rows as the tree says");
+}
+
+}  // namespace
+
+FactorPattern make_factor_pattern(const SparsePattern& pattern)
+{
+    const Index n = pattern.n();
+    FactorPattern factor;
+    factor.position.resize(n);
+    std::iota(factor.position.begin(), factor.position.end(), 0);
+    const std::vector<Index> order = elimination_order(symmetrised(pattern, factor.position));
+    for (Index i = 0; i < n; ++i)
+        factor.position[order[i]] = i;
+
+    factor.update_offsets.assign(at(n) + 1, 0);
+    const SparsePattern upper = symmetrised(pattern, factor.position);
+    list_blocks(
+        upper, make_tree(upper), Zeros::None, 0, factor,
+        [&](Index row, Index block, Index place) {
+            factor.updates.push_back({block, place});
+            ++factor.update_offsets[row + 1];
+        },
+        [](Index, Index) {});
+    std::partial_sum(factor.update_offsets.begin(), factor.update_offsets.end(), factor.update_offsets.begin());
+    return factor;
+}
+
+FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
+                                            std::vector<Index>& places)
+{
+    assert((tree.parent.empty() || n_last == 0) && "the tree knows of no last unknowns");
+    const EliminationTree own_tree = tree.parent.empty() ? make_tree(upper) : EliminationTree{};
+    FactorPattern factor;
+    places.resize(upper.rows.size());
+    list_blocks(
+        upper, tree.parent.empty() ? own_tree : tree, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
+        [&](Index entry, Index place) { places[entry] = place; });
+    return factor;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,65 @@
+#include "solvers/sparse/sparse_pattern.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+Index SparsePattern::slot(MatrixEntry entry) const
+{
+    const auto first = rows.begin() + column_offsets[entry.column];
+    const auto last = rows.begin() + column_offsets[entry.column + 1];
+    const auto found = std::lower_bound(first, last, entry.row);
+    assert(found != last && *found == entry.row && "the pattern has the entry");
+    return static_cast<Index>(found - rows.begin());
+}
+
+namespace {
+
+void sort_into_columns(Index n, const std::vector<MatrixEntry>& entries, SparsePattern& pattern)
+{
+    pattern.column_offsets.assign(at(n) + 1, 0);
+    for (const MatrixEntry& entry : entries)
+        ++pattern.column_offsets[entry.column + 1];
+    std::partial_sum(pattern.column_offsets.begin(), pattern.column_offsets.end(), pattern.column_offsets.begin());
+    std::vector<Index> next(pattern.column_offsets.begin(), pattern.column_offsets.end() - 1);
+    pattern.rows.resize(entries.size());
+    for (const MatrixEntry& entry : entries)
+        pattern.rows[next[entry.column]++] = entry.row;
+}
+
+/// Also sorts the rows of each column.
+void leave_one_of_each(SparsePattern& pattern)
+{
+    auto end = pattern.rows.begin();
+    for (std::size_t column = 0; column + 1 < pattern.column_offsets.size(); ++column) {
+        const auto first = pattern.rows.begin() + pattern.column_offsets[column];
+        const auto last = pattern.rows.begin() + pattern.column_offsets[column + 1];
+        pattern.column_offsets[column] = static_cast<Index>(end - pattern.rows.begin());
+        std::sort(first, last);
+        end = std::unique_copy(first, last, end);
+    }
+    pattern.column_offsets.back() = static_cast<Index>(end - pattern.rows.begin());
+    pattern.rows.erase(end, pattern.rows.end());
+    pattern.rows.shrink_to_fit();
+}
+
+}  // namespace
+
+SparsePattern make_pattern(Index n, const std::vector<MatrixEntry>& entries)
+{
+    if (entries.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+        throw ComputationError("a system of " + std::to_string(n) +
+                               " unknowns has too many entries: cut the mesh into more sub-meshes");
+    SparsePattern pattern;
+    sort_into_columns(n, entries, pattern);
+    leave_one_of_each(pattern);
+    return pattern;
+}
+
+}  // namespace seamflow

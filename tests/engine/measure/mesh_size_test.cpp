@@ -1,0 +1,42 @@
+#include <doctest/doctest.h>
+
+#include "engine/measure/mesh_size.h"
+#include "samples/common/meshes.h"
+
+using namespace seamflow;
+
+TEST_CASE("a mesh is as large as its faces together, and its edges as long as they are on average")
+{
+    PolygonMesh square = make_quads(400);
+    square.vertices.col(2).setZero();
+    const Eigen::RowVector3d lowest = square.vertices.colwise().minCoeff();
+    const Eigen::RowVector3d width = square.vertices.colwise().maxCoeff() - lowest;
+    const MeshSize size = size_of(square);
+    CHECK(size.vertices == square.n_vertices());
+    CHECK(size.area == doctest::Approx(width.x() * width.y()));
+    CHECK(total_area(square) == size.area);
+    double edges = 0.0;
+    for (Index f = 0; f < square.n_faces(); ++f) {
+        const auto corners = square.face(f);
+        for (std::size_t k = 0; k < 4; ++k)
+            edges += (square.vertices.row(corners[(k + 1) % 4]) - square.vertices.row(corners[k])).norm();
+    }
+    CHECK(size.mean_edge == doctest::Approx(edges / square.n_corners()));
+
+    const MeshSize nothing = size_of(PolygonMesh{});
+    CHECK(nothing.vertices == 0);
+    CHECK(nothing.area == 0.0);
+    CHECK(nothing.mean_edge == 0.0);
+}
+
+TEST_CASE("the box around a surface is that of the vertices that have faces")
+{
+    PolygonMesh mesh = make_quads(100);
+    const Points before = mesh.vertices;
+    mesh.vertices.conservativeResize(before.rows() + 2, 3);
+    mesh.vertices.bottomRows(2) << 1e9, -1e9, 0.0, 1.0, 2.0, 1e9;
+    const BoundingBox box = box_of_faces(mesh);
+    CHECK(box.low == Eigen::RowVector3d(before.colwise().minCoeff()));
+    CHECK(box.high == Eigen::RowVector3d(before.colwise().maxCoeff()));
+    CHECK(box_of_faces(PolygonMesh{}).high == box_of_faces(PolygonMesh{}).low);
+}

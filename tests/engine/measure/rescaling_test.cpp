@@ -1,0 +1,164 @@
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/measure/rescaling.h"
+#include "engine/options/flow_remarks.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+struct Measure {
+    double area = 0.0;
+    double volume = 0.0;
+    Point centroid = Point::Zero();
+};
+
+Measure measure(const PolygonMesh& mesh, const Points& positions)
+{
+    Measure m;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const Point normal = vector_area(mesh.face(f), positions);
+        Point mean = Point::Zero();
+        for (const Index v : mesh.face(f))
+            mean += positions.row(v);
+        mean /= static_cast<double>(mesh.face(f).size());
+        m.area += normal.norm();
+        m.volume += normal.dot(mean) / 3.0;
+        m.centroid += normal.norm() * mean;
+    }
+    m.centroid /= m.area;
+    return m;
+}
+
+FlowOptions rescaled_options(Rescale rescale)
+{
+    FlowOptions options;
+    options.time_step = 0.02;
+    options.steps = 3;
+    options.cut.subdomains = 4;
+    options.motion.rescale = rescale;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("area or volume, and the centroid, are those of the input after every step; the shape is that of the flow")
+{
+    for (const PolygonMesh& input : {make_noisy_sphere(900), quad_torus(30, 20)}) {
+        PolygonMesh mesh = input;
+        mesh.vertices.rowwise() += Point(10.0, -3.0, 7.0);
+        const Measure before = measure(mesh, mesh.vertices);
+        const Points unscaled = flowed(mesh, rescaled_options(Rescale::None));
+        const Measure shrunk = measure(mesh, unscaled);
+        REQUIRE(shrunk.area < 0.95 * before.area);
+        for (const Rescale rescale : {Rescale::Area, Rescale::Volume}) {
+            PolygonMesh moved = mesh;
+            int n_steps = 0;
+            mean_curvature_flow(moved, rescaled_options(rescale), [&](const StepState& state) {
+                ++n_steps;
+                const Measure after = measure(mesh, state.positions);
+                if (rescale == Rescale::Area)
+                    CHECK(after.area == doctest::Approx(before.area).epsilon(1e-12));
+                else
+                    CHECK(after.volume == doctest::Approx(before.volume).epsilon(1e-9));
+                CHECK((after.centroid - before.centroid).norm() < 1e-12);
+            });
+            CHECK(n_steps == 3);
+            const Point from = moved.vertices.row(0) - before.centroid;
+            const double scale = from.norm() / (unscaled.row(0) - shrunk.centroid).norm();
+            CHECK(scale > 1.0);
+            const Points expected = (scale * (unscaled.rowwise() - shrunk.centroid)).rowwise() + before.centroid;
+            CHECK(largest_difference(moved.vertices, expected) < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("an open surface keeps its area where its boundary is free, and has no volume to keep")
+{
+    const PolygonMesh mesh = make_quads(900);
+    FlowOptions options = rescaled_options(Rescale::Area);
+    PolygonMesh moved = mesh;
+    CHECK_THROWS_AS(mean_curvature_flow(moved, options), InputError);
+    options.motion.boundary = Boundary::Free;
+    mean_curvature_flow(moved, options);
+    CHECK(measure(mesh, moved.vertices).area == doctest::Approx(measure(mesh, mesh.vertices).area).epsilon(1e-12));
+    options.motion.rescale = Rescale::Volume;
+    CHECK_THROWS_AS(mean_curvature_flow(moved, options), InputError);
+}
+
+TEST_CASE("what cannot be scaled is refused")
+{
+    const PolygonMesh sphere = make_noisy_sphere(400);
+    PolygonMesh moved = sphere;
+    FlowOptions options = rescaled_options(Rescale::Volume);
+    options.motion.fixed_vertices = {3};
+    CHECK_THROWS_AS(mean_curvature_flow(moved, options), OptionError);
+    PolygonMesh flipped = with_faces_flipped(sphere, 7);
+    CHECK_THROWS_AS(mean_curvature_flow(flipped, rescaled_options(Rescale::Volume)), InputError);
+    CHECK_NOTHROW(mean_curvature_flow(flipped, rescaled_options(Rescale::Area)));
+    // Two spheres that enclose as much inside as outside.
+    PolygonMesh inside_out = sphere;
+    std::reverse(inside_out.face_vertices.begin(), inside_out.face_vertices.end());
+    PolygonMesh both = side_by_side({sphere, inside_out});
+    const Topology topology = make_topology(both);
+    both.vertices.bottomRows(sphere.n_vertices()) = both.vertices.topRows(sphere.n_vertices());
+    CHECK_THROWS_AS(Rescaling(both, topology, Rescale::Volume), InputError);
+}
+
+TEST_CASE("what a step moves is measured without the rescaling")
+{
+    const PolygonMesh sphere = make_noisy_sphere(400);
+    FlowOptions options = rescaled_options(Rescale::None);
+    options.time_step = 0.03;
+    options.steps = 6;
+    options.cut.subdomains = 1;
+    REQUIRE(extent_of(flowed(sphere, options)) < 0.6 * extent_of(sphere.vertices));
+    options.accuracy.largest_update = 0.08;
+    CHECK_NOTHROW(flowed(sphere, options));
+    for (const Rescale rescale : {Rescale::Area, Rescale::Volume}) {
+        options.motion.rescale = rescale;
+        CHECK_NOTHROW(flowed(sphere, options));
+    }
+}
+
+TEST_CASE("a surface of which rounding alone is left is not scaled back")
+{
+    for (const Rescale rescale : {Rescale::Area, Rescale::Volume}) {
+        PolygonMesh mesh = make_noisy_sphere(200);
+        const Points before = mesh.vertices;
+        FlowOptions options = rescaled_options(rescale);
+        options.laplacian = Laplacian::AlexaWardetzky;
+        options.cut.subdomains = 1;
+        options.time_step = 1e6;
+        CHECK_THROWS_AS(mean_curvature_flow(mesh, options), ComputationError);
+        CHECK(mesh.vertices.allFinite());
+        options.steps = 1;
+        mesh.vertices = before;
+        mean_curvature_flow(mesh, options);
+        CHECK(extent_of(mesh.vertices) > 0.5 * extent_of(before));
+    }
+}
+
+TEST_CASE("vertices without faces stay, and without rescaling no bit changes")
+{
+    PolygonMesh mesh = make_noisy_sphere(400);
+    const Index stray = mesh.n_vertices();
+    mesh.vertices.conservativeResize(stray + 1, 3);
+    mesh.vertices.row(stray) = Point(5.0, 6.0, 7.0);
+    const Points moved = flowed(mesh, rescaled_options(Rescale::Volume));
+    CHECK(moved.row(stray) == mesh.vertices.row(stray));
+    // However far: it says nothing about how many digits of the surface are left.
+    mesh.vertices.row(stray) = Point(1e13, 0.0, 0.0);
+    CHECK_NOTHROW(flowed(mesh, rescaled_options(Rescale::Volume)));
+    const Topology topology = make_topology(mesh);
+    Points same = mesh.vertices;
+    Rescaling(mesh, topology, Rescale::None).apply(same);
+    CHECK(same == mesh.vertices);
+}

@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+constexpr std::array all_factorisations{Factorisation::Automatic, Factorisation::Own, Factorisation::Cholmod,
+                                        Factorisation::Umfpack};
+
+FlowOptions sweeps_of(Laplacian laplacian, Factorisation factorisation)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.accuracy.approach = Approach::Sweep;
+    options.time_step = 1e-3;
+    options.steps = 2;
+    options.cut.subdomains = 5;
+    options.resources.factorisation = factorisation;
+    return options;
+}
+
+/// How many remarks have this text.
+std::ptrdiff_t remarks_with(const FlowReport& report, const std::string& text)
+{
+    return std::ranges::count_if(report.remarks,
+                                 [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
+}
+
+/// Flows with each factorisation, whose results are to be those of the automatic one but for rounding.
+template <class Check>
+void compare_factorisations(const PolygonMesh& mesh, FlowOptions options, Check&& check)
+{
+    Points expected;
+    for (const Factorisation factorisation : all_factorisations) {
+        CAPTURE(static_cast<int>(factorisation));
+        options.resources.factorisation = factorisation;
+        PolygonMesh flowing = mesh;
+        const FlowReport report = mean_curvature_flow(flowing, options);
+        if (factorisation == Factorisation::Automatic)
+            expected = flowing.vertices;
+        CHECK(test::largest_difference(flowing.vertices, expected) < 1e-9);
+        check(factorisation, report);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("sweeps have the same result with any factorisation")
+{
+    for (const Laplacian laplacian : test::all_laplacians) {
+        CAPTURE(name_of(laplacian));
+        const FlowOptions options = sweeps_of(laplacian, Factorisation::Automatic);
+        compare_factorisations(make_noisy_sphere(900), options, [&](Factorisation asked, const FlowReport& report) {
+            const bool is_general = laplacian == Laplacian::PtackovaVelho;
+            CHECK(remarks_with(report, "not by CHOLMOD") == (asked == Factorisation::Cholmod && is_general ? 1 : 0));
+            CHECK(remarks_with(report, "pivots from the diagonal") == 0);
+        });
+        compare_factorisations(make_quads(900), options, [](Factorisation, const FlowReport&) {});
+    }
+}
+
+TEST_CASE("so have the undecomposed flow and those with other conditions")
+{
+    const PolygonMesh mesh = make_noisy_sphere(600);
+    for (const Laplacian laplacian : test::all_laplacians) {
+        CAPTURE(name_of(laplacian));
+        FlowOptions options = sweeps_of(laplacian, Factorisation::Automatic);
+        options.cut.subdomains = 1;
+        compare_factorisations(mesh, options, [](Factorisation, const FlowReport&) {});
+        options.cut.subdomains = 3;
+        for (const Conditions conditions : {Conditions::Schwarz, Conditions::Robin}) {
+            options.interface.conditions = conditions;
+            compare_factorisations(mesh, options, [](Factorisation, const FlowReport&) {});
+        }
+    }
+}
+
+TEST_CASE("converged steps of Δ_P have any factorisation")
+{
+    FlowOptions options = sweeps_of(Laplacian::PtackovaVelho, Factorisation::Automatic);
+    options.accuracy.approach = Approach::Automatic;
+    options.accuracy.tolerance = 1e-11;
+    compare_factorisations(make_noisy_sphere(600), options, [](Factorisation asked, const FlowReport& report) {
+        CHECK(remarks_with(report, "not by CHOLMOD") == (asked == Factorisation::Cholmod ? 1 : 0));
+    });
+}
+
+TEST_CASE(
+    "converged steps of the other Laplacians refuse factorisations of other libraries, and are not chosen with them")
+{
+    const PolygonMesh mesh = make_noisy_sphere(3000);
+    const auto run = [&](const FlowOptions& options) {
+        PolygonMesh flowing = mesh;
+        return mean_curvature_flow(flowing, options);
+    };
+    for (const Factorisation factorisation : all_factorisations) {
+        CAPTURE(static_cast<int>(factorisation));
+        const bool is_foreign = factorisation == Factorisation::Cholmod || factorisation == Factorisation::Umfpack;
+        FlowOptions options = sweeps_of(Laplacian::Fujiwara, factorisation);
+        options.steps = 1;
+        options.accuracy.approach = Approach::Automatic;
+        options.time_step = 20.0 * std::pow(mean_edge_length(mesh), 2);
+        CHECK(run(options).tolerance.has_value() == !is_foreign);
+        options.accuracy.tolerance = 1e-3;
+        if (is_foreign)
+            CHECK_THROWS_WITH_AS(run(options), doctest::Contains("Schur complements"), OptionError);
+        else
+            CHECK_NOTHROW(run(options));
+    }
+}

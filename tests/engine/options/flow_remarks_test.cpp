@@ -1,0 +1,88 @@
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/options/flow_remarks.h"
+#include "samples/common/meshes.h"
+
+using namespace seamflow;
+
+namespace {
+
+bool speaks_of(const FlowReport& report, const std::string& text)
+{
+    return std::any_of(report.remarks.begin(), report.remarks.end(),
+                       [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a surface that collapses is remarked on, one that is smoothed is not")
+{
+    FlowOptions options;
+    options.cut.subdomains = 1;
+    options.time_step = 1e-3;
+    PolygonMesh smoothed = make_noisy_sphere(500);
+    CHECK_FALSE(speaks_of(mean_curvature_flow(smoothed, options), "has shrunk"));
+    options.motion.boundary = Boundary::Free;
+    options.laplacian = Laplacian::AlexaWardetzky;
+    options.time_step = 1e6;
+    PolygonMesh collapsed = make_quads(400);
+    CHECK(speaks_of(mean_curvature_flow(collapsed, options), "has shrunk to"));
+}
+
+TEST_CASE("the estimate of the last step is remarked on")
+{
+    const FlowOptions options;
+    for (const bool grows : {true, false}) {
+        FlowReport report;
+        report.steps.resize(2);
+        report.steps[grows ? 1 : 0].estimated_v_max = 2.0;
+        report.steps[grows ? 0 : 1].estimated_v_max = 0.5;
+        remark_on_drift(options, report);
+        CHECK(speaks_of(report, "by estimate") == grows);
+    }
+}
+
+TEST_CASE("an estimate is remarked on from one mean edge length on")
+{
+    const FlowOptions options;
+    FlowReport report;
+    remark_on_drift(options, report);
+    report.steps.resize(1);
+    report.steps[0].estimated_v_max = 0.9;
+    remark_on_drift(options, report);
+    CHECK(report.remarks.empty());
+    report.steps[0].estimated_v_max = 2.5;
+    remark_on_drift(options, report);
+    REQUIRE(report.remarks.size() == 1);
+    CHECK(speaks_of(report, "up to 2.5 mean edge lengths"));
+}
+
+TEST_CASE("the extent is the diagonal of the box")
+{
+    CHECK(extent_of(Points(0, 3)) == 0.0);
+    Points positions(3, 3);
+    positions << 1, 1, 1, 4, 5, 1, 2, 2, 1;
+    CHECK(extent_of(positions) == 5.0);
+}
+
+TEST_CASE("a tolerance that was missed is remarked on, with what helps and what does not")
+{
+    FlowReport report;
+    remark_on_missed_tolerance(1000, "do something", report);
+    CHECK(report.remarks.empty());
+    report.steps_short_of_tolerance = 1;
+    remark_on_missed_tolerance(1000, "do something", report);
+    CHECK(report.remarks.back() ==
+          "The tolerance was not reached in 1 step with 1000 iterations at most: do something.");
+    report.steps_short_of_tolerance = 3;
+    remark_on_missed_tolerance(5, "", report);
+    CHECK(report.remarks.back() == "The tolerance was not reached in 3 steps with 5 iterations at most.");
+    report.steps_stagnated = 2;
+    remark_on_missed_tolerance(1000, "do something", report);
+    CHECK(report.remarks.back() ==
+          "The tolerance was not reached in 3 steps with 1000 iterations at most; in 2 of them "
+          "more would not have helped: do something.");
+}

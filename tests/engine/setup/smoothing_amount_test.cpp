@@ -1,0 +1,70 @@
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/setup/smoothing_amount.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+TEST_CASE("radius and time step are inverse to each other")
+{
+    for (const int steps : {1, 2, 7, 1000}) {
+        CHECK(smoothed_radius(time_step_for_radius(0.3, steps), steps) == doctest::Approx(0.3).epsilon(1e-12));
+        CHECK(time_step_for_radius(smoothed_radius(1e-7, steps), steps) == doctest::Approx(1e-7).epsilon(1e-12));
+    }
+    CHECK(time_step_for_radius(3.0, 1) == doctest::Approx(2.0 * 9.0 / (std::numbers::pi * std::numbers::pi)));
+}
+
+TEST_CASE("bumps of the radius lose half their height over all steps, smaller ones more, larger ones less")
+{
+    // Low bumps, a whole number of them, so that the mesh can end where they are 0.
+    const Index n = 60;
+    const double side = 1.0;
+    const double radius = side / 6.0;
+    for (const Laplacian laplacian : {Laplacian::AlexaWardetzky, Laplacian::Fujiwara})
+        for (const int steps : {1, 4})
+            for (const double part : {1.0, 0.5, 3.0}) {
+                PolygonMesh mesh = quad_grid(n, n);
+                const double unit = mesh.vertices.col(0).maxCoeff();
+                mesh.vertices *= side / unit;
+                const double own = part * radius;
+                const auto height = [&](Index v) {
+                    const double wave = std::numbers::pi / (2.0 * own);
+                    return 1e-4 * std::sin(wave * mesh.vertices(v, 0)) * std::sin(wave * mesh.vertices(v, 1));
+                };
+                for (Index v = 0; v < mesh.n_vertices(); ++v)
+                    mesh.vertices(v, 2) = height(v);
+                FlowOptions options;
+                options.laplacian = laplacian;
+                options.steps = steps;
+                options.cut.subdomains = 1;
+                options.time_step = time_step_for_radius(radius, steps);
+                const double left = flowed(mesh, options).col(2).maxCoeff() / mesh.vertices.col(2).maxCoeff();
+                CAPTURE(part);
+                const double step_factor = 1.0 + (std::pow(2.0, 1.0 / steps) - 1.0) / (part * part);
+                CHECK(left == doctest::Approx(std::pow(step_factor, -steps)).epsilon(0.02));
+            }
+}
+
+TEST_CASE("a model of another size, with a time step in its own units, gives the result in that size")
+{
+    const PolygonMesh mesh = make_noisy_sphere(2000);
+    for (const Laplacian laplacian : all_laplacians)
+        for (const double scale : {1024.0, 1e-3}) {
+            PolygonMesh scaled = mesh;
+            scaled.vertices *= scale;
+            FlowOptions options;
+            options.laplacian = laplacian;
+            options.steps = 2;
+            options.cut.subdomains = 5;
+            options.time_step = time_step_for_radius(0.02, options.steps);
+            const Points expected = scale * flowed(mesh, options);
+            options.time_step = time_step_for_radius(0.02 * scale, options.steps);
+            CHECK(largest_difference(flowed(scaled, options), expected) < 1e-9 * scale);
+        }
+}

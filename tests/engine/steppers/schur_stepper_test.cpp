@@ -1,0 +1,208 @@
+#include <array>
+#include <cstring>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::flowed;
+
+namespace {
+
+FlowOptions converged(Laplacian laplacian, Index subdomains, double tolerance = 1e-11)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = 0.002;
+    options.steps = 3;
+    options.cut.subdomains = subdomains;
+    options.accuracy.tolerance = tolerance;
+    return options;
+}
+
+std::vector<PolygonMesh> converged_meshes()
+{
+    return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900), make_noisy_sphere(900)};
+}
+
+}  // namespace
+
+TEST_CASE("converged, the flow in many sub-meshes is the undecomposed flow")
+{
+    for (const PolygonMesh& mesh : converged_meshes())
+        for (const Laplacian laplacian : test::symmetric_laplacians) {
+            CAPTURE(name_of(laplacian));
+            FlowOptions undecomposed = converged(laplacian, 1);
+            undecomposed.accuracy.tolerance.reset();
+            const Points expected = flowed(mesh, undecomposed);
+            for (const Index subdomains : {1, 2, 7, 30}) {
+                CAPTURE(subdomains);
+                PolygonMesh moved = mesh;
+                const FlowReport report = mean_curvature_flow(moved, converged(laplacian, subdomains));
+                CHECK(test::largest_difference(moved.vertices, expected) < 1e-9);
+                for (const StepReport& step : report.steps) {
+                    CHECK(step.residual.value() <= 1e-11);
+                    CHECK(step.iterations.value() < 60);
+                }
+            }
+        }
+}
+
+TEST_CASE("what the steps are short of the tolerance adds up")
+{
+    for (const PolygonMesh& mesh : converged_meshes())
+        for (const Laplacian laplacian : test::symmetric_laplacians) {
+            FlowOptions options = converged(laplacian, 12, 1e-2);
+            options.steps = 6;
+            PolygonMesh moved = mesh;
+            double before = 0.0;
+            mean_curvature_flow(moved, options, [&](const StepState& state) {
+                const double now = state.report.estimated_v_max.value() * mean_edge_length(mesh, state.positions);
+                CHECK(now >= before * (1.0 - 1e-12));
+                before = now;
+            });
+            CHECK(before > 0.0);
+        }
+}
+
+TEST_CASE("iterations do not grow with the number of sub-meshes, however long the step")
+{
+    const PolygonMesh mesh = make_triangles(8000);
+    for (const Laplacian laplacian : test::symmetric_laplacians)
+        for (const Index subdomains : {16, 64, 250}) {
+            CAPTURE(name_of(laplacian));
+            CAPTURE(subdomains);
+            FlowOptions options = converged(laplacian, subdomains, 1e-8);
+            options.time_step = 0.1;
+            PolygonMesh moved = mesh;
+            for (const StepReport& step : mean_curvature_flow(moved, options).steps)
+                CHECK(step.iterations.value() <= 22);
+        }
+}
+
+TEST_CASE("the estimated distance to the exact step is the true one within a factor of 3")
+{
+    for (const PolygonMesh& mesh : converged_meshes())
+        for (const double tolerance : {1e-1, 1e-2, 1e-4}) {
+            CAPTURE(tolerance);
+            FlowOptions options = converged(Laplacian::Fujiwara, 12, tolerance);
+            options.steps = 1;
+            options.report.reference = true;
+            PolygonMesh moved = mesh;
+            const FlowReport report = mean_curvature_flow(moved, options);
+            const VertexDistance distance = report.steps.front().distance.value();
+            const double ratio = report.steps.front().estimated_v_max.value() * distance.mean_edge / distance.max;
+            CHECK(ratio < 3.0);
+            CHECK(ratio > 1.0 / 3.0);
+        }
+}
+
+TEST_CASE("components with and without Γ converge side by side")
+{
+    const PolygonMesh mesh = test::side_by_side({make_quads(900), make_triangles(100), make_noisy_sphere(700)});
+    FlowOptions undecomposed = converged(Laplacian::AlexaWardetzky, 1);
+    undecomposed.accuracy.tolerance.reset();
+    CHECK(test::largest_difference(flowed(mesh, converged(Laplacian::AlexaWardetzky, 9)), flowed(mesh, undecomposed)) <
+          1e-8);
+}
+
+TEST_CASE("the tighter the tolerance the nearer, and iterations that run out are said")
+{
+    const PolygonMesh mesh = make_triangles(2000);
+    FlowOptions undecomposed = converged(Laplacian::Fujiwara, 1);
+    undecomposed.accuracy.tolerance.reset();
+    const Points expected = flowed(mesh, undecomposed);
+    double before = 1.0;
+    for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9}) {
+        const double distance =
+            test::largest_difference(flowed(mesh, converged(Laplacian::Fujiwara, 12, tolerance)), expected);
+        CHECK(distance < 0.2 * before);
+        before = distance;
+    }
+    PolygonMesh moved = mesh;
+    FlowOptions few = converged(Laplacian::Fujiwara, 12, 1e-9);
+    few.accuracy.converge_iterations = 2;
+    const FlowReport report = mean_curvature_flow(moved, few);
+    CHECK(report.steps.back().iterations == 2);
+    CHECK(report.steps.back().residual > 1e-9);
+    REQUIRE_FALSE(report.remarks.empty());
+    CHECK(report.remarks.back().find("not reached in 3 steps") != std::string::npos);
+    CHECK(report.steps_short_of_tolerance == 3);
+    CHECK(report.steps_stagnated == 0);
+    few.accuracy.converge_iterations = 1000;
+    few.accuracy.tolerance = 1e-100;
+    const FlowReport stagnant = mean_curvature_flow(moved, few);
+    CHECK(stagnant.steps_stagnated == 3);
+    CHECK(stagnant.steps.back().iterations < 500);
+}
+
+TEST_CASE("converged steps give the same bits for every number of threads")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Laplacian laplacian : test::symmetric_laplacians) {
+        FlowOptions options = converged(laplacian, 24, 1e-8);
+        options.resources.threads = 1;
+        const Points expected = flowed(mesh, options);
+        for (options.resources.threads = 2; options.resources.threads <= 5; ++options.resources.threads) {
+            CAPTURE(options.resources.threads);
+            const Points found = flowed(mesh, options);
+            CHECK(std::memcmp(found.data(), expected.data(), static_cast<std::size_t>(found.size()) * sizeof(double)) ==
+                  0);
+        }
+    }
+}
+
+TEST_CASE("the unit of length changes no bit of the result")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    for (const Laplacian laplacian : test::symmetric_laplacians)
+        for (const double time_step : {0.002, 0.1}) {
+            FlowOptions options = converged(laplacian, 24, 1e-8);
+            options.time_step = time_step;
+            const Points expected = flowed(mesh, options);
+            for (const double unit : {0x1p-220, 0x1p-30, 0x1p30, 0x1p220}) {
+                CAPTURE(unit);
+                PolygonMesh scaled = mesh;
+                scaled.vertices *= unit;
+                options.time_step = time_step * unit * unit;
+                const FlowReport report = mean_curvature_flow(scaled, options);
+                CHECK(report.steps_short_of_tolerance == 0);
+                CHECK(scaled.vertices == unit * expected);
+            }
+        }
+}
+
+TEST_CASE("the boundary keeps its bits, a flat mesh stays flat, and one with nothing to move as it is")
+{
+    PolygonMesh mesh = make_quads(900);
+    mesh.vertices.col(2).setZero();
+    CHECK(flowed(mesh, converged(Laplacian::Fujiwara, 6)).col(2).cwiseAbs().maxCoeff() == 0.0);
+    PolygonMesh triangle;
+    triangle.vertices.resize(3, 3);
+    triangle.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+    triangle.add_face(std::array<Index, 3>{0, 1, 2});
+    CHECK(flowed(triangle, converged(Laplacian::AlexaWardetzky, 1)) == triangle.vertices);
+}
+
+TEST_CASE("what cannot be converged is refused")
+{
+    PolygonMesh mesh = make_quads(100);
+    for (const double tolerance : {0.0, -1.0, 1.0, std::numeric_limits<double>::quiet_NaN()})
+        CHECK_THROWS_AS(mean_curvature_flow(mesh, converged(Laplacian::Fujiwara, 2, tolerance)), OptionError);
+    FlowOptions options = converged(Laplacian::Fujiwara, 2);
+    options.interface.conditions = Conditions::Schwarz;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = converged(Laplacian::Fujiwara, 2);
+    options.accuracy.converge_iterations = -1;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options = converged(Laplacian::Fujiwara, 2);
+    options.resources.memory_limit = 100;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    options.resources.memory_limit = 100'000'000;
+    CHECK_NOTHROW(mean_curvature_flow(mesh, options));
+}

@@ -1,0 +1,249 @@
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <doctest/doctest.h>
+
+#include "solvers/direct/ldl_solver.h"
+#include "tests/support/allocations.h"
+#include "tests/support/random_graphs.h"
+#include "tests/support/symmetric_matrices.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+/// A matrix without any entries that are zero.
+SymmetricMatrix full_matrix(Index n, RandomNumbers& random)
+{
+    SymmetricMatrix matrix;
+    const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return random.symmetric(); });
+    matrix.dense = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
+    std::vector<MatrixEntry> entries;
+    for (Index column = 0; column < n; ++column)
+        for (Index row = 0; row <= column; ++row) {
+            entries.push_back({column, row});
+            matrix.values.push_back(matrix.dense(row, column));
+        }
+    matrix.upper = make_pattern(n, entries);
+    return matrix;
+}
+
+/// Of the last unknowns all have to do with each other, and the others with any of them.
+SymmetricMatrix arrow_matrix(Index n_first, Index n_last, RandomNumbers& random)
+{
+    SymmetricMatrix matrix;
+    const Index n = n_first + n_last;
+    matrix.dense = 2.0 * n * Eigen::MatrixXd::Identity(n, n);
+    for (Index column = 0; column < n; ++column)
+        for (Index row = 0; row < column; ++row)
+            if (row >= n_first || (column >= n_first && random.below(3) > 0))
+                matrix.dense(row, column) = matrix.dense(column, row) = random.symmetric();
+    std::vector<MatrixEntry> entries;
+    for (Index column = 0; column < n; ++column)
+        for (Index row = 0; row <= column; ++row)
+            if (matrix.dense(row, column) != 0.0) {
+                entries.push_back({column, row});
+                matrix.values.push_back(matrix.dense(row, column));
+            }
+    matrix.upper = make_pattern(n, entries);
+    return matrix;
+}
+
+Columns solved(LdlSolver& solver, std::span<const double> values, const Columns& right, LdlWorkspace& workspace)
+{
+    REQUIRE(solver.factorise(values, heap_memory(), workspace));
+    Columns solution;
+    solver.solve(right, solution, workspace);
+    solver.free_factor(heap_memory());
+    return solution;
+}
+
+/// L D Lᵀ multiplied out.
+Eigen::MatrixXd product(const DenseLdl& factor)
+{
+    const Eigen::MatrixXd L = factor.triangularView<Eigen::UnitLower>();
+    return L * factor.diagonal().asDiagonal() * L.transpose();
+}
+
+}  // namespace
+
+TEST_CASE("three systems are solved at once, for one set of values after the other, with any workspace")
+{
+    RandomNumbers random(1);
+    LdlWorkspace workspace;
+    for (const Index side : {1, 2, 3, 9, 20, 5}) {
+        const SymmetricMatrix first = grid_matrix(side, 1.0, random);
+        for (const Index n_last : {0, 1, side, side * side}) {
+            LdlSolver solver(first.upper, n_last);
+            for (const double shift : {0.01, 1.0, 100.0}) {
+                const SymmetricMatrix matrix = grid_matrix(side, shift, random);
+                const Columns right = random_columns(side * side, random);
+                const Columns found = solved(solver, matrix.values, right, workspace);
+                CHECK((matrix.dense * found - right).norm() < 1e-11 * matrix.dense.norm());
+                LdlWorkspace another;
+                CHECK(solved(solver, matrix.values, right, another) == found);
+            }
+        }
+    }
+}
+
+TEST_CASE("without any entries that are zero there is one block, of any width")
+{
+    RandomNumbers random(2);
+    LdlWorkspace workspace;
+    for (const Index n : {2, 3, 4, 5, 7, 8, 64, 67, 130, 201}) {
+        const SymmetricMatrix matrix = full_matrix(n, random);
+        LdlSolver solver(matrix.upper);
+        CHECK(solver.factor_bytes() == at(n) * at(n) * sizeof(double));
+        const Columns right = random_columns(n, random);
+        const Columns found = solved(solver, matrix.values, right, workspace);
+        CHECK((found - matrix.dense.llt().solve(right)).norm() < 1e-12 * matrix.dense.norm() * found.norm());
+    }
+}
+
+TEST_CASE("blocks take away from any columns of a later one")
+{
+    RandomNumbers random(4);
+    LdlWorkspace workspace;
+    for (const Index n_last : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 40})
+        for (const Index n_first : {1, 5, 80}) {
+            const SymmetricMatrix matrix = arrow_matrix(n_first, n_last, random);
+            LdlSolver solver(matrix.upper, n_last);
+            const Columns right = random_columns(n_first + n_last, random);
+            const Columns found = solved(solver, matrix.values, right, workspace);
+            CHECK((matrix.dense * found - right).norm() < 1e-13 * matrix.dense.norm());
+        }
+}
+
+TEST_CASE("the last block is the Schur complement, and the others are solved for with its unknowns given")
+{
+    RandomNumbers random(3);
+    LdlWorkspace workspace;
+    for (const Index n_last : {1, 2, 6, 30, 75, 100}) {
+        const SymmetricMatrix matrix = grid_matrix(10, 0.1, random);
+        const Index n_first = 100 - n_last;
+        LdlSolver solver(matrix.upper, n_last);
+        REQUIRE(solver.factorise(matrix.values, heap_memory(), workspace));
+        const Eigen::MatrixXd first = matrix.dense.topLeftCorner(n_first, n_first);
+        const Eigen::MatrixXd coupling = matrix.dense.bottomLeftCorner(n_last, n_first);
+        Eigen::MatrixXd schur = matrix.dense.bottomRightCorner(n_last, n_last);
+        const Eigen::LLT<Eigen::MatrixXd> inverse(first);
+        if (n_first > 0)
+            schur -= coupling * inverse.solve(coupling.transpose());
+        REQUIRE(solver.last().rows() == n_last);
+        CHECK((product(solver.last()) - schur).norm() < 1e-12 * schur.norm());
+
+        const Points right = random_columns(100, random);
+        Points x = right;
+        solver.eliminate(x);
+        Points condensed = right.bottomRows(n_last);
+        if (n_first > 0)
+            condensed -= coupling * inverse.solve(right.topRows(n_first));
+        CHECK((x.bottomRows(n_last) - condensed).norm() < 1e-12 * right.norm());
+        const Points given = random_columns(n_last, random);
+        x.bottomRows(n_last) = given;
+        solver.substitute_back(x);
+        CHECK(x.bottomRows(n_last) == given);
+        if (n_first > 0)
+            CHECK((first * x.topRows(n_first) + coupling.transpose() * given - right.topRows(n_first)).norm() <
+                  1e-12 * matrix.dense.norm() * x.norm());
+        solver.free_factor(heap_memory());
+    }
+}
+
+TEST_CASE("a matrix that is not positive definite is found out, and the solver goes on with others")
+{
+    RandomNumbers random(4);
+    LdlWorkspace workspace;
+    const SymmetricMatrix matrix = grid_matrix(8, 0.1, random);
+    const Columns right = random_columns(64, random);
+    for (const Index n_last : {0, 8}) {
+        LdlSolver solver(matrix.upper, n_last);
+        const Columns expected = solved(solver, matrix.values, right, workspace);
+        for (const Index unknown : {0, 30, 63})
+            for (const double pivot :
+                 {-1.0, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                  std::numeric_limits<double>::quiet_NaN()}) {
+                auto unfit = matrix.values;
+                unfit[matrix.upper.slot({unknown, unknown})] = pivot;
+                CHECK_FALSE(solver.factorise(unfit, heap_memory(), workspace));
+            }
+        CHECK_FALSE(solver.factorise(std::vector<double>(matrix.values.size(), 0.0), heap_memory(), workspace));
+        CHECK(solved(solver, matrix.values, right, workspace) == expected);
+    }
+}
+
+TEST_CASE("without unknowns there is nothing to do")
+{
+    LdlWorkspace workspace;
+    LdlSolver solver{SparsePattern{}};
+    CHECK(solver.factor_bytes() == 0);
+    CHECK(solved(solver, {}, Columns(0, 3), workspace).rows() == 0);
+    CHECK(solver.last().rows() == 0);
+}
+
+TEST_CASE("from the second time on nothing is allocated, in the factor's memory aside")
+{
+    RandomNumbers random(5);
+    LdlWorkspace workspace;
+    const SymmetricMatrix large = grid_matrix(12, 1.0, random);
+    const SymmetricMatrix small = grid_matrix(5, 1.0, random);
+    LdlSolver large_solver(large.upper, 12);
+    LdlSolver small_solver(small.upper);
+    const Columns right = random_columns(144, random);
+    const Columns small_right = random_columns(25, random);
+    Columns solution(144, 3);
+    Columns small_solution(25, 3);
+    const auto step = [&] {
+        REQUIRE(large_solver.factorise(large.values, heap_memory(), workspace));
+        REQUIRE(small_solver.factorise(small.values, heap_memory(), workspace));
+        const long before = n_allocations();
+        REQUIRE(large_solver.factorise(large.values, heap_memory(), workspace));
+        large_solver.solve(right, solution, workspace);
+        REQUIRE(small_solver.factorise(small.values, heap_memory(), workspace));
+        small_solver.solve(small_right, small_solution, workspace);
+        const long counted = n_allocations() - before;
+        large_solver.free_factor(heap_memory());
+        small_solver.free_factor(heap_memory());
+        return counted;
+    };
+    CHECK(step() > 0);
+    CHECK(step() == 0);
+}
+
+TEST_CASE(
+    "systems are solved with the tree that comes with the order of elimination, or with none where there is a hub")
+{
+    RandomNumbers random(6);
+    LdlWorkspace workspace;
+    for (const bool has_hub : {false, true}) {
+        const SparsePattern triangles = triangle_neighbours(20, random);
+        std::vector<MatrixEntry> entries;
+        for (Index v = 0; v < triangles.n(); ++v) {
+            for (Index k = triangles.column_offsets[v]; k < triangles.column_offsets[v + 1]; ++k)
+                entries.push_back({v, triangles.rows[k]});
+            if (has_hub)
+                entries.insert(entries.end(), {{v, triangles.n()}, {triangles.n(), v}});
+        }
+        const SparsePattern neighbours = make_pattern(triangles.n() + 1, entries);
+        const auto [order, tree] = eliminate(neighbours);
+        CHECK(tree.parent.empty() == has_hub);
+        const SparsePattern upper = upper_in(neighbours, order);
+        const Index n = upper.n();
+        std::vector<double> values;
+        Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+        for (Index column = 0; column < n; ++column)
+            for (Index k = upper.column_offsets[column]; k < upper.column_offsets[column + 1]; ++k) {
+                const Index row = upper.rows[k];
+                values.push_back(row == column ? 500.0 : random.symmetric());
+                dense(row, column) = dense(column, row) = values.back();
+            }
+        LdlSolver solver(upper, 0, tree);
+        const Columns right = random_columns(n, random);
+        const Columns found = solved(solver, values, right, workspace);
+        CHECK((dense * found - right).norm() < 1e-12 * right.norm());
+        CHECK(100 * solver.factor_bytes() <= 101 * LdlSolver(upper).factor_bytes());
+    }
+}
