@@ -8,15 +8,7 @@ namespace seamflow {
 
 std::string symbol_of(Laplacian laplacian)
 {
-    switch (laplacian) {
-    case Laplacian::Fujiwara:
-        return "Δ_F";
-    case Laplacian::AlexaWardetzky:
-        return "Δ_A";
-    case Laplacian::PtackovaVelho:
-        break;
-    }
-    return "Δ_P";
+    return std::string(traits_of(laplacian).symbol);
 }
 
 bool is_of(const Row& row, const AuthorsDistances& theirs)

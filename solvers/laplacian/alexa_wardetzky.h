@@ -12,8 +12,8 @@ namespace seamflow {
 /// Δ_A = W_V d0ᵀ R W1 Rᵀ d0 (paper, eq. 15), without a stabilisation term. Per face, K = d0ᵀ R W1 Rᵀ d0 = B Bᵀ / |f|
 /// with the corner bisectors bₖ as rows of B (see corner_bisector); M = W_V⁻¹ has the areas of the vertices (eq. 11).
 struct AlexaWardetzky {
-    static constexpr LaplacianTraits traits{Laplacian::AlexaWardetzky, "alexa-wardetzky", Reach::Faces,
-                                            Divisor::FaceAreas, true};
+    static constexpr LaplacianTraits traits{
+        Laplacian::AlexaWardetzky, "alexa-wardetzky", "Δ_A", Reach::Faces, Divisor::FaceAreas, true};
 
     /// |f|.
     static double size(std::span<const Index> corners, const Points& positions) { return area(corners, positions); }

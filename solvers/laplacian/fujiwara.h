@@ -9,7 +9,8 @@ namespace seamflow {
 /// v, those on the boundary counted half, nᵥ their number. So the edge e has K = [1 -1; -1 1] / ‖e‖, and M_v is the
 /// mean of ‖e‖ over the edges at v.
 struct Fujiwara {
-    static constexpr LaplacianTraits traits{Laplacian::Fujiwara, "fujiwara", Reach::Edges, Divisor::EdgeLengths, true};
+    static constexpr LaplacianTraits traits{Laplacian::Fujiwara, "fujiwara",           "Δ_F",
+                                            Reach::Edges,        Divisor::EdgeLengths, true};
 
     /// What one edge contributes: see kernels.h.
     class Edge {

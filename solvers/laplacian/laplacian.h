@@ -52,6 +52,8 @@ struct LaplacianTraits {
     Laplacian laplacian;
     /// Small letters and hyphens.
     std::string_view name;
+    /// That of the formulas: "Δ_F".
+    std::string_view symbol;
     Reach reach;
     Divisor divisor;
     /// Whether it is M⁻¹ K (see SymmetricLaplacian).

@@ -13,8 +13,8 @@ namespace seamflow {
 /// leaves per face f: Φ_f = ½ (Σ over edges shared with a face g of w in g - Σ over edges without of w in f), and Δ_P x
 /// = W_V fvᵀ Φ. Its rows reach two rings, so that the one face that has a K is one with all those around it.
 struct PtackovaVelho {
-    static constexpr LaplacianTraits traits{Laplacian::PtackovaVelho, "ptackova-velho", Reach::TwoRings,
-                                            Divisor::FaceAreas, false};
+    static constexpr LaplacianTraits traits{Laplacian::PtackovaVelho, "ptackova-velho",   "Δ_P",
+                                            Reach::TwoRings,          Divisor::FaceAreas, false};
 
     /// The half-edge whose flux counts at an edge of a face, and with which sign.
     struct Across {
