@@ -3,7 +3,8 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
-# Installed are the headers of the library call and what they include; tests/consumer compiles each by itself.
+# Installed are the headers of the library call and what they include; the test consumer.headers checks that none of
+# these is missing.
 foreach(header IN ITEMS
         engine/eigen.h
         engine/mean_curvature_flow.h
