@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -17,18 +18,12 @@ constexpr Index non_manifold_edge = -2;
 
 void list_corners(const PolygonMesh& mesh, Topology& topology)
 {
-    auto& offsets = topology.vertex_offsets;
-    offsets.assign(at(mesh.n_vertices()) + 1, 0);
-    for (const Index v : mesh.face_vertices)
-        ++offsets[v + 1];
-    for (std::size_t v = 0; v < at(mesh.n_vertices()); ++v)
-        offsets[v + 1] += offsets[v];
-    topology.vertex_corners.resize(mesh.face_vertices.size());
-    for (Index h = 0; h < mesh.n_corners(); ++h)
-        topology.vertex_corners[offsets[mesh.face_vertices[h]]++] = h;
-    // Every offset has moved on to the next vertex's.
-    std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
-    offsets.front() = 0;
+    IndexLists corners = make_lists(mesh.n_vertices(), [&](auto&& add) {
+        for (Index h = 0; h < mesh.n_corners(); ++h)
+            add(mesh.face_vertices[h], h);
+    });
+    topology.vertex_offsets = std::move(corners.offsets);
+    topology.vertex_corners = std::move(corners.values);
 }
 
 /// One half-edge at a vertex, by the vertex at its other end.

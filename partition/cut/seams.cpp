@@ -29,7 +29,7 @@ class SeamShortener {
               loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
               [&](Index f) { return face_weight(mesh, f); }))
         , shared_(n_labels, 0)
-        , may_be_in_pieces_(n_labels, false)
+        , may_be_divided_(n_labels, false)
     {
         const std::int64_t total = std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0});
         const double mean = static_cast<double>(total) / n_labels;
@@ -60,7 +60,7 @@ class SeamShortener {
                 best = label;
         // A face with one edge to its part leaves the rest of it connected.
         if (best != own && shared_[own] > 1)
-            may_be_in_pieces_[own] = true;
+            may_be_divided_[own] = true;
         for (const Index label : candidates_)
             shared_[label] = 0;
         weight_[own] -= face_weight(mesh_, f);
@@ -70,7 +70,7 @@ class SeamShortener {
     }
 
     /// One entry per label: whether faces have left the part that may have held it together.
-    [[nodiscard]] const std::vector<bool>& may_be_in_pieces() const { return may_be_in_pieces_; }
+    [[nodiscard]] const std::vector<bool>& may_be_divided() const { return may_be_divided_; }
 
   private:
     [[nodiscard]] bool may_move(Index f, Index from, Index to) const
@@ -121,7 +121,7 @@ class SeamShortener {
     std::int64_t lightest_ = 0;
     /// One entry per label, 0 between faces: how many edges the face in hand shares with the part.
     std::vector<Index> shared_;
-    std::vector<bool> may_be_in_pieces_;
+    std::vector<bool> may_be_divided_;
     std::vector<Index> candidates_;
 };
 
@@ -141,12 +141,11 @@ SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology
         for (const Index f : faces)
             if (shortener.improve(f))
                 for_each_neighbour(mesh, topology, f, [&](Index, Index g) { next.push_back(g); });
-        std::sort(next.begin(), next.end());
-        next.erase(std::unique(next.begin(), next.end()), next.end());
+        sort_unique(next);
         faces = std::move(next);
         suspected.insert(suspected.end(), faces.begin(), faces.end());
     }
-    return {.parts = shortener.may_be_in_pieces(), .faces = std::move(suspected)};
+    return {.parts = shortener.may_be_divided(), .faces = std::move(suspected)};
 }
 
 }  // namespace seamflow

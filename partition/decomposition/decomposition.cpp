@@ -1,7 +1,6 @@
 #include "partition/decomposition/decomposition.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "partition/decomposition/local_mesh.h"
 #include "partition/labels.h"
@@ -114,27 +113,38 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, std::span<co
             rows.push_back({*sender, local_index(decomposition.sub_meshes[*sender], v), i});
         }
     }
-    return transfers_to(s, rows);
+    return transfers_to(s, std::move(rows));
 }
 
 /// The faces of a range by their labels, in ascending order for each.
 IndexLists sorted_by_label(std::span<const Index> labels, Index n_parts, IndexRange range)
 {
-    IndexLists faces;
-    auto& [offsets, values] = faces;
-    // Where those of each label begin stands one further, and moves on to where they end.
-    offsets.assign(at(n_parts) + 2, 0);
-    for (Index f = range.begin; f < range.end; ++f)
-        ++offsets[labels[f] + 2];
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    values.resize(offsets.back());
-    for (Index f = range.begin; f < range.end; ++f)
-        values[offsets[labels[f] + 1]++] = f;
-    offsets.pop_back();
-    return faces;
+    return make_lists(n_parts, [&](auto&& add) {
+        for (Index f = range.begin; f < range.end; ++f)
+            add(labels[f], f);
+    });
 }
 
 }  // namespace
+
+std::vector<Transfer> transfers_to(Index to, std::vector<TransferRow> rows)
+{
+    std::ranges::stable_sort(rows, {}, &TransferRow::from);
+    std::vector<Transfer> transfers;
+    for (auto row = rows.begin(); row != rows.end();) {
+        Transfer& transfer = transfers.emplace_back();
+        const auto end = std::ranges::upper_bound(row, rows.end(), row->from, {}, &TransferRow::from);
+        transfer.from = row->from;
+        transfer.to = to;
+        transfer.source.reserve(static_cast<std::size_t>(end - row));
+        transfer.target.reserve(static_cast<std::size_t>(end - row));
+        for (; row != end; ++row) {
+            transfer.source.push_back(row->source);
+            transfer.target.push_back(row->target);
+        }
+    }
+    return transfers;
+}
 
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts, const Loop& loop)
 {

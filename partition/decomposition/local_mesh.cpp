@@ -59,12 +59,6 @@ void mark_fixed(const Topology& topology, SubMesh& sub_mesh)
 
 }  // namespace
 
-void sort_unique(std::vector<Index>& values)
-{
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 Index position_in(std::span<const Index> ascending, Index value)
 {
     const auto found = std::lower_bound(ascending.begin(), ascending.end(), value);

@@ -12,9 +12,6 @@
 /// What all sub-meshes are made of, whether they overlap or not.
 namespace seamflow {
 
-/// Sorts and leaves one of each.
-void sort_unique(std::vector<Index>& values);
-
 /// Position of `value` in the ascending range, or -1.
 Index position_in(std::span<const Index> ascending, Index value);
 

@@ -99,8 +99,7 @@ std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertice
                              ", numbered from 0; use the file with the mesh it belongs to");
         vertices.push_back(v);
     });
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 

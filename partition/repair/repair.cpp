@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "partition/labels.h"
-#include "partition/repair/merge.h"
-#include "partition/repair/pieces.h"
+#include "partition/repair/loose_components.h"
 #include "partition/repair/pinches.h"
 
 namespace seamflow {
@@ -54,7 +53,7 @@ class VertexQueue {
 
 /// What to look at first.
 struct Suspects {
-    /// See join_loose_pieces.
+    /// See join_loose_components.
     std::vector<bool> parts;
     /// All that are pinched, and perhaps others, ascending.
     std::vector<Index> vertices;
@@ -85,7 +84,7 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Su
     return suspects;
 }
 
-/// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
+/// Mends loose components and pinches in turn, as either may cause the other. Leaves all parts connected.
 /// @returns whether no vertex is pinched any more.
 bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects found, std::vector<Index>& labels,
                     const Loop& loop)
@@ -97,7 +96,7 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
     PinchMender mender(mesh, topology, labels, n_labels);
     VertexQueue queue(mesh.n_vertices(), std::move(found.vertices));
     for (int round = 0;; ++round) {
-        queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));
+        queue.add_corners_of(mesh, join_loose_components(mesh, topology, suspects, labels, loop));
         if (round == max_repair_rounds)
             return false;
         mender.count_faces(loop);

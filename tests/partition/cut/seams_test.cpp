@@ -43,7 +43,7 @@ std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& l
     return weight;
 }
 
-/// Of how many pieces each part consists.
+/// Of how many components each part consists.
 std::vector<Index> count_pieces(const NamedMesh& m, const std::vector<Index>& labels, Index n_labels)
 {
     std::vector<Index> n_pieces(n_labels, 0);
@@ -163,7 +163,7 @@ TEST_CASE("mixed vertices are those whose faces differ")
     CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
 }
 
-TEST_CASE("parts that have come to pieces are suspected")
+TEST_CASE("parts that are no longer connected are suspected")
 {
     for (const PolygonMesh& mesh : {quad_torus(40, 40), hexagon_sheet(30, 30), triangle_torus(30, 30)})
         for (const Index weight : {6, 12, 20, 40, 100}) {
