@@ -13,14 +13,6 @@ namespace {
 
 constexpr double mean_arc_weight = 64;
 
-double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)
-{
-    const Index from = mesh.face_vertices[h];
-    const Index to = mesh.face_vertices[topology.next(mesh, h)];
-    // From the lower to the higher vertex, so that both half-edges of an edge give the same bits.
-    return (mesh.vertices.row(std::max(from, to)) - mesh.vertices.row(std::min(from, to))).norm();
-}
-
 /// Whole numbers in proportion to the lengths, each at least 1, that add up to no more than max_weight_sum.
 std::vector<Index> arc_weights(const std::vector<double>& lengths)
 {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "partition/index.h"
 
@@ -45,20 +46,22 @@ std::vector<bool> find_heaviest(const FaceGraph& graph, const Components& compon
 constexpr int max_rounds = 8;
 constexpr int max_passes = 3;
 
+std::vector<std::int64_t> weights_of_parts(const FaceGraph& graph, Index n_labels, const std::vector<Index>& labels)
+{
+    std::vector<std::int64_t> weights(n_labels, 0);
+    for (std::size_t node = 0; node < labels.size(); ++node)
+        weights[labels[node]] += graph.node_weights[node];
+    return weights;
+}
+
 class Refiner {
   public:
     Refiner(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
         : graph_(graph)
         , labels_(labels)
-        , weight_(n_labels, 0)
+        , weight_(weights_of_parts(graph, n_labels, labels))
         , shared_(n_labels, 0)
     {
-        for (std::size_t node = 0; node < labels.size(); ++node)
-            weight_[labels[node]] += graph.node_weights[node];
-        const double mean =
-            static_cast<double>(std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0})) / n_labels;
-        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
-        lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
     }
 
     /// @returns whether the node changed its label.
@@ -79,8 +82,7 @@ class Refiner {
                     best = label;
         for (const Index label : candidates_)
             shared_[label] = 0;
-        weight_[own] -= graph_.node_weights[node];
-        weight_[best] += graph_.node_weights[node];
+        weight_.move(graph_.node_weights[node], own, best);
         labels_[node] = best;
         return best != own;
     }
@@ -92,18 +94,14 @@ class Refiner {
         if (label == own)
             return false;
         const Index weight = graph_.node_weights[node];
-        if (weight_[label] + weight < weight_[own] && (weight_[own] > heaviest_ || weight_[label] < lightest_))
+        if (weight_.relieves(weight, own, label))
             return other == own || shared_[label] > shared_[other];
-        return weight_[label] + weight <= heaviest_ && weight_[own] - weight >= lightest_ &&
-               shared_[label] > shared_[other];
+        return weight_.stay_balanced(weight, own, label) && shared_[label] > shared_[other];
     }
 
     const FaceGraph& graph_;
     std::vector<Index>& labels_;
-    /// One entry per label.
-    std::vector<std::int64_t> weight_;
-    std::int64_t heaviest_ = 0;
-    std::int64_t lightest_ = 0;
+    PartWeights weight_;
     /// One entry per label, 0 between nodes: the weight of the arcs from the node in hand to the part.
     std::vector<std::int64_t> shared_;
     std::vector<Index> candidates_;
@@ -122,6 +120,15 @@ void move_nodes(const FaceGraph& graph, Index n_labels, std::vector<Index>& labe
 }
 
 }  // namespace
+
+PartWeights::PartWeights(std::vector<std::int64_t> weights)
+    : weights_(std::move(weights))
+{
+    const auto total = static_cast<double>(std::accumulate(weights_.begin(), weights_.end(), std::int64_t{0}));
+    const double mean = total / static_cast<double>(weights_.size());
+    heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
+    lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
+}
 
 bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels)
 {

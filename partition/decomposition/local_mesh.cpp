@@ -114,4 +114,20 @@ void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& dr
     seam.neighbours.close();
 }
 
+void list_sharing(const Topology& topology, std::span<const Index> labels, std::span<const SubMesh> sub_meshes,
+                  SubMeshInterface& interface, std::span<const Index> local_to_global)
+{
+    std::vector<Index> around;
+    for (const Index i : interface.vertices) {
+        const Index v = local_to_global[i];
+        labels_around(topology, labels, v, around);
+        for (const Index label : around) {
+            interface.sharing.values.push_back(label);
+            interface.index_in_sharing.values.push_back(local_index(sub_meshes[label], v));
+        }
+        interface.sharing.close();
+        interface.index_in_sharing.close();
+    }
+}
+
 }  // namespace seamflow

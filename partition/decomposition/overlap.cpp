@@ -61,23 +61,6 @@ std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> f
     return vertices;
 }
 
-void list_sharing(const Topology& topology, const Overlap& overlap, std::span<const SubMesh> sub_meshes,
-                  SubMesh& sub_mesh)
-{
-    auto& interface = sub_mesh.interface;
-    std::vector<Index> parts;
-    for (const Index i : interface.vertices) {
-        const Index v = sub_mesh.local_to_global[i];
-        labels_around(topology, overlap.labels, v, parts);
-        for (const Index part : parts) {
-            interface.sharing.values.push_back(part);
-            interface.index_in_sharing.values.push_back(local_index(sub_meshes[part], v));
-        }
-        interface.sharing.close();
-        interface.index_in_sharing.close();
-    }
-}
-
 /// Marks the vertices for which a sub-mesh speaks: those that may move and whose lowest label is its own.
 void mark_owned(const Topology& topology, std::span<const Index> labels, Index own, SubMesh& sub_mesh)
 {
@@ -159,7 +142,7 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
     Decomposition decomposition;
     for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s) {
         SubMesh& sub_mesh = sub_meshes[s];
-        list_sharing(topology, overlap, sub_meshes, sub_mesh);
+        list_sharing(topology, overlap.labels, sub_meshes, sub_mesh.interface, sub_mesh.local_to_global);
         decomposition.halo.push_back(list_halo_transfers(topology, overlap, s, sub_meshes));
         for (const Index v : sub_mesh.seam.vertices)
             decomposition.n_interface_vertices += sub_mesh.owned[v];

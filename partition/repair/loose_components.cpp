@@ -129,13 +129,11 @@ Index LooseComponents::best_neighbour(Index component)
         for_each_neighbour(mesh_, topology_, f, [&](Index h, Index g) {
             if (component_of_[g] != settled)
                 return;
-            const Index from = mesh_.face_vertices[h];
-            const Index to = mesh_.face_vertices[topology_.next(mesh_, h)];
             double& length = shared_length_[labels_[g]];
             if (length == 0)
                 candidates_.push_back(labels_[g]);
             // Not zero even for an edge without length, so that each part becomes a candidate once.
-            length += 1e-300 + (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
+            length += 1e-300 + edge_length(mesh_, topology_, h);
         });
     const Index best = *std::max_element(candidates_.begin(), candidates_.end(),
                                          [&](Index a, Index b) { return shared_length_[a] < shared_length_[b]; });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "partition/connected_components.h"
 #include "partition/index_lists.h"
 #include "partition/labels.h"
 
@@ -197,14 +198,10 @@ double PinchMender::cut_length_around(const std::vector<Index>& faces) const
 {
     double length = 0;
     for (const Index f : faces)
-        for (Index h = mesh_.face_offsets[f]; h < mesh_.face_offsets[f + 1]; ++h) {
-            const Index twin = topology_.twin[h];
-            if (twin < 0 || labels_[topology_.face_of[twin]] == labels_[f])
-                continue;
-            const Index from = mesh_.face_vertices[h];
-            const Index to = mesh_.face_vertices[topology_.next(mesh_, h)];
-            length += (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
-        }
+        for_each_neighbour(mesh_, topology_, f, [&](Index h, Index across) {
+            if (labels_[across] != labels_[f])
+                length += edge_length(mesh_, topology_, h);
+        });
     return length;
 }
 
