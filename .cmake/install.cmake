@@ -3,7 +3,8 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
-# Installed are the headers of the library call and what they include; tests/consumer compiles each by itself.
+# Installed are the headers of the library call and what they include; the test consumer.headers checks that none of
+# these is missing.
 foreach(header IN ITEMS
         engine/eigen.h
         engine/mean_curvature_flow.h
@@ -86,10 +87,10 @@ foreach(library IN LISTS CMAKE_DL_LIBS)
     string(APPEND used " -l${library}")
 endforeach()
 if(BUILD_SHARED_LIBS)
-    set(SEAMFLOW_PC_REQUIRES_PRIVATE " tbb >= 2021")
+    set(SEAMFLOW_PC_REQUIRES_PRIVATE " tbb >= 2021, fmt >= 9")
     set(SEAMFLOW_PC_LIBS_PRIVATE "${used}")
 else()
-    set(SEAMFLOW_PC_REQUIRES ", tbb >= 2021")
+    set(SEAMFLOW_PC_REQUIRES ", tbb >= 2021, fmt >= 9")
     set(SEAMFLOW_PC_LIBS "${used}")
 endif()
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/pkgconfig

@@ -139,18 +139,18 @@ void FlowRun::compare_with_reference(int step, const StepShares& shares, StepRep
 void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
                    const FlowState* resume) const
 {
-    const PolygonMesh* pieces = stepper_->pieces();
+    const PolygonMesh* separated = stepper_->separated();
     std::optional<Points> undecomposed_there;
-    std::optional<PolygonMesh> pieces_there;
+    std::optional<PolygonMesh> separated_there;
     if (mesh_.is_shifted() && undecomposed != nullptr) {
         mesh_.shift_back(undecomposed_there.emplace(*undecomposed));
         undecomposed = &*undecomposed_there;
     }
-    if (mesh_.is_shifted() && pieces != nullptr) {
-        mesh_.shift_back(pieces_there.emplace(*pieces).vertices);
-        pieces = &*pieces_there;
+    if (mesh_.is_shifted() && separated != nullptr) {
+        mesh_.shift_back(separated_there.emplace(*separated).vertices);
+        separated = &*separated_there;
     }
-    on_step({step, mesh_.given_positions(), of_step, pieces, undecomposed, [&] { return capture(resume); }});
+    on_step({step, mesh_.given_positions(), of_step, separated, undecomposed, [&] { return capture(resume); }});
 }
 
 void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
@@ -221,8 +221,8 @@ void FlowRun::finish(double extent_before, const FlowState* resume)
     remark_on_drift(options(), report_);
     remark_on_collapse(extent_before, mesh_.mesh().vertices, report_);
     report_.displacement = prepared_->meter->total();
-    if (stepper_->pieces() != nullptr)
-        report_.pieces = *stepper_->pieces();
+    if (stepper_->separated() != nullptr)
+        report_.separated = *stepper_->separated();
     stepper_->describe(report_);
     if (resume != nullptr)
         add_task_seconds(report_.seconds, resume->seconds);

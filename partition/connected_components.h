@@ -67,6 +67,11 @@ void for_each_neighbour(const PolygonMesh& mesh, const Topology& topology, Index
 
 /// The connected components of the faces of a mesh. Faces are connected through edges of exactly two faces: a shared
 /// vertex or an edge of three or more faces connects nothing. Linear in the size of the mesh.
-Components face_components(const PolygonMesh& mesh, const Topology& topology);
+inline Components face_components(const PolygonMesh& mesh, const Topology& topology)
+{
+    return connected_components(mesh.n_faces(), [&](Index f, auto&& visit) {
+        for_each_neighbour(mesh, topology, f, [&](Index, Index g) { visit(g); });
+    });
+}
 
 }  // namespace seamflow

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace seamflow {
 
 namespace {
@@ -10,7 +12,7 @@ constexpr Eigen::Index most = std::numeric_limits<Index>::max();
 
 std::string shape(Eigen::Index rows, Eigen::Index columns)
 {
-    return std::to_string(rows) + " by " + std::to_string(columns);
+    return fmt::format("{} by {}", rows, columns);
 }
 
 }  // namespace
@@ -18,11 +20,10 @@ std::string shape(Eigen::Index rows, Eigen::Index columns)
 void require_vertex_shape(Eigen::Index rows, Eigen::Index columns)
 {
     if (columns != 3)
-        throw InputError("the matrix of vertices is " + shape(rows, columns) +
-                         ": it must have 3 columns, and a row per vertex");
+        throw InputError(fmt::format("the matrix of vertices is {}: it must have 3 columns, and a row per vertex",
+                                     shape(rows, columns)));
     if (rows > most)
-        throw InputError("the matrix of vertices has " + std::to_string(rows) + " rows: " + std::to_string(most) +
-                         " are the most");
+        throw InputError(fmt::format("the matrix of vertices has {} rows: {} are the most", rows, most));
 }
 
 void require_face_shape(Eigen::Index rows, Eigen::Index columns)
@@ -30,11 +31,10 @@ void require_face_shape(Eigen::Index rows, Eigen::Index columns)
     if (rows == 0)
         return;
     if (columns < 3)
-        throw InputError("the matrix of faces is " + shape(rows, columns) +
-                         ": it must have 3 columns or more, and a row per face");
+        throw InputError(fmt::format("the matrix of faces is {}: it must have 3 columns or more, and a row per face",
+                                     shape(rows, columns)));
     if (rows > most / columns)
-        throw InputError("the matrix of faces is " + shape(rows, columns) + ": " + std::to_string(most) +
-                         " corners are the most");
+        throw InputError(fmt::format("the matrix of faces is {}: {} corners are the most", shape(rows, columns), most));
 }
 
 }  // namespace seamflow

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -31,5 +33,31 @@ struct IndexLists {
         values.shrink_to_fit();
     }
 };
+
+/// Puts entries into lists, each behind those that came before it.
+/// @param for_each_entry called twice with a function that it calls with the list and the value of every entry, in the
+///        same order both times.
+template <class ForEachEntry>
+IndexLists make_lists(Index n_lists, ForEachEntry&& for_each_entry)
+{
+    IndexLists lists;
+    auto& offsets = lists.offsets;
+    // Where each list begins stands one further, and moves on to where it ends: that is where the next one begins.
+    offsets.assign(at(n_lists) + 2, 0);
+    for_each_entry([&](Index list, Index) { ++offsets[list + 2]; });
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    lists.values.resize(offsets.back());
+    for_each_entry([&](Index list, Index value) { lists.values[offsets[list + 1]++] = value; });
+    offsets.pop_back();
+    return lists;
+}
+
+/// Sorts and leaves one of each.
+template <class Value>
+void sort_unique(std::vector<Value>& values)
+{
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
 
 }  // namespace seamflow

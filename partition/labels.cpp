@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "partition/index_lists.h"
+
 namespace seamflow {
 
 namespace {
@@ -10,8 +12,7 @@ namespace {
 Index compact_sparse(std::vector<Index>& labels)
 {
     std::vector<Index> distinct = labels;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    sort_unique(distinct);
     for (Index& label : labels)
         label = static_cast<Index>(std::lower_bound(distinct.begin(), distinct.end(), label) - distinct.begin());
     return static_cast<Index>(distinct.size());
@@ -44,10 +45,8 @@ void labels_around(const Topology& topology, std::span<const Index> labels, Inde
     for (const Index corner : topology.corners_at(v))
         if (const Index label = labels[topology.face_of[corner]]; found.empty() || found.back() != label)
             found.push_back(label);
-    if (found.size() < 2)
-        return;
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    if (found.size() > 1)
+        sort_unique(found);
 }
 
 bool is_mixed(const Topology& topology, std::span<const Index> labels, Index v)

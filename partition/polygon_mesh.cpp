@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -16,8 +18,9 @@ void require_valid_offsets(const PolygonMesh& mesh)
     const auto& offsets = mesh.face_offsets;
     if (offsets.empty() || offsets.front() != 0 || offsets.back() != mesh.n_corners() ||
         !std::is_sorted(offsets.begin(), offsets.end()))
-        throw InputError("face_offsets must begin with 0, not decrease, and end with the number of face_vertices (" +
-                         std::to_string(mesh.n_corners()) + ")");
+        throw InputError(
+            fmt::format("face_offsets must begin with 0, not decrease, and end with the number of face_vertices ({})",
+                        mesh.n_corners()));
 }
 
 /// Whether a face names no vertex twice.
@@ -47,17 +50,17 @@ bool is_valid_face(const PolygonMesh& mesh, Index f)
 [[noreturn]] void refuse_face(const PolygonMesh& mesh, Index f)
 {
     const auto corners = mesh.face(f);
-    const std::string face = "face " + std::to_string(f) + " (numbered from 0)";
+    const std::string face = fmt::format("face {} (numbered from 0)", f);
     if (corners.size() < 3)
-        throw InputError(face + " has " + std::to_string(corners.size()) +
-                         " corners: a face needs at least 3; remove the face");
+        throw InputError(
+            fmt::format("{} has {} corners: a face needs at least 3; remove the face", face, corners.size()));
     std::set<Index> met;
     for (const Index v : corners) {
         if (v < 0 || v >= mesh.n_vertices())
-            throw InputError(face + " names vertex " + std::to_string(v) + ", but the mesh has " +
-                             std::to_string(mesh.n_vertices()) + " vertices");
+            throw InputError(
+                fmt::format("{} names vertex {}, but the mesh has {} vertices", face, v, mesh.n_vertices()));
         if (!met.insert(v).second)
-            throw InputError(face + " names vertex " + std::to_string(v) + " twice: split the face there or remove it");
+            throw InputError(fmt::format("{} names vertex {} twice: split the face there or remove it", face, v));
     }
     throw InputError(face + " is not valid");
 }
@@ -73,8 +76,9 @@ void require_valid(const PolygonMesh& mesh, const Loop& loop)
     const auto bad_vertices =
         select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     if (!bad_vertices.empty())
-        throw InputError("vertex " + std::to_string(bad_vertices.front()) +
-                         " (numbered from 0) has a coordinate that is not a finite number: mend or remove it");
+        throw InputError(
+            fmt::format("vertex {} (numbered from 0) has a coordinate that is not a finite number: mend or remove it",
+                        bad_vertices.front()));
 }
 
 }  // namespace seamflow

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -17,18 +21,12 @@ constexpr Index non_manifold_edge = -2;
 
 void list_corners(const PolygonMesh& mesh, Topology& topology)
 {
-    auto& offsets = topology.vertex_offsets;
-    offsets.assign(at(mesh.n_vertices()) + 1, 0);
-    for (const Index v : mesh.face_vertices)
-        ++offsets[v + 1];
-    for (std::size_t v = 0; v < at(mesh.n_vertices()); ++v)
-        offsets[v + 1] += offsets[v];
-    topology.vertex_corners.resize(mesh.face_vertices.size());
-    for (Index h = 0; h < mesh.n_corners(); ++h)
-        topology.vertex_corners[offsets[mesh.face_vertices[h]]++] = h;
-    // Every offset has moved on to the next vertex's.
-    std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
-    offsets.front() = 0;
+    IndexLists corners = make_lists(mesh.n_vertices(), [&](auto&& add) {
+        for (Index h = 0; h < mesh.n_corners(); ++h)
+            add(mesh.face_vertices[h], h);
+    });
+    topology.vertex_offsets = std::move(corners.offsets);
+    topology.vertex_corners = std::move(corners.values);
 }
 
 /// One half-edge at a vertex, by the vertex at its other end.
@@ -191,8 +189,8 @@ void hold(Topology& topology, std::span<const Index> vertices)
     const auto n_vertices = static_cast<Index>(topology.fixed.size());
     for (const Index v : vertices) {
         if (v < 0 || v >= n_vertices)
-            throw InputError("vertex " + std::to_string(v) + " is to be held fixed, but the mesh has " +
-                             std::to_string(n_vertices) + " vertices, numbered from 0");
+            throw InputError(fmt::format("vertex {} is to be held fixed, but the mesh has {} vertices, numbered from 0",
+                                         v, n_vertices));
         topology.fixed[v] = 1;
     }
 }
@@ -225,27 +223,21 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
         if (visited[i] || !belongs(topology.face_of[corners[i]]))
             continue;
         Fan fan;
-        mark(corners[i]);
         const auto spokes = spokes_of(mesh, topology, corners[i]);
         const auto append = [&](Index corner) {
             mark(corner);
             fan.corners.push_back(corner);
         };
+        append(corners[i]);
         const Index last = walk(mesh, topology, v, corners[i], spokes[0], belongs, append);
-        const Index closing = topology.twin[last];
-        fan.closed = closing >= 0 && closing == spokes[1];
+        fan.closed = topology.twin[last] >= 0 && topology.twin[last] == spokes[1];
         Index first = spokes[1];
         if (!fan.closed) {
-            std::vector<Index> backwards;
-            first = walk(mesh, topology, v, corners[i], spokes[1], belongs, [&](Index corner) {
-                mark(corner);
-                backwards.push_back(corner);
-            });
-            std::reverse(backwards.begin(), backwards.end());
-            backwards.push_back(corners[i]);
-            fan.corners.insert(fan.corners.begin(), backwards.begin(), backwards.end());
-        } else {
-            fan.corners.insert(fan.corners.begin(), corners[i]);
+            const auto n_forwards = std::ssize(fan.corners);
+            first = walk(mesh, topology, v, corners[i], spokes[1], belongs, append);
+            // The other way round, before those of the first walk.
+            std::reverse(fan.corners.begin() + n_forwards, fan.corners.end());
+            std::rotate(fan.corners.begin(), fan.corners.begin() + n_forwards, fan.corners.end());
         }
         fan.first = other_end(mesh, topology, first, v);
         fan.last = other_end(mesh, topology, last, v);

@@ -99,6 +99,13 @@ struct Topology {
 /// mesh.
 Topology make_topology(const PolygonMesh& mesh, const Loop& loop = run_serially);
 
+/// The length of the edge of half-edge h, the same bits for its twin.
+inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)
+{
+    const auto& v = mesh.face_vertices;
+    return (mesh.vertices.row(v[topology.next(mesh, h)]) - mesh.vertices.row(v[h])).norm();
+}
+
 /// Lets the vertices of kind Boundary move.
 void free_boundary(Topology& topology);
 

@@ -41,7 +41,7 @@ std::vector<Claim> run_many(const FiguresCommand& command)
 {
     std::vector<Table> tables;
     for (const Experiment& experiment : experiments())
-        if (const Experiment many = with_many_sub_meshes(experiment); many.variants.back().pieces == Pieces::Metis)
+        if (const Experiment many = with_many_sub_meshes(experiment); many.variants.back().cut == CutKind::Metis)
             tables.push_back(run_experiment(many, {.meshes = command.meshes, .out = {}}, std::cout));
     write_csv(command.out / (std::string(many_sub_meshes) + ".csv"), tables);
     return claims_of_many(tables);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the programs and shows them at work, from a bare Debian 12 on: makes a mesh, smooths it in eight pieces,
+# Builds the programs and shows them at work, from a bare Debian 12 on: makes a mesh, smooths it in eight sub-meshes,
 # compares the result with the undecomposed flow. The files are left in output/; with node and npm on the PATH, among
 # them a page that shows it all in a browser. They are not installed for that: Debian's npm brings hundreds of packages.
 #

@@ -76,9 +76,9 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
         if (!command.every_step)
             return;
         const Stopwatch watch;
-        if (state.pieces == nullptr)
+        if (state.separated == nullptr)
             snapshot.vertices = state.positions;
-        write_state(command.every_step->path(state.step), snapshot, state.pieces, input);
+        write_state(command.every_step->path(state.step), snapshot, state.separated, input);
         write_seconds += watch.seconds();
     };
 }
@@ -86,7 +86,7 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
 /// @returns remarks for the user.
 std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report)
 {
-    auto remarks = write_state(command.output, file.mesh, report.pieces ? &*report.pieces : nullptr, file);
+    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file);
     if (!command.parts.empty())
         write_labelled_ply(command.parts, file.mesh, report.labels);
     return remarks;

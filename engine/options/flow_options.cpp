@@ -83,7 +83,7 @@ void require_valid_constraints(const FlowOptions& options)
                           "rows there are one-sided and unstable): use fujiwara or alexa-wardetzky, or leave the "
                           "boundary fixed");
     if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
-        throw OptionError("rescale is for results in one piece; keep_gaps leaves the sub-meshes unjoined");
+        throw OptionError("rescale is for results whose sub-meshes are joined; keep_gaps leaves them separate");
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
 }

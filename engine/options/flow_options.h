@@ -208,7 +208,7 @@ struct ReportOptions {
     /// Record what ran when, in which thread (FlowReport::schedule): 32 bytes for each task and step. Steps of
     /// Scheme::ExplicitEuler have no tasks.
     bool record_schedule = false;
-    /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::pieces, StepState::pieces). For
+    /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::separated, StepState::separated). For
     /// the classical conditions with Scheme::BackwardEuler alone: with others the copies are the same.
     bool keep_gaps = false;
 };

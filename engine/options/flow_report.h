@@ -105,7 +105,7 @@ struct FlowReport {
     TotalDisplacement displacement;
     /// The sub-meshes at the end, none sharing a vertex with another, with ReportOptions::keep_gaps: the faces in the
     /// order of the mesh; its vertices first, then the further copies.
-    std::optional<PolygonMesh> pieces;
+    std::optional<PolygonMesh> separated;
     /// With ReportOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
     /// What steps were converged to, asked for or chosen; empty: they were sweeps.
@@ -126,8 +126,8 @@ struct StepState {
     /// #V by 3, the positions after the step.
     const Points& positions;
     const StepReport& report;
-    /// See FlowReport::pieces; null without ReportOptions::keep_gaps.
-    const PolygonMesh* pieces = nullptr;
+    /// See FlowReport::separated; null without ReportOptions::keep_gaps.
+    const PolygonMesh* separated = nullptr;
     /// #V by 3, those of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
     const Points* reference_positions = nullptr;
     /// Copies everything that the flow needs to go on from here (see FlowState). May be called while the observer runs.

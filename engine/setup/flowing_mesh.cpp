@@ -7,7 +7,7 @@
 
 #include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_loop.h"
-#include "partition/inspection/repeated_faces.h"
+#include "partition/inspection/mesh_inspection.h"
 
 namespace seamflow {
 
@@ -90,8 +90,8 @@ void FlowingMesh::shift_back(Points& positions) const
 
 void FlowingMesh::complete(FlowReport& report) const
 {
-    if (report.pieces && is_shifted())
-        shift_back(report.pieces->vertices);
+    if (report.separated && is_shifted())
+        shift_back(report.separated->vertices);
     if (number_.empty())
         return;
     const Index n_left_out = given_->n_faces() - mesh().n_faces();

@@ -49,11 +49,11 @@ double largest_distance(const CopiesOfVertex& copies)
 
 }  // namespace
 
-InterfaceGaps::InterfaceGaps(const PolygonMesh& mesh, const Decomposition& decomposition, bool keeps_pieces)
+InterfaceGaps::InterfaceGaps(const PolygonMesh& mesh, const Decomposition& decomposition, bool keeps_separated)
     : decomposition_(&decomposition)
     , gaps_(decomposition.n_interface_vertices, 0.0)
 {
-    if (keeps_pieces)
+    if (keeps_separated)
         separated_ = separate(mesh, decomposition);
     std::size_t n = 0;
     for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {

@@ -10,12 +10,12 @@
 namespace seamflow {
 
 /// The copies that sub-meshes have of Γ where each has one of its own: how far they are apart, what stands for all of
-/// them, and the sub-meshes unjoined. Runs in parallel, sums in order: the bits do not depend on the number of threads.
+/// them, and the sub-meshes, each with its own. Runs in parallel, sums in order: the bits do not depend on the number of threads.
 class InterfaceGaps {
   public:
     /// @param decomposition must outlive this.
-    /// @param keeps_pieces whether pieces() is wanted.
-    InterfaceGaps(const PolygonMesh& mesh, const Decomposition& decomposition, bool keeps_pieces);
+    /// @param keeps_separated whether separated() is wanted.
+    InterfaceGaps(const PolygonMesh& mesh, const Decomposition& decomposition, bool keeps_separated);
 
     /// Takes over the positions of all sub-meshes after a step.
     /// @param positions #V by 3; receives the mean of the copies of each vertex of Γ.
@@ -25,7 +25,7 @@ class InterfaceGaps {
     [[nodiscard]] LengthStatistics gap() const { return length_statistics(gaps_); }
 
     /// The sub-meshes as of the last join, or null.
-    [[nodiscard]] const PolygonMesh* pieces() const { return separated_ ? &separated_->mesh : nullptr; }
+    [[nodiscard]] const PolygonMesh* separated() const { return separated_ ? &separated_->mesh : nullptr; }
 
   private:
     void join_interface_of(Index s, const std::vector<SubMeshState>& states, Points& positions);

@@ -19,7 +19,7 @@
 
 namespace seamflow {
 
-/// Takes the undecomposed backward Euler step itself, in pieces, for Δ_F and Δ_A: every sub-mesh eliminates its
+/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for Δ_F and Δ_A: every sub-mesh eliminates its
 /// interior, what remains is the equation of the Schur complement on Γ, and then the interiors are filled in. One task
 /// graph, run once per step:
 ///

@@ -23,9 +23,9 @@ class Stepper {
     /// #V by 3, after the last step.
     [[nodiscard]] virtual const Points& positions() const = 0;
 
-    /// The sub-meshes after the last step (see FlowReport::pieces); null where they have no copies of their own of Γ,
+    /// The sub-meshes after the last step (see FlowReport::separated); null where they have no copies of their own of Γ,
     /// and without ReportOptions::keep_gaps.
-    [[nodiscard]] virtual const PolygonMesh* pieces() const { return nullptr; }
+    [[nodiscard]] virtual const PolygonMesh* separated() const { return nullptr; }
 
     /// Gives what the next step needs.
     virtual void save(StepMemory& memory) const = 0;

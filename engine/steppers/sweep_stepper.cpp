@@ -12,7 +12,7 @@
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
-#include "partition/decomposition/narrow_order.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
 
@@ -84,7 +84,7 @@ void SweepStepper::limit_factors(const FlowOptions& options)
     factors_.use_blocks_of(largest);
     workspaces_.use(factors_);
 
-    window_.order = narrow_order(decomposition_.adjacency);
+    window_.order = reverse_cuthill_mckee(decomposition_.adjacency);
     Index least = 0;
     for (const SweepPlan& plan : plans_)
         least = std::max(least, least_window(plan, window_.order));

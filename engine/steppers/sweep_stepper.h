@@ -36,7 +36,7 @@ class SweepStepper final : public Stepper {
 
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
-    [[nodiscard]] const PolygonMesh* pieces() const override { return copies_ ? copies_->pieces() : nullptr; }
+    [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;

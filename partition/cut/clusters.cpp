@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "partition/index.h"
+#include "partition/connected_components.h"
 
 namespace seamflow {
 
@@ -131,16 +131,13 @@ class ClusterGrower {
         Index inner = 0;
         Index shared = 0;
         Index n_free = 0;
-        for (Index h = mesh_.face_offsets[f]; h < mesh_.face_offsets[f + 1]; ++h) {
-            if (topology_.twin[h] < 0)
-                continue;
+        for_each_neighbour(mesh_, topology_, f, [&](Index, Index neighbour) {
             ++inner;
-            const Index neighbour = topology_.face_of[topology_.twin[h]];
             if (!chunk_.has(neighbour))
-                continue;
+                return;
             shared += cluster_of_[neighbour] == last() ? 1 : 0;
             n_free += cluster_of_[neighbour] < 0 ? 1 : 0;
-        }
+        });
         return n_free == 0 || 2 * shared > inner;
     }
 
@@ -166,11 +163,10 @@ double part_across(const PolygonMesh& mesh, const Topology& topology, Index size
     Index inner = 0;
     Index across = 0;
     for (Index f = 0; f < mesh.n_faces(); f += std::min(sampled, mesh.n_faces() - f))
-        for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
-            if (const Index twin = topology.twin[h]; twin >= 0) {
-                ++inner;
-                across += topology.face_of[twin] / size != f / size ? 1 : 0;
-            }
+        for_each_neighbour(mesh, topology, f, [&](Index, Index neighbour) {
+            ++inner;
+            across += neighbour / size != f / size ? 1 : 0;
+        });
     return inner > 0 ? static_cast<double>(across) / inner : 0.0;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/cut/clusters.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
@@ -16,9 +18,9 @@ namespace seamflow {
 
 namespace {
 
-std::string counted(Index n, const std::string& thing)
+std::string counted(Index n, std::string_view thing)
 {
-    return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
 
 /// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
@@ -60,17 +62,14 @@ void remark_on_number(const PolygonMesh& mesh, Index k, Index n_components, Cut&
 {
     if (cut.n_parts == k)
         return;
-    const std::string number =
-        "The mesh was cut into " + counted(cut.n_parts, "part") + " instead of " + std::to_string(k) + ", because ";
+    std::string reason = "some parts came out empty or were merged to make manifolds";
     if (cut.n_parts > k)
-        cut.remarks.push_back(number + "it has " + counted(n_components, "connected component") +
-                              " and a part cannot span several.");
+        reason = fmt::format("it has {} and a part cannot span several", counted(n_components, "connected component"));
     else if (sensible(mesh, k) < k)
-        cut.remarks.push_back(number + "its " + counted(mesh.n_faces(), "face") +
-                              " are too few for so many: a part should have about " +
-                              std::to_string(min_faces_per_part) + " faces or more.");
-    else
-        cut.remarks.push_back(number + "some parts came out empty or were merged to make manifolds.");
+        reason = fmt::format("its {} are too few for so many: a part should have about {} faces or more",
+                             counted(mesh.n_faces(), "face"), min_faces_per_part);
+    cut.remarks.push_back(
+        fmt::format("The mesh was cut into {} instead of {}, because {}.", counted(cut.n_parts, "part"), k, reason));
 }
 
 Cut uncut(const PolygonMesh& mesh)
@@ -89,12 +88,12 @@ Index count_parts(const std::vector<Index>& labels)
 void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
 {
     if (labels.size() != at(mesh.n_faces()))
-        throw InputError("there are " + std::to_string(labels.size()) + " labels for " +
-                         counted(mesh.n_faces(), "face") + ": give one label for each face");
+        throw InputError(fmt::format("there are {} labels for {}: give one label for each face", labels.size(),
+                                     counted(mesh.n_faces(), "face")));
     const auto negative = std::find_if(labels.begin(), labels.end(), [](Index label) { return label < 0; });
     if (negative != labels.end())
-        throw InputError("face " + std::to_string(negative - labels.begin()) + " (numbered from 0) has the label " +
-                         std::to_string(*negative) + ": labels must be at least 0");
+        throw InputError(fmt::format("face {} (numbered from 0) has the label {}: labels must be at least 0",
+                                     negative - labels.begin(), *negative));
 }
 
 }  // namespace
@@ -102,7 +101,7 @@ void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
 Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop, const Alongside& alongside)
 {
     if (k < 1)
-        throw OptionError("the number of parts is " + std::to_string(k) + ", but must be at least 1");
+        throw OptionError(fmt::format("the number of parts is {}, but must be at least 1", k));
     if (k == 1 || mesh.n_faces() == 0)
         return uncut(mesh);
     const Index n_parts = sensible(mesh, k);
@@ -143,8 +142,8 @@ Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<c
     const Index largest = count_parts(cut.labels) - 1;
     const Index n_given = compact_labels(cut.labels);
     if (n_given > 0 && largest >= n_given)
-        cut.remarks.push_back("The labels had gaps and were renumbered from 0 to " + std::to_string(n_given - 1) +
-                              " in the same order.");
+        cut.remarks.push_back(
+            fmt::format("The labels had gaps and were renumbered from 0 to {} in the same order.", n_given - 1));
     if (n_given > 1)
         cut.repaired_faces = repair(mesh, topology, cut.labels, loop);
     cut.n_parts = count_parts(cut.labels);
@@ -152,8 +151,8 @@ Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<c
         cut.remarks.push_back(counted(cut.repaired_faces, "face") +
                               " had to change parts so that every part is connected and a manifold with boundary.");
     if (cut.n_parts != n_given)
-        cut.remarks.push_back("The labels name " + counted(n_given, "part") + "; after this there are " +
-                              std::to_string(cut.n_parts) + ".");
+        cut.remarks.push_back(
+            fmt::format("The labels name {}; after this there are {}.", counted(n_given, "part"), cut.n_parts));
     return cut;
 }
 

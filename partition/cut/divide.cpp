@@ -1,11 +1,124 @@
 #include "partition/cut/divide.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <mutex>
+#include <new>
 #include <numeric>
+#include <string>
 
+#include <fmt/format.h>
+#include <metis.h>
+
+#include "partition/errors.h"
 #include "partition/index.h"
 
 namespace seamflow {
+
+namespace {
+
+constexpr idx_t seed = 20230;
+/// With fewer nodes per part than this, recursive bisection takes a third of the time of k-way partitioning and cuts up
+/// to a third less. With more, k-way cuts up to a tenth less, and unlike bisection it keeps parts connected.
+constexpr Index min_nodes_per_part_k_way = 50;
+/// Where parts are refined afterwards, bisection leaves interfaces 0 to 2 percent larger than k-way up to about here.
+constexpr Index min_nodes_per_refined_part_k_way = 120;
+
+/// METIS draws from the C library's random numbers and installs signal handlers: one caller at a time.
+std::mutex& metis_mutex()
+{
+    static std::mutex mutex;
+    return mutex;
+}
+
+/// Random numbers of METIS's own, while this lives: the caller's rand() goes on after it as if nothing had been drawn.
+class OwnRandomNumbers {
+  public:
+    OwnRandomNumbers()
+        : callers_(initstate(seed, state_.data(), state_.size()))
+    {
+    }
+    ~OwnRandomNumbers() { setstate(callers_); }
+    OwnRandomNumbers(const OwnRandomNumbers&) = delete;
+    OwnRandomNumbers& operator=(const OwnRandomNumbers&) = delete;
+
+  private:
+    /// As long as the C library's own, so that the numbers are the same.
+    alignas(8) std::array<char, 128> state_{};
+    char* callers_;
+};
+
+/// How much heavier than it should be, in thousandths, a group of parts may become; that of its parts (30) comes on
+/// top.
+constexpr idx_t tolerance_of_groups = 10;
+
+std::array<idx_t, METIS_NOPTIONS> options(bool connected_parts)
+{
+    std::array<idx_t, METIS_NOPTIONS> result{};
+    METIS_SetDefaultOptions(result.data());
+    result[METIS_OPTION_NUMBERING] = 0;
+    result[METIS_OPTION_SEED] = seed;
+    if (connected_parts)
+        result[METIS_OPTION_CONTIG] = 1;
+    return result;
+}
+
+std::vector<idx_t> copy(const std::vector<Index>& from)
+{
+    return {from.begin(), from.end()};
+}
+
+/// The part of the whole weight for each part; empty if all get the same.
+std::vector<real_t> target_weights(std::span<const Index> shares)
+{
+    if (std::all_of(shares.begin(), shares.end(), [&](Index share) { return share == shares.front(); }))
+        return {};
+    const auto total = static_cast<double>(std::accumulate(shares.begin(), shares.end(), std::int64_t{0}));
+    std::vector<real_t> targets(shares.size());
+    std::transform(shares.begin(), shares.end(), targets.begin(),
+                   [&](Index share) { return static_cast<real_t>(share / total); });
+    return targets;
+}
+
+}  // namespace
+
+std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> shares, Afterwards afterwards)
+{
+    std::vector<idx_t> labels(graph.n_nodes(), 0);
+    auto n_parts = static_cast<idx_t>(std::min(shares.size(), labels.size()));
+    if (n_parts > 1) {
+        const std::lock_guard lock(metis_mutex());
+        const OwnRandomNumbers own;
+        const bool k_way =
+            graph.n_nodes() / n_parts >=
+            (afterwards == Afterwards::Refined ? min_nodes_per_refined_part_k_way : min_nodes_per_part_k_way);
+        // METIS refuses to make connected parts of other graphs.
+        auto settings = options(k_way && graph_components(graph).count() == 1);
+        if (k_way && *std::max_element(shares.begin(), shares.end()) > 1)
+            settings[METIS_OPTION_UFACTOR] = tolerance_of_groups;
+        auto offsets = copy(graph.offsets);
+        auto targets = copy(graph.targets);
+        auto arc_weights = copy(graph.arc_weights);
+        auto node_weights = copy(graph.node_weights);
+        auto weights = target_weights(shares.first(static_cast<std::size_t>(n_parts)));
+        idx_t n_nodes = graph.n_nodes();
+        idx_t n_constraints = 1;
+        idx_t cut_weight = 0;
+        const auto partition = k_way ? METIS_PartGraphKway : METIS_PartGraphRecursive;
+        const int status = partition(&n_nodes, &n_constraints, offsets.data(), targets.data(), node_weights.data(),
+                                     nullptr, arc_weights.data(), &n_parts, weights.empty() ? nullptr : weights.data(),
+                                     nullptr, settings.data(), &cut_weight, labels.data());
+        if (status == METIS_ERROR_MEMORY)
+            throw std::bad_alloc();
+        if (status != METIS_OK)
+            throw ComputationError(fmt::format("METIS could not divide a graph of {} nodes into {} parts (METIS status "
+                                               "{}); try another number of parts",
+                                               n_nodes, n_parts, status));
+    }
+    return {labels.begin(), labels.end()};
+}
 
 namespace {
 

@@ -1,11 +1,28 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "partition/cut/face_graph.h"
-#include "partition/cut/metis.h"
 
 namespace seamflow {
+
+/// What is done to the parts of a graph afterwards.
+enum class Afterwards {
+    /// Nothing: METIS has to shape them well.
+    Nothing,
+    /// They are made connected, balanced and refined (see refine): METIS may be quick.
+    Refined,
+};
+
+/// Divides the nodes of a graph into parts with short boundaries (METIS). The same input gives the same parts each
+/// time. May be called from several threads, which then wait for each other.
+/// @param shares one entry per part, at least 1: parts get about as much weight as is in proportion.
+/// @returns one label per node, from 0 to the number of parts - 1; on graphs of few nodes per part some labels may not
+/// occur, and a part need not be connected.
+/// @throws ComputationError if METIS fails.
+std::vector<Index> metis_k_way(const FaceGraph& graph, std::span<const Index> shares,
+                               Afterwards afterwards = Afterwards::Nothing);
 
 /// Divides the nodes of a graph into k parts of about equal weight with short boundaries, in stages: into a few groups
 /// of parts, and those further. METIS asked for many parts at once takes several times as long. The same graph and k

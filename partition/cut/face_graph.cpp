@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "partition/index.h"
 #include "partition/index_lists.h"
@@ -13,14 +12,6 @@ namespace seamflow {
 namespace {
 
 constexpr double mean_arc_weight = 64;
-
-double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)
-{
-    const Index from = mesh.face_vertices[h];
-    const Index to = mesh.face_vertices[topology.next(mesh, h)];
-    // From the lower to the higher vertex, so that both half-edges of an edge give the same bits.
-    return (mesh.vertices.row(std::max(from, to)) - mesh.vertices.row(std::min(from, to))).norm();
-}
 
 /// Whole numbers in proportion to the lengths, each at least 1, that add up to no more than max_weight_sum.
 std::vector<Index> arc_weights(const std::vector<double>& lengths)
@@ -140,26 +131,17 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
                                             const FaceClusters& clusters, const Loop& loop)
 {
     const auto blocks = list_cut_edges(mesh, topology, clusters, loop);
-    const auto for_each_pair = [&](auto use) {
+    IndexLists neighbours = make_lists(clusters.size(), [&](auto&& add) {
         for (const auto& pairs : blocks)
             for (const ClusterPair& pair : pairs) {
-                use(pair.low, pair.high);
-                use(pair.high, pair.low);
+                add(pair.low, pair.high);
+                add(pair.high, pair.low);
             }
-    };
-    IndexLists neighbours;
-    auto& offsets = neighbours.offsets;
-    auto& targets = neighbours.values;
-    // Every node's beginning moves on to its end, which is where the next one begins.
-    offsets.assign(at(clusters.size()) + 2, 0);
-    for_each_pair([&](Index node, Index) { ++offsets[node + 2]; });
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    targets.resize(offsets.back());
-    for_each_pair([&](Index node, Index target) { targets[offsets[node + 1]++] = target; });
-    offsets.pop_back();
+    });
     // As plain numbers: those of a cluster are five times as many as its arcs.
     for_each(loop, clusters.size(), [&](Index cluster) {
-        std::sort(targets.begin() + offsets[cluster], targets.begin() + offsets[cluster + 1]);
+        const auto begin = neighbours.values.begin();
+        std::sort(begin + neighbours.offsets[cluster], begin + neighbours.offsets[cluster + 1]);
     });
     return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
         const auto begin = std::ssize(arcs);

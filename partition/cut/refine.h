@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "partition/cut/face_graph.h"
@@ -9,9 +10,47 @@ namespace seamflow {
 /// How much heavier than the mean of all parts a part may become when nodes or faces move between parts.
 inline constexpr double balance_tolerance = 0.04;
 
-/// Makes the parts of a divided graph connected (see join_loose_nodes) and better: nodes move to neighbouring parts
-/// where one of the two is too heavy or too light (see balance_tolerance), to the part across their heaviest arcs, and
-/// elsewhere where this cuts less.
+/// The weights of parts between which something moves, and how far apart they may come (see balance_tolerance).
+class PartWeights {
+  public:
+    /// @param weights one entry per part.
+    explicit PartWeights(std::vector<std::int64_t> weights);
+
+    std::int64_t operator[](Index part) const { return weights_[part]; }
+
+    /// Whether a part that is too heavy would give this weight to a lighter one, or one that is too light get it.
+    [[nodiscard]] bool relieves(Index weight, Index from, Index to) const
+    {
+        return (weights_[from] > heaviest_ || weights_[to] < lightest_) && weights_[to] + weight < weights_[from];
+    }
+
+    /// Whether neither part would become too heavy or too light.
+    [[nodiscard]] bool stay_balanced(Index weight, Index from, Index to) const
+    {
+        return weights_[to] + weight <= heaviest_ && weights_[from] - weight >= lightest_;
+    }
+
+    void move(Index weight, Index from, Index to)
+    {
+        weights_[from] -= weight;
+        weights_[to] += weight;
+    }
+
+  private:
+    std::vector<std::int64_t> weights_;
+    std::int64_t heaviest_;
+    std::int64_t lightest_;
+};
+
+/// Makes the parts of a divided graph connected: each keeps its heaviest connected component (of equals the first), and
+/// every other one goes to the neighbouring part to which its arcs weigh most.
+/// @param labels #nodes, from 0 to n_labels - 1; no part may have nodes in several connected components of the graph.
+/// @returns whether a part had several.
+bool join_loose_components(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels);
+
+/// Makes the parts of a divided graph connected (see join_loose_components) and better: nodes move to neighbouring
+/// parts where one of the two is too heavy or too light (see balance_tolerance), to the part across their heaviest
+/// arcs, and elsewhere where this cuts less.
 /// @param labels #nodes, from 0 to n_labels - 1; no part may have nodes in several connected components of the graph.
 void refine(const FaceGraph& graph, Index n_labels, std::vector<Index>& labels);
 

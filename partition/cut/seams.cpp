@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "partition/connected_components.h"
@@ -29,12 +28,8 @@ class SeamShortener {
               loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
               [&](Index f) { return face_weight(mesh, f); }))
         , shared_(n_labels, 0)
-        , may_be_in_pieces_(n_labels, false)
+        , may_be_divided_(n_labels, false)
     {
-        const std::int64_t total = std::accumulate(weight_.begin(), weight_.end(), std::int64_t{0});
-        const double mean = static_cast<double>(total) / n_labels;
-        heaviest_ = static_cast<std::int64_t>(mean * (1.0 + balance_tolerance));
-        lightest_ = static_cast<std::int64_t>(mean / (1.0 + balance_tolerance));
     }
 
     [[nodiscard]] bool is_beside_seam(Index f) const
@@ -60,30 +55,22 @@ class SeamShortener {
                 best = label;
         // A face with one edge to its part leaves the rest of it connected.
         if (best != own && shared_[own] > 1)
-            may_be_in_pieces_[own] = true;
+            may_be_divided_[own] = true;
         for (const Index label : candidates_)
             shared_[label] = 0;
-        weight_[own] -= face_weight(mesh_, f);
-        weight_[best] += face_weight(mesh_, f);
+        weight_.move(face_weight(mesh_, f), own, best);
         labels_[f] = best;
         return best != own;
     }
 
     /// One entry per label: whether faces have left the part that may have held it together.
-    [[nodiscard]] const std::vector<bool>& may_be_in_pieces() const { return may_be_in_pieces_; }
+    [[nodiscard]] const std::vector<bool>& may_be_divided() const { return may_be_divided_; }
 
   private:
     [[nodiscard]] bool may_move(Index f, Index from, Index to) const
     {
         const Index weight = face_weight(mesh_, f);
-        return relieves(f, from, to) || (weight_[to] + weight <= heaviest_ && weight_[from] - weight >= lightest_);
-    }
-
-    /// Whether a part that is too heavy would give a face to a lighter one, or one that is too light get it.
-    [[nodiscard]] bool relieves(Index f, Index from, Index to) const
-    {
-        return (weight_[from] > heaviest_ || weight_[to] < lightest_) &&
-               weight_[to] + face_weight(mesh_, f) < weight_[from];
+        return weight_.relieves(weight, from, to) || weight_.stay_balanced(weight, from, to);
     }
 
     /// Whether those vertices of f that no edge to a face of the part lies at have faces of f's own part alone, so that
@@ -104,7 +91,8 @@ class SeamShortener {
     /// Than to stay with, or go to, `other`.
     [[nodiscard]] bool is_better(Index f, Index label, Index other) const
     {
-        if (other == labels_[f] && shared_[label] + 1 == shared_[other] && relieves(f, other, label))
+        if (other == labels_[f] && shared_[label] + 1 == shared_[other] &&
+            weight_.relieves(face_weight(mesh_, f), other, label))
             return is_outermost(f, label);
         if (shared_[label] != shared_[other])
             return shared_[label] > shared_[other];
@@ -115,13 +103,10 @@ class SeamShortener {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    /// One entry per label.
-    std::vector<std::int64_t> weight_;
-    std::int64_t heaviest_ = 0;
-    std::int64_t lightest_ = 0;
+    PartWeights weight_;
     /// One entry per label, 0 between faces: how many edges the face in hand shares with the part.
     std::vector<Index> shared_;
-    std::vector<bool> may_be_in_pieces_;
+    std::vector<bool> may_be_divided_;
     std::vector<Index> candidates_;
 };
 
@@ -141,12 +126,11 @@ SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology
         for (const Index f : faces)
             if (shortener.improve(f))
                 for_each_neighbour(mesh, topology, f, [&](Index, Index g) { next.push_back(g); });
-        std::sort(next.begin(), next.end());
-        next.erase(std::unique(next.begin(), next.end()), next.end());
+        sort_unique(next);
         faces = std::move(next);
         suspected.insert(suspected.end(), faces.begin(), faces.end());
     }
-    return {.parts = shortener.may_be_in_pieces(), .faces = std::move(suspected)};
+    return {.parts = shortener.may_be_divided(), .faces = std::move(suspected)};
 }
 
 }  // namespace seamflow

@@ -12,8 +12,8 @@ namespace seamflow {
 /// Shortens the seams between parts, which at first follow the outlines of clusters: face by face, each goes to the
 /// part across most of its edges if fewer edges are cut then, or as many and the two parts differ less in weight (see
 /// face_weight). No part becomes too heavy (see balance_tolerance) or as much too light by this; a part that is either
-/// exchanges faces with its neighbours even where one edge more is cut. Parts may come out pinched or in pieces (see
-/// repair).
+/// exchanges faces with its neighbours even where one edge more is cut. Parts may come out pinched or not connected
+/// (see repair).
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
 /// @returns where defects may be now if all parts were connected before.
 SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels,

@@ -4,12 +4,31 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
-#include "partition/decomposition/transfers.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
 namespace seamflow {
+
+/// What one sub-mesh sends to another: the rows `source` of the sender's positions become the rows `target` of the
+/// receiver's. Both are local indices; entries correspond.
+struct Transfer {
+    Index from = -1;
+    Index to = -1;
+    std::vector<Index> source;
+    std::vector<Index> target;
+};
+
+/// One row of a transfer.
+struct TransferRow {
+    Index from;
+    Index source;
+    Index target;
+};
+
+/// Everything that sub-mesh `to` receives: one transfer from each sender, in ascending order. Rows of the same sender
+/// keep their order.
+std::vector<Transfer> transfers_to(Index to, std::vector<TransferRow> rows);
 
 /// A mesh cut into sub-meshes, and everything that has to pass between them between two steps. `adjacency` and `halo`
 /// may be emptied when they are no longer used.

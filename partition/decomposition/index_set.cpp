@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "partition/index_lists.h"
+
 namespace seamflow {
 
 namespace {
@@ -49,8 +51,7 @@ void IndexSet::fill_window(std::span<const Index> values, std::size_t width)
 void IndexSet::fill_slots(std::span<const Index> values)
 {
     ascending_.assign(values.begin(), values.end());
-    std::sort(ascending_.begin(), ascending_.end());
-    ascending_.erase(std::unique(ascending_.begin(), ascending_.end()), ascending_.end());
+    sort_unique(ascending_);
     // Two values at least are that far apart: the shift is not by all bits of the product.
     slots_.assign(std::bit_ceil(2 * ascending_.size()), Slot{-1, -1});
     shift_ = 64 - std::countr_zero(slots_.size());

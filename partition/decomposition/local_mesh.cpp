@@ -59,12 +59,6 @@ void mark_fixed(const Topology& topology, SubMesh& sub_mesh)
 
 }  // namespace
 
-void sort_unique(std::vector<Index>& values)
-{
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 Index position_in(std::span<const Index> ascending, Index value)
 {
     const auto found = std::lower_bound(ascending.begin(), ascending.end(), value);
@@ -118,6 +112,22 @@ void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& dr
     for (const Index neighbour : neighbours)
         seam.neighbours.values.push_back(draft.local(neighbour));
     seam.neighbours.close();
+}
+
+void list_sharing(const Topology& topology, std::span<const Index> labels, std::span<const SubMesh> sub_meshes,
+                  SubMeshInterface& interface, std::span<const Index> local_to_global)
+{
+    std::vector<Index> around;
+    for (const Index i : interface.vertices) {
+        const Index v = local_to_global[i];
+        labels_around(topology, labels, v, around);
+        for (const Index label : around) {
+            interface.sharing.values.push_back(label);
+            interface.index_in_sharing.values.push_back(local_index(sub_meshes[label], v));
+        }
+        interface.sharing.close();
+        interface.index_in_sharing.close();
+    }
 }
 
 }  // namespace seamflow

@@ -12,9 +12,6 @@
 /// What all sub-meshes are made of, whether they overlap or not.
 namespace seamflow {
 
-/// Sorts and leaves one of each.
-void sort_unique(std::vector<Index>& values);
-
 /// Position of `value` in the ascending range, or -1.
 Index position_in(std::span<const Index> ascending, Index value);
 
@@ -51,5 +48,10 @@ void append_halo(std::span<const Index> vertices, SubMeshDraft& draft);
 
 /// Notes a vertex of Γ, to be corrected after a step, and its edge neighbours, all of them in the sub-mesh or its halo.
 void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& draft);
+
+/// Fills in who shares each vertex of an interface: SubMeshInterface::sharing and index_in_sharing.
+/// @param labels #F. @param sub_meshes all of them. @param local_to_global of the sub-mesh with the interface.
+void list_sharing(const Topology& topology, std::span<const Index> labels, std::span<const SubMesh> sub_meshes,
+                  SubMeshInterface& interface, std::span<const Index> local_to_global);
 
 }  // namespace seamflow

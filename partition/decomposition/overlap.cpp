@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "partition/decomposition/local_mesh.h"
 #include "partition/labels.h"
@@ -49,33 +50,15 @@ void list_artificial_boundary(const Topology& topology, SubMesh& sub_mesh)
     }
 }
 
-/// The vertices of Γ in part s.
-std::vector<Index> list_seam(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap,
-                             std::span<const Index> faces)
+/// The vertices of these faces for which `holds`, as in the whole mesh, ascending.
+template <class Predicate>
+std::vector<Index> vertices_of(const PolygonMesh& mesh, std::span<const Index> faces, Predicate&& holds)
 {
-    std::vector<Index> seam;
+    std::vector<Index> vertices;
     for (const Index f : faces)
-        std::copy_if(mesh.face(f).begin(), mesh.face(f).end(), std::back_inserter(seam),
-                     [&](Index v) { return is_on_interface(topology, overlap.labels, v); });
-    sort_unique(seam);
-    return seam;
-}
-
-void list_sharing(const Topology& topology, const Overlap& overlap, std::span<const SubMesh> sub_meshes,
-                  SubMesh& sub_mesh)
-{
-    auto& interface = sub_mesh.interface;
-    std::vector<Index> parts;
-    for (const Index i : interface.vertices) {
-        const Index v = sub_mesh.local_to_global[i];
-        labels_around(topology, overlap.labels, v, parts);
-        for (const Index part : parts) {
-            interface.sharing.values.push_back(part);
-            interface.index_in_sharing.values.push_back(local_index(sub_meshes[part], v));
-        }
-        interface.sharing.close();
-        interface.index_in_sharing.close();
-    }
+        std::copy_if(mesh.face(f).begin(), mesh.face(f).end(), std::back_inserter(vertices), holds);
+    sort_unique(vertices);
+    return vertices;
 }
 
 /// Marks the vertices for which a sub-mesh speaks: those that may move and whose lowest label is its own.
@@ -102,7 +85,7 @@ std::vector<Transfer> list_halo_transfers(const Topology& topology, const Overla
             rows.push_back(
                 {parts.front(), local_index(sub_meshes[parts.front()], local_to_global[i]), static_cast<Index>(i)});
     }
-    return transfers_to(s, rows);
+    return transfers_to(s, std::move(rows));
 }
 
 void list_adjacent(Decomposition& decomposition)
@@ -135,7 +118,8 @@ std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const
 SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                                   std::vector<Index> faces)
 {
-    const std::vector<Index> seam = list_seam(mesh, topology, overlap, faces);
+    const std::vector<Index> seam =
+        vertices_of(mesh, faces, [&](Index v) { return is_on_interface(topology, overlap.labels, v); });
     SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, overlap, s, std::move(faces)));
     mark_owned(topology, overlap.labels, s, draft.sub_mesh);
     list_artificial_boundary(topology, draft.sub_mesh);
@@ -158,7 +142,7 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
     Decomposition decomposition;
     for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s) {
         SubMesh& sub_mesh = sub_meshes[s];
-        list_sharing(topology, overlap, sub_meshes, sub_mesh);
+        list_sharing(topology, overlap.labels, sub_meshes, sub_mesh.interface, sub_mesh.local_to_global);
         decomposition.halo.push_back(list_halo_transfers(topology, overlap, s, sub_meshes));
         for (const Index v : sub_mesh.seam.vertices)
             decomposition.n_interface_vertices += sub_mesh.owned[v];
@@ -168,25 +152,23 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
     return decomposition;
 }
 
-SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::span<const Index> rank)
+GrownPart make_grown_part(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, int reach, Index s,
+                          std::vector<Index> faces)
 {
-    SweepPlan plan = empty_plan({rank.begin(), rank.end()});
-    for (Index s = 0; s < static_cast<Index>(rank.size()); ++s) {
-        const auto& interface = decomposition.sub_meshes[s].interface;
-        plan.roles[s].assign(interface.vertices.size(), InterfaceRole::Follows);
-        std::vector<TransferRow> rows;
-        for (Index i = 0; i < interface.size(); ++i) {
-            const auto parts = interface.sharing[i];
-            const auto first =
-                std::min_element(parts.begin(), parts.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
-            if (rank[*first] >= rank[s])
-                continue;
-            rows.push_back({*first, interface.index_in_sharing[i][static_cast<Index>(first - parts.begin())],
-                            interface.vertices[i]});
-        }
-        plan.traces[s] = transfers_to(s, rows);
+    GrownPart part;
+    std::vector<Index> grown = grow(mesh, topology, overlap, s, std::move(faces));
+    part.unknowns = vertices_of(mesh, grown, [&](Index v) { return topology.moves(v); });
+    const Overlap beyond{overlap.labels, overlap.rank, reach};
+    SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, beyond, s, std::move(grown)));
+    part.sub_mesh = std::move(draft.sub_mesh);
+    part.sub_mesh.owned.assign(part.sub_mesh.n_vertices, 0);
+    std::vector<Index> labels;
+    for (Index& v : part.unknowns) {
+        labels_around(topology, overlap.labels, v, labels);
+        v = draft.vertices[v];
+        part.sub_mesh.owned[v] = labels.front() == s ? 1 : 0;
     }
-    return plan;
+    return part;
 }
 
 }  // namespace seamflow

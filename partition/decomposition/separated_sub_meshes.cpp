@@ -1,6 +1,7 @@
 #include "partition/decomposition/separated_sub_meshes.h"
 
 #include <cstdint>
+#include <numeric>
 
 namespace seamflow {
 
@@ -33,8 +34,7 @@ SeparatedSubMeshes separate(const PolygonMesh& mesh, const Decomposition& decomp
     separated.mesh.face_offsets = mesh.face_offsets;
     separated.mesh.face_vertices = mesh.face_vertices;
     std::vector<Index> originals(mesh.n_vertices());
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        originals[v] = v;
+    std::iota(originals.begin(), originals.end(), 0);
     std::vector<std::uint8_t> taken(mesh.n_vertices(), 0);
     for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
         const auto& vertex_of = separated.vertex_of.emplace_back(number_vertices(sub_mesh, taken, originals));
@@ -44,9 +44,7 @@ SeparatedSubMeshes separate(const PolygonMesh& mesh, const Decomposition& decomp
                 separated.mesh.face_vertices[mesh.face_offsets[sub_mesh.faces[f]] + k] = vertex_of[corners[k]];
         }
     }
-    separated.mesh.vertices.resize(static_cast<Eigen::Index>(originals.size()), 3);
-    for (std::size_t v = 0; v < originals.size(); ++v)
-        separated.mesh.vertices.row(static_cast<Eigen::Index>(v)) = mesh.vertices.row(originals[v]);
+    separated.mesh.vertices = mesh.vertices(originals, Eigen::all);
     return separated;
 }
 

@@ -8,28 +8,33 @@ namespace seamflow {
 
 namespace {
 
-/// Position, among the sub-meshes at a vertex of Γ, of the one that solves first.
-std::size_t leader_among(std::span<const Index> sharing, const std::vector<Index>& rank)
-{
-    const auto leader =
-        std::min_element(sharing.begin(), sharing.end(), [&](Index s, Index t) { return rank[s] < rank[t]; });
-    return static_cast<std::size_t>(leader - sharing.begin());
-}
-
-void plan_sub_mesh(const Decomposition& decomposition, Index s, SweepPlan& plan)
+/// What sub-mesh s takes over at the vertices of its Γ at which another one solves before it.
+std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, const std::vector<Index>& rank)
 {
     const auto& interface = decomposition.sub_meshes[s].interface;
     std::vector<TransferRow> rows;
-    plan.roles[s].reserve(interface.size());
     for (Index i = 0; i < interface.size(); ++i) {
-        const std::size_t first = leader_among(interface.sharing[i], plan.rank);
-        const Index leader = interface.sharing[i][first];
-        plan.roles[s].push_back(leader == s ? InterfaceRole::Leads : InterfaceRole::Follows);
-        assert((leader == s || plan.rank[leader] < plan.rank[s]) && "adjacent sub-meshes have different ranks");
-        if (leader != s)
-            rows.push_back({leader, interface.index_in_sharing[i][first], interface.vertices[i]});
+        const auto sharing = interface.sharing[i];
+        const auto leader = std::ranges::min_element(sharing, {}, [&](Index t) { return rank[t]; });
+        if (rank[*leader] < rank[s])
+            rows.push_back({*leader, interface.index_in_sharing[i][static_cast<std::size_t>(leader - sharing.begin())],
+                            interface.vertices[i]});
     }
-    plan.traces[s] = transfers_to(s, rows);
+    return transfers_to(s, std::move(rows));
+}
+
+/// Sub-mesh s leads where it solves first.
+std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s, const std::vector<Index>& rank)
+{
+    std::vector<InterfaceRole> roles;
+    roles.reserve(interface.vertices.size());
+    for (Index i = 0; i < interface.size(); ++i) {
+        assert(std::ranges::none_of(interface.sharing[i], [&](Index t) { return t != s && rank[t] == rank[s]; }) &&
+               "adjacent sub-meshes have different ranks");
+        const bool leads = std::ranges::none_of(interface.sharing[i], [&](Index t) { return rank[t] < rank[s]; });
+        roles.push_back(leads ? InterfaceRole::Leads : InterfaceRole::Follows);
+    }
+    return roles;
 }
 
 /// The sub-mesh, other than s itself, that speaks for a vertex beyond Γ: the lowest of those at a vertex of Γ, of which
@@ -112,7 +117,7 @@ void plan_predictions(const Decomposition& decomposition, Index s, SweepPlan& pl
         }
     }
     std::erase_if(senders, [](const TransferRow& row) { return row.from < 0; });
-    plan.predictions[s] = transfers_to(s, senders);
+    plan.predictions[s] = transfers_to(s, std::move(senders));
 }
 
 std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
@@ -123,7 +128,7 @@ std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
         for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
             if (const Index t = interface.sharing[i][k]; t != s)
                 rows.push_back({t, interface.index_in_sharing[i][k], interface.vertices[i]});
-    return transfers_to(s, rows);
+    return transfers_to(s, std::move(rows));
 }
 
 }  // namespace
@@ -154,9 +159,20 @@ SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank
 {
     SweepPlan plan = empty_plan(std::move(rank));
     for_each(loop, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
-        plan_sub_mesh(decomposition, s, plan);
+        plan.traces[s] = list_traces(decomposition, s, plan.rank);
+        plan.roles[s] = list_roles(decomposition.sub_meshes[s].interface, s, plan.rank);
         plan_predictions(decomposition, s, plan);
     });
+    return plan;
+}
+
+SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::vector<Index> rank)
+{
+    SweepPlan plan = empty_plan(std::move(rank));
+    for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
+        plan.roles[s].assign(decomposition.sub_meshes[s].interface.vertices.size(), InterfaceRole::Follows);
+        plan.traces[s] = list_traces(decomposition, s, plan.rank);
+    }
     return plan;
 }
 

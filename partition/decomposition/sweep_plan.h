@@ -50,4 +50,9 @@ SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank
 SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank,
                             const Loop& loop = run_serially);
 
+/// Plans the sweep of sub-meshes that overlap (see overlap.h), in the order for which the decomposition was made:
+/// everyone follows everywhere on its interface. The traces bring V^{k+1} where the part of lowest rank at the vertex
+/// solves before; elsewhere V^k holds.
+SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::vector<Index> rank);
+
 }  // namespace seamflow

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
@@ -39,15 +42,13 @@ std::string_view trimmed(std::string_view line)
 /// "path:line: ", with which messages about a line begin.
 std::string place_of_line(const std::filesystem::path& path, std::size_t line)
 {
-    return path.string() + ":" + std::to_string(line) + ": ";
+    return fmt::format("{}:{}: ", path.string(), line);
 }
 
 [[noreturn]] void refuse_line(const std::filesystem::path& path, std::size_t line, std::string_view text,
                               const std::string& why)
 {
-    std::string message = place_of_line(path, line);
-    message.append("'").append(text.substr(0, 40)).append("' ").append(why);
-    throw InputError(message);
+    throw InputError(fmt::format("{}'{}' {}", place_of_line(path, line), text.substr(0, 40), why));
 }
 
 Index parse_index(std::string_view text, const std::filesystem::path& path, std::size_t line, const IndexWords& words)
@@ -57,9 +58,9 @@ Index parse_index(std::string_view text, const std::filesystem::path& path, std:
     if (error == std::errc::result_out_of_range)
         refuse_line(path, line, text, "is too large or too small: use numbers from 0 to 2147483647");
     if (error != std::errc() || end != text.data() + text.size())
-        refuse_line(path, line, text, std::string("is not ") + words.name + ": " + words.remedy);
+        refuse_line(path, line, text, fmt::format("is not {}: {}", words.name, words.remedy));
     if (value < 0)
-        refuse_line(path, line, text, std::string("is negative: ") + words.negative);
+        refuse_line(path, line, text, fmt::format("is negative: {}", words.negative));
     return value;
 }
 
@@ -94,13 +95,12 @@ std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertice
     std::vector<Index> vertices;
     read_lines(path, words, [&](Index v, std::size_t line) {
         if (v >= n_vertices)
-            throw InputError(place_of_line(path, line) + "there is no vertex " + std::to_string(v) + ": the mesh has " +
-                             std::to_string(n_vertices) +
-                             ", numbered from 0; use the file with the mesh it belongs to");
+            throw InputError(fmt::format("{}there is no vertex {}: the mesh has {}, numbered from 0; use the file with "
+                                         "the mesh it belongs to",
+                                         place_of_line(path, line), v, n_vertices));
         vertices.push_back(v);
     });
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 
@@ -112,9 +112,9 @@ void require_property(const TextScanner& scanner, const PlyHeader& header, Index
         scanner.fail("the file has no vertices; use one with the mesh's vertices and their property " +
                      in_quotes(property));
     if (element->count != static_cast<std::uint64_t>(n_vertices))
-        throw InputError(scanner.position_of(element->line) + ": the file has " + std::to_string(element->count) +
-                         " vertices, but the mesh has " + std::to_string(n_vertices) +
-                         "; use it with the mesh it belongs to");
+        throw InputError(
+            fmt::format("{}: the file has {} vertices, but the mesh has {}; use it with the mesh it belongs to",
+                        scanner.position_of(element->line), element->count, n_vertices));
     const auto found = std::find_if(element->properties.begin(), element->properties.end(),
                                     [&](const PlyProperty& p) { return p.name == property; });
     if (found == element->properties.end() || found->length_type) {
@@ -127,42 +127,29 @@ void require_property(const TextScanner& scanner, const PlyHeader& header, Index
     }
 }
 
-/// Passes over a property of one element.
-template <class Source>
-void pass_over(Source& source, const PlyProperty& property)
-{
-    const std::int64_t n = property.length_type ? source.integer(*property.length_type) : 1;
-    if (n < 0)
-        source.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
-                               "; export the file again");
-    source.require_room(property.type, n);
-    source.pass_over(property.type, n);
-}
-
+/// @param header has vertices with a number of the wanted name.
 template <class Source>
 std::vector<Index> from_elements(Source source, const PlyHeader& header, std::string_view wanted)
 {
+    const PlyElement* element = header.elements.data();
+    for (; element->name != "vertex"; ++element)
+        for (std::uint64_t e = 0; e < element->count; ++e)
+            pass_over(source, *element, e, "file");
     std::vector<Index> vertices;
-    for (const PlyElement& element : header.elements) {
-        const bool has_vertices = element.name == "vertex";
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-            source.begin_element(element, i);
-            for (const PlyProperty& property : element.properties) {
-                if (!has_vertices || property.name != wanted) {
-                    pass_over(source, property);
-                    continue;
-                }
-                const double value = source.number(property.type);
-                if (std::isnan(value))
-                    source.position().fail(in_quotes(property.name) + " is not a number; write 0 or 1 for each vertex");
-                if (value != 0.0)
-                    vertices.push_back(static_cast<Index>(i));
+    for (std::uint64_t v = 0; v < element->count; ++v) {
+        source.begin_element(*element, v);
+        for (const PlyProperty& property : element->properties) {
+            if (property.name != wanted) {
+                pass_over(source, property, "file");
+                continue;
             }
-            source.end_element();
+            const double value = source.number(property.type);
+            if (std::isnan(value))
+                source.position().fail(in_quotes(property.name) + " is not a number; write 0 or 1 for each vertex");
+            if (value != 0.0)
+                vertices.push_back(static_cast<Index>(v));
         }
-        // What follows does not matter.
-        if (has_vertices)
-            break;
+        source.end_element();
     }
     return vertices;
 }
@@ -173,10 +160,8 @@ std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices,
     TextScanner scanner(path, file.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_property(scanner, header, n_vertices, property);
-    if (header.encoding == Encoding::Ascii)
-        return from_elements(PlyTextSource(scanner), header, property);
-    const std::size_t begin = file.content().size() - scanner.rest().size();
-    return from_elements(PlyBinarySource(path, file.content(), begin, header.encoding), header, property);
+    return with_source(scanner, path, file.content(), header.encoding,
+                       [&](auto source) { return from_elements(std::move(source), header, property); });
 }
 
 }  // namespace
@@ -191,15 +176,15 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
     std::vector<Index> labels;
     const std::size_t n_lines = read_lines(path, words, [&](Index label, std::size_t line) {
         if (labels.size() == static_cast<std::size_t>(n_faces))
-            throw InputError(place_of_line(path, line) + "more labels than the mesh has faces (" +
-                             std::to_string(n_faces) +
-                             "): remove the surplus, or use the labels with the mesh they belong to");
+            throw InputError(fmt::format("{}more labels than the mesh has faces ({}): remove the surplus, or use the "
+                                         "labels with the mesh they belong to",
+                                         place_of_line(path, line), n_faces));
         labels.push_back(label);
     });
     if (labels.size() != static_cast<std::size_t>(n_faces))
-        throw InputError(place_of_line(path, std::max<std::size_t>(n_lines, 1)) + "the file ends after " +
-                         std::to_string(labels.size()) + " of " + std::to_string(n_faces) +
-                         " labels: give one for each face, or use the labels with the mesh they belong to");
+        throw InputError(fmt::format("{}the file ends after {} of {} labels: give one for each face, or use the labels "
+                                     "with the mesh they belong to",
+                                     place_of_line(path, std::max<std::size_t>(n_lines, 1)), labels.size(), n_faces));
     return labels;
 }
 

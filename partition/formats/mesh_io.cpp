@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
-#include "partition/formats/extras.h"
-#include "partition/formats/mesh_source.h"
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
@@ -18,6 +20,97 @@
 #include "partition/io/output_file.h"
 
 namespace seamflow {
+
+namespace {
+
+/// A number in which the length and all bytes have a part, the same for different bytes by accident alone (1 in 2^64).
+std::uint64_t checksum(std::string_view bytes)
+{
+    constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;
+    std::uint64_t sum = bytes.size();
+    while (!bytes.empty()) {
+        std::uint64_t word = 0;
+        const std::size_t n = std::min(bytes.size(), sizeof word);
+        std::memcpy(&word, bytes.data(), n);
+        sum = (sum ^ word) * odd;
+        sum ^= sum >> 32U;
+        bytes.remove_prefix(n);
+    }
+    return sum;
+}
+
+std::uint64_t checksum_of_faces(const PolygonMesh& mesh)
+{
+    const auto of = [](const std::vector<Index>& list) {
+        return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)});
+    };
+    return of(mesh.face_offsets) + 3 * of(mesh.face_vertices);
+}
+
+}  // namespace
+
+/// A mesh file that has been read, kept open and not in memory, so that it can serve as the form for a file with other
+/// positions. Renaming, replacing or removing it does no harm; a change within it is noticed.
+class MeshSource {
+  public:
+    /// @param content of the file. @param mesh, kind what was read from it.
+    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind)
+        : file_(std::move(file))
+        , kind_(kind)
+        , content_checksum_(checksum(content))
+        , n_vertices_(mesh.n_vertices())
+        , n_faces_(mesh.n_faces())
+        , faces_checksum_(checksum_of_faces(mesh))
+    {
+    }
+
+    /// As it was read, for messages.
+    [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+
+    [[nodiscard]] const FileKind& kind() const { return kind_; }
+
+    /// Reads the file again.
+    /// @throws InputError if it does not hold the same bytes any more.
+    [[nodiscard]] InputFile read_again() const;
+
+    /// Checks that the mesh has as many vertices as the file, and the same faces.
+    /// @param path where the mesh is to be written, for the message.
+    /// @throws OutputError
+    void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh) const;
+
+  private:
+    OpenFile file_;
+    FileKind kind_;
+    std::uint64_t content_checksum_;
+    Index n_vertices_;
+    Index n_faces_;
+    std::uint64_t faces_checksum_;
+};
+
+InputFile MeshSource::read_again() const
+{
+    InputFile input(file_);
+    if (checksum(input.content()) != content_checksum_)
+        throw InputError(
+            path().string() +
+            ": the file has been changed since it was read, so that what it holds besides positions cannot "
+            "be taken over; leave it alone until the result is written");
+    return input;
+}
+
+void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh) const
+{
+    const auto refuse = [&](std::string_view why) {
+        throw OutputError(
+            fmt::format("{}: cannot be written in the form of {}: the mesh has {}; write it without that form",
+                        path.string(), file_.path().string(), why));
+    };
+    if (mesh.n_vertices() != n_vertices_ || mesh.n_faces() != n_faces_)
+        refuse(fmt::format("{} vertices and {} faces, but that file {} and {}", mesh.n_vertices(), mesh.n_faces(),
+                           n_vertices_, n_faces_));
+    if (checksum_of_faces(mesh) != faces_checksum_)
+        refuse("other faces than that file");
+}
 
 namespace {
 
@@ -127,8 +220,8 @@ const Format& require_format(const std::filesystem::path& path)
 {
     if (const Format* const format = format_named_by(path))
         return *format;
-    throw Error(path.string() + ": the extension '" + path.extension().string() + "' is none of " +
-                extensions_of(FormatGroup::All) + "; give the file the extension of its format");
+    throw Error(fmt::format("{}: the extension '{}' is none of {}; give the file the extension of its format",
+                            path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
 }
 
 MeshFile read_known(const std::filesystem::path& path, const Format& format)
@@ -160,7 +253,7 @@ void require_encoding(const Format& format, Encoding encoding)
         return;
     std::vector<std::string_view> names{"Ascii", "BinaryLittleEndian", "BinaryBigEndian"};
     names.resize(static_cast<std::size_t>(format.last_encoding) + 1);
-    throw OptionError("encoding must be " + choice_of(names) + " for " + format.name + " files");
+    throw OptionError(fmt::format("encoding must be {} for {} files", choice_of(names), format.name));
 }
 
 /// Whatever is written can be read again.
@@ -252,8 +345,9 @@ void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& me
 {
     require_readable(path, mesh);
     if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
-        throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(labels.size()) +
-                          " labels for " + std::to_string(mesh.n_faces()) + " faces; give one label for each face");
+        throw OutputError(
+            fmt::format("{}: cannot be written: there are {} labels for {} faces; give one label for each face",
+                        path.string(), labels.size(), mesh.n_faces()));
     OutputFile file(path);
     write_ply(file, mesh, Encoding::BinaryLittleEndian, {.face_labels = labels});
     file.commit();
@@ -265,8 +359,9 @@ void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh
     require_readable(path, mesh);
     const auto require_each = [&](std::size_t count, const std::string& what) {
         if (count != at(mesh.n_vertices()))
-            throw OutputError(path.string() + ": cannot be written: there are " + std::to_string(count) + " " + what +
-                              " for " + std::to_string(mesh.n_vertices()) + " vertices; give one for each vertex");
+            throw OutputError(
+                fmt::format("{}: cannot be written: there are {} {} for {} vertices; give one for each vertex",
+                            path.string(), count, what, mesh.n_vertices()));
     };
     require_each(colours.size(), "colours");
     for (const VertexValues& list : values)

@@ -1,32 +1,18 @@
 #include "partition/formats/obj.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "partition/errors.h"
+#include <fmt/format.h>
+
 #include "partition/io/mesh_builder.h"
 
 namespace seamflow {
 
 namespace {
-
-/// What a line of the file is about.
-enum class Statement {
-    Vertex,
-    Face,
-    /// Texture coordinates, normals, groups, materials, points, lines, … and whatever else this reader has no use for.
-    Other
-};
-
-Statement statement_of(std::string_view keyword)
-{
-    if (keyword == "v")
-        return Statement::Vertex;
-    if (is_obj_face(keyword))
-        return Statement::Face;
-    return Statement::Other;
-}
 
 /// A vertex that a face named before the file defined it.
 struct ForwardReference {
@@ -46,16 +32,11 @@ class ObjReader {
     PolygonMesh read()
     {
         while (scanner_.next_line()) {
-            switch (statement_of(scanner_.token())) {
-            case Statement::Vertex:
+            // Texture coordinates, normals, groups, materials, points, lines, … are of no use here.
+            if (const std::string_view keyword = scanner_.token(); keyword.size() == 1 && keyword[0] == 'v')
                 read_vertex();
-                break;
-            case Statement::Face:
+            else if (is_obj_face(keyword))
                 read_face();
-                break;
-            case Statement::Other:
-                break;
-            }
         }
         require_no_open_reference();
         return builder_.finish();
@@ -77,17 +58,12 @@ class ObjReader {
 
 void ObjReader::read_vertex()
 {
-    const double x = scanner_.real("coordinate x");
-    const double y = scanner_.real("coordinate y");
-    const double z = scanner_.real("coordinate z");
-    constexpr int most_further_numbers = 5;
-    int further_numbers = 0;
-    while (!scanner_.token().empty())
-        ++further_numbers;
-    if (further_numbers > most_further_numbers)
+    const auto position = scanner_.coordinates();
+    constexpr std::size_t most_further_numbers = 5;
+    if (scanner_.pass_over_rest() > most_further_numbers)
         scanner_.fail("a vertex has 3 coordinates, perhaps a weight and a colour after them, but this line goes on; "
                       "put each vertex on a line of its own");
-    builder_.add_vertex(x, y, z);
+    builder_.add_vertex(position);
 }
 
 void ObjReader::read_face()
@@ -104,9 +80,10 @@ Index ObjReader::read_corner()
     pass_over_attributes();
     const std::int64_t n = builder_.n_vertices();
     if (number < -n) {
-        scanner_.fault("names vertex " + std::to_string(number) + ", counted back from this line, but only " +
-                       counted(static_cast<std::uint64_t>(n), "vertex precedes", "vertices precede") +
-                       " it; correct the face or export the mesh again");
+        scanner_.fault(fmt::format("names vertex {}, counted back from this line, but only {} it; correct the face or "
+                                   "export the mesh again",
+                                   number,
+                                   counted(static_cast<std::uint64_t>(n), "vertex precedes", "vertices precede")));
         return -1;
     }
     if (number == 0) {
@@ -142,9 +119,28 @@ void ObjReader::require_no_open_reference() const
     for (const auto& [vertex, line] : forward_references_)
         if (vertex >= n)
             scanner_.fault_at(scanner_.position_of(line),
-                              "names vertex " + std::to_string(std::int64_t{vertex} + 1) + ", but the file has only " +
-                                  counted(static_cast<std::uint64_t>(n), "vertex", "vertices") +
-                                  "; correct the face or export the mesh again");
+                              fmt::format("names vertex {}, but the file has only {}; correct the face or export the "
+                                          "mesh again",
+                                          std::int64_t{vertex} + 1, counted(at(n), "vertex", "vertices")));
+}
+
+std::string_view extra_of_statement(std::string_view keyword)
+{
+    using Entry = std::pair<std::string_view, std::string_view>;
+    constexpr std::array<Entry, 10> known = {Entry{"vt", "texture coordinates"},
+                                             Entry{"vn", "normals"},
+                                             Entry{"mtllib", "materials"},
+                                             Entry{"usemtl", "materials"},
+                                             Entry{"g", "groups"},
+                                             Entry{"o", "groups"},
+                                             Entry{"s", "smoothing groups"},
+                                             Entry{"p", "points"},
+                                             Entry{"l", "lines"},
+                                             Entry{"vp", "curves"}};
+    for (const auto& [name, extra] : known)
+        if (keyword == name)
+            return extra;
+    return "other statements";
 }
 
 }  // namespace
@@ -156,22 +152,34 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, F
 
 void write_obj(OutputFile& file, const PolygonMesh& mesh)
 {
-    for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        file.text("v");
-        for (Index k = 0; k < 3; ++k) {
-            file.text(" ");
-            file.number(mesh.vertices(v, k));
-        }
-        file.text("\n");
-    }
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        file.line("v", mesh.vertices.row(v));
+    std::vector<std::int64_t> numbers;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
-        file.text("f");
-        for (const Index v : mesh.face(f)) {
-            file.text(" ");
-            file.number(std::int64_t{v} + 1);
-        }
-        file.text("\n");
+        numbers.assign(mesh.face(f).begin(), mesh.face(f).end());
+        for (std::int64_t& number : numbers)
+            ++number;
+        file.line("f", numbers);
     }
+}
+
+std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text)
+{
+    TextScanner scanner(path, text, obj_syntax);
+    std::vector<std::string> extras;
+    while (scanner.next_line()) {
+        const std::string_view keyword = scanner.token();
+        if (is_obj_face(keyword))
+            continue;
+        if (keyword != "v") {
+            add_once(extras, extra_of_statement(keyword));
+            continue;
+        }
+        const std::size_t n = scanner.pass_over_rest();
+        if (n > 3)
+            add_once(extras, n > 5 ? "colours" : "weights");
+    }
+    return extras;
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/index_lists.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/text_scanner.h"
@@ -17,7 +18,7 @@ inline constexpr TextSyntax obj_syntax = {.comment = '#', .continuation = true};
 /// Whether a line that begins with this word describes a face.
 inline bool is_obj_face(std::string_view keyword)
 {
-    return keyword == "f" || keyword == "fo";
+    return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
 }
 
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
@@ -39,5 +40,14 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh);
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
                                      const PolygonMesh& mesh);
+
+/// The corners of faces, numbered as in PolygonMesh::face_vertices, that name each normal (`vn`) of a file that
+/// `read_obj` has read, in ascending order. Numbers of normals that there are not do not count.
+/// @param path for messages only.
+IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text);
+
+/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// @param path for messages only.
+std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace seamflow

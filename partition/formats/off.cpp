@@ -1,17 +1,100 @@
 #include "partition/formats/off.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "partition/formats/off_binary.h"
-#include "partition/formats/off_header.h"
+#include <fmt/format.h>
+
+#include "partition/formats/splicing.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
 
 namespace {
+
+/// The beginning of a text OFF file.
+struct OffHeader {
+    /// What stands before OFF: ST, C, N together mean texture coordinates, colours and normals of the vertices.
+    std::string_view prefix;
+    std::int64_t n_vertices = 0;
+    std::int64_t n_faces = 0;
+
+    [[nodiscard]] bool has_normals() const { return prefix.ends_with('N'); }
+};
+
+bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+void require_known_variant(const TextScanner& scanner, std::string_view prefix)
+{
+    if (prefix.find_first_of("4n") != std::string_view::npos)
+        scanner.fail(in_quotes(std::string(prefix) + "OFF") +
+                     " files, whose vertices have not just three coordinates, cannot be read; convert the mesh to OFF");
+    constexpr std::array<std::string_view, 8> known = {"", "C", "N", "CN", "ST", "STC", "STN", "STCN"};
+    if (std::find(known.begin(), known.end(), prefix) == known.end())
+        scanner.fail("the keyword " + in_quotes(std::string(prefix) + "OFF") +
+                     " is unknown; convert the mesh to OFF, COFF or NOFF");
+}
+
+/// @returns what stands before OFF.
+std::string_view read_keyword(TextScanner& scanner)
+{
+    if (!scanner.next_line())
+        scanner.fail("the file holds no mesh, only comments or blanks; export the mesh again");
+    const auto word = scanner.peek();
+    if (std::all_of(word.begin(), word.end(), is_digit))
+        return {};
+    const auto off = word.find("OFF");
+    if (off == std::string_view::npos || (word.size() > off + 3 && !is_digit(word[off + 3])))
+        scanner.fail("the file begins with " + in_quotes(word) +
+                     " and not with OFF; if it has another format, give it that format's extension");
+    const std::string_view prefix = word.substr(0, off);
+    require_known_variant(scanner, prefix);
+    scanner.skip(off + 3);
+    if (scanner.peek() == "BINARY")
+        scanner.fail(
+            "binary OFF files with more than coordinates and faces cannot be read; convert the mesh to text OFF "
+            "or to PLY");
+    return prefix;
+}
+
+/// @param size of the file, in bytes. @param shortest_line the fewest characters in which a vertex or a face can be
+/// written, with the line end.
+std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* what, std::int64_t shortest_line)
+{
+    const std::int64_t n = scanner.integer(what);
+    if (n < 0 || n > (size + 1) / shortest_line)
+        scanner.fail(fmt::format("{} is {}, but a file of {} bytes cannot hold so many; correct the header, or export "
+                                 "the mesh again if it was cut off",
+                                 what, n, size));
+    return n;
+}
+
+/// Reads from the beginning of the file to the end of the counts.
+/// @throws InputError naming the line; also for vertices that have not three coordinates, and for counts that the file
+///         is too short for.
+OffHeader read_off_header(TextScanner& scanner)
+{
+    const auto size = static_cast<std::int64_t>(scanner.rest().size());
+    OffHeader header;
+    header.prefix = read_keyword(scanner);
+    if (!scanner.has_token() && !scanner.next_line())
+        scanner.fail("the file ends before the numbers of vertices and faces; export the mesh again");
+    header.n_vertices = read_count(scanner, size, "the number of vertices", 6);
+    header.n_faces = read_count(scanner, size, "the number of faces", 4);
+    if (scanner.has_token())
+        scanner.integer("the number of edges");
+    if (scanner.has_token())
+        scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found " +
+                     in_quotes(scanner.peek()) + "; correct the header");
+    return header;
+}
 
 class OffReader {
   public:
@@ -26,7 +109,6 @@ class OffReader {
 
   private:
     void next_line(const char* what, std::int64_t i, std::int64_t n);
-    void read_vertex();
     void read_face();
 
     TextScanner scanner_;
@@ -41,32 +123,25 @@ PolygonMesh OffReader::read()
     builder_.reserve(static_cast<std::uint64_t>(header_.n_vertices), static_cast<std::uint64_t>(header_.n_faces));
     for (std::int64_t v = 0; v < header_.n_vertices; ++v) {
         next_line("vertices", v, header_.n_vertices);
-        read_vertex();
+        builder_.add_vertex(scanner_.coordinates());
     }
     for (std::int64_t f = 0; f < header_.n_faces; ++f) {
         next_line("faces", f, header_.n_faces);
         read_face();
     }
     if (scanner_.next_line())
-        scanner_.fail("the file goes on after the " + std::to_string(header_.n_vertices) + " vertices and " +
-                      std::to_string(header_.n_faces) +
-                      " faces that its header announces; correct the counts in the header");
+        scanner_.fail(fmt::format("the file goes on after the {} vertices and {} faces that its header announces; "
+                                  "correct the counts in the header",
+                                  header_.n_vertices, header_.n_faces));
     return builder_.finish();
 }
 
 void OffReader::next_line(const char* what, std::int64_t i, std::int64_t n)
 {
     if (!scanner_.next_line())
-        scanner_.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " " + what +
-                      "; it has been cut off, or the counts in its header are wrong: export the mesh again");
-}
-
-void OffReader::read_vertex()
-{
-    const double x = scanner_.real("coordinate x");
-    const double y = scanner_.real("coordinate y");
-    const double z = scanner_.real("coordinate z");
-    builder_.add_vertex(x, y, z);
+        scanner_.fail(fmt::format("the file ends after {} of {} {}; it has been cut off, or the counts in its header "
+                                  "are wrong: export the mesh again",
+                                  i, n, what));
 }
 
 void OffReader::read_face()
@@ -77,6 +152,33 @@ void OffReader::read_face()
         corners_.push_back(
             builder_.vertex(scanner_.integer("the vertices of all corners of the face"), header_.n_vertices));
     builder_.add_face(corners_);
+}
+
+void rewrite_text(Splicer& splicer, TextScanner& scanner, const PolygonMesh& mesh,
+                  const std::optional<MovedNormals>& normals)
+{
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        scanner.next_line();
+        exchange_position(scanner, splicer, mesh.vertices.row(v));
+        if (!normals)
+            continue;
+        const WrittenNormal given = read_normal(scanner);
+        if (const auto now = normals->around_vertex(v, given.value))
+            exchange_normal(splicer, given, *now);
+    }
+    splicer.finish();
+}
+
+/// The kinds of the numbers after the coordinates, by the keyword of the file.
+void add_extras_of_keyword(std::vector<std::string>& extras, const OffHeader& header)
+{
+    const std::string_view prefix = header.prefix;
+    if (prefix.find("ST") != std::string_view::npos)
+        add_once(extras, "texture coordinates");
+    if (prefix.find('C') != std::string_view::npos)
+        add_once(extras, "colours");
+    if (header.has_normals())
+        add_once(extras, "normals");
 }
 
 }  // namespace
@@ -101,24 +203,49 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, F
 void write_off(OutputFile& file, const PolygonMesh& mesh)
 {
     file.text("OFF\n");
-    file.number(mesh.n_vertices());
-    file.text(" ");
-    file.number(mesh.n_faces());
-    file.text(" 0\n");
-    for (Index v = 0; v < mesh.n_vertices(); ++v) {
-        for (Index k = 0; k < 3; ++k) {
-            file.number(mesh.vertices(v, k));
-            file.text(k < 2 ? " " : "\n");
-        }
-    }
+    file.line("", std::array{mesh.n_vertices(), mesh.n_faces(), 0});
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        file.line("", mesh.vertices.row(v));
+    std::vector<Index> numbers;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
-        file.number(mesh.face(f).size());
-        for (const Index v : mesh.face(f)) {
-            file.text(" ");
-            file.number(v);
-        }
-        file.text("\n");
+        numbers.assign(1, static_cast<Index>(mesh.face(f).size()));
+        numbers.insert(numbers.end(), mesh.face(f).begin(), mesh.face(f).end());
+        file.line("", numbers);
     }
+}
+
+std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                     const PolygonMesh& mesh)
+{
+    if (const auto data = start_of_binary_off(content)) {
+        if (rewrite_binary_off(file, content, *data, mesh))
+            return {rounding_remark(path)};
+        return {};
+    }
+    TextScanner scanner(path, content);
+    std::optional<MovedNormals> normals;
+    if (read_off_header(scanner).has_normals())
+        normals.emplace(mesh, read_off(path, content).vertices);
+    Splicer splicer(file, content);
+    rewrite_text(splicer, scanner, mesh, normals);
+    return {};
+}
+
+std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content)
+{
+    std::vector<std::string> extras;
+    if (start_of_binary_off(content))
+        return extras;
+    TextScanner scanner(path, content);
+    const OffHeader header = read_off_header(scanner);
+    add_extras_of_keyword(extras, header);
+    for (std::int64_t v = 0; v < header.n_vertices && scanner.next_line(); ++v)
+        if (scanner.pass_over_rest() > 3 && header.prefix.empty())
+            add_once(extras, "further numbers of vertices");
+    for (std::int64_t f = 0; f < header.n_faces && scanner.next_line(); ++f)
+        if (const std::int64_t n = scanner.integer("corners"); scanner.pass_over_rest() > static_cast<std::size_t>(n))
+            add_once(extras, "colours of faces");
+    return extras;
 }
 
 }  // namespace seamflow

@@ -32,7 +32,27 @@ void write_off(OutputFile& file, const PolygonMesh& mesh);
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh);
 
+/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// @param path for messages only.
+std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::string_view content);
+
 /// Where the data begin if the first line is `OFF BINARY`, else nothing.
 std::optional<std::size_t> start_of_binary_off(std::string_view content);
+
+/// Reads what follows the line `OFF BINARY`: 32-bit integers and floats. Geomview writes them most significant byte
+/// first and a number of colour components after each face, others the other way round or without: whichever of the
+/// four fits the length of the file is taken.
+/// @param path for messages only. @param faults see read_off.
+/// @param file the whole file.
+/// @param offset where the binary data begin.
+/// @throws InputError naming the byte.
+PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
+                            FaultLog* faults);
+
+/// Writes such a file again, with the positions of `mesh`, rounded to floats; every other byte stays.
+/// @param mesh with the faces of the file.
+/// @returns whether rounding changed any coordinate.
+/// @throws OutputError; also for coordinates beyond single precision.
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh);
 
 }  // namespace seamflow

@@ -1,5 +1,3 @@
-#include "partition/formats/off_binary.h"
-
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
+#include "partition/formats/off.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
 
@@ -101,7 +102,7 @@ PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std
         const auto z = scanner.read<float>();
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
             scanner.fault("a coordinate is not a finite number; mend or remove the vertex");
-        builder.add_vertex(x, y, z);
+        builder.add_vertex({x, y, z});
     }
     std::vector<Index> corners;
     for (std::uint32_t f = 0; f < n_faces; ++f) {
@@ -142,9 +143,10 @@ bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t o
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         for (const double coordinate : mesh.vertices.row(v)) {
             if (std::abs(coordinate) > std::numeric_limits<float>::max())
-                throw OutputError(output.path().string() + ": cannot be written: vertex " + std::to_string(v) +
-                                  " (numbered from 0) has a coordinate too large for the single precision of binary "
-                                  "OFF; write another format");
+                throw OutputError(
+                    fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large for the "
+                                "single precision of binary OFF; write another format",
+                                output.path().string(), v));
             const auto number = static_cast<float>(coordinate);
             rounded = rounded || static_cast<double>(number) != coordinate;
             output.binary(number, order);

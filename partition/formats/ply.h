@@ -44,4 +44,8 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh);
 
+/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// @param path for messages only.
+std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::string_view content);
+
 }  // namespace seamflow

@@ -4,7 +4,10 @@
 #include <array>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
+#include "partition/formats/ply.h"
 
 namespace seamflow {
 
@@ -81,7 +84,7 @@ PlyElement read_element(TextScanner& scanner, const PlyHeader& header)
     element.line = scanner.line();
     const std::int64_t count = scanner.integer("the number of elements");
     if (count < 0)
-        scanner.fail("the number of elements is " + std::to_string(count) + "; correct the header");
+        scanner.fail(fmt::format("the number of elements is {}; correct the header", count));
     element.count = static_cast<std::uint64_t>(count);
     return element;
 }
@@ -119,29 +122,39 @@ void require_room(const TextScanner& scanner, const PlyHeader& header)
     for (const PlyElement& element : header.elements) {
         const std::uint64_t least = shortest(element, header.encoding);
         if (element.count > 0 && least == 0)
-            throw InputError(scanner.position_of(element.line) + ": the element " + in_quotes(element.name) +
-                             " has no properties; remove it or declare its properties");
+            throw InputError(fmt::format("{}: the element {} has no properties; remove it or declare its properties",
+                                         scanner.position_of(element.line), in_quotes(element.name)));
         if (element.count > 0 && element.count > room / least)
-            throw InputError(scanner.position_of(element.line) + ": announces " + std::to_string(element.count) +
-                             " elements " + in_quotes(element.name) + ", but the " +
-                             std::to_string(scanner.rest().size()) +
-                             " bytes after the header cannot hold so many; the file has been cut off, or the header "
-                             "is wrong: export or copy the mesh again");
+            throw InputError(fmt::format(
+                "{}: announces {} elements {}, but the {} bytes after the header cannot hold so many; the "
+                "file has been cut off, or the header is wrong: export or copy the mesh again",
+                scanner.position_of(element.line), element.count, in_quotes(element.name), scanner.rest().size()));
     }
 }
 
+std::string properties_of(const PlyElement& element, const auto& is_read)
+{
+    std::string names;
+    for (const PlyProperty& property : element.properties) {
+        if (is_read(property.name))
+            continue;
+        names += names.empty() ? "" : " ";
+        names += printable(property.name);
+    }
+    return names;
+}
+
+bool is_coordinate(std::string_view name)
+{
+    return name == "x" || name == "y" || name == "z";
+}
+
+bool is_list_of_corners(std::string_view name)
+{
+    return name == "vertex_indices" || name == "vertex_index";
+}
+
 }  // namespace
-
-std::size_t size_in_bytes(PlyType type)
-{
-    constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-    return sizes[static_cast<std::size_t>(type)];
-}
-
-bool is_integer(PlyType type)
-{
-    return type != PlyType::Float32 && type != PlyType::Float64;
-}
 
 const PlyElement* PlyHeader::element(std::string_view name) const
 {
@@ -177,6 +190,24 @@ PlyHeader read_ply_header(TextScanner& scanner)
         }
     }
     scanner.fail("the file ends within its header, before the line end_header; export or copy the mesh again");
+}
+
+std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::string_view content)
+{
+    TextScanner scanner(path, content, ply_syntax);
+    std::vector<std::string> extras;
+    for (const PlyElement& element : read_ply_header(scanner).elements) {
+        const bool of_vertices = element.name == "vertex";
+        if (!of_vertices && element.name != "face") {
+            add_once(extras, "the element " + printable(element.name));
+            continue;
+        }
+        const std::string names =
+            of_vertices ? properties_of(element, is_coordinate) : properties_of(element, is_list_of_corners);
+        if (!names.empty())
+            add_once(extras, (of_vertices ? "properties of vertices (" : "properties of faces (") + names + ")");
+    }
+    return extras;
 }
 
 }  // namespace seamflow

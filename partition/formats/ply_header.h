@@ -18,10 +18,40 @@ inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decid
 /// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64.
 enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
-/// Size of a number in a binary file.
-std::size_t size_in_bytes(PlyType type);
+/// Calls `act` with a zero of that type.
+auto with_type(PlyType type, const auto& act)
+{
+    switch (type) {
+    case PlyType::Int8:
+        return act(std::int8_t{});
+    case PlyType::UInt8:
+        return act(std::uint8_t{});
+    case PlyType::Int16:
+        return act(std::int16_t{});
+    case PlyType::UInt16:
+        return act(std::uint16_t{});
+    case PlyType::Int32:
+        return act(std::int32_t{});
+    case PlyType::UInt32:
+        return act(std::uint32_t{});
+    case PlyType::Float32:
+        return act(float{});
+    case PlyType::Float64:
+        break;
+    }
+    return act(double{});
+}
 
-bool is_integer(PlyType type);
+/// Size of a number in a binary file.
+inline std::size_t size_in_bytes(PlyType type)
+{
+    return with_type(type, [](auto zero) { return sizeof zero; });
+}
+
+inline bool is_integer(PlyType type)
+{
+    return type != PlyType::Float32 && type != PlyType::Float64;
+}
 
 /// One number, or one list of numbers, that every element of a kind has.
 struct PlyProperty {

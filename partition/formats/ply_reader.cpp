@@ -1,7 +1,10 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
@@ -14,8 +17,8 @@ namespace seamflow {
 
 namespace {
 
-/// What a property means to the mesh.
-enum class Role {
+/// What a property means to the mesh; the numbers of the first three are those of the coordinates.
+enum class Role : std::size_t {
     X,
     Y,
     Z,
@@ -47,7 +50,6 @@ class ElementReader {
 
   private:
     void read_property(const PlyProperty& property, Role role);
-    std::int64_t read_length(const PlyProperty& property);
     void read_corners(const PlyProperty& property);
 
     Source& source_;
@@ -84,7 +86,7 @@ void ElementReader<Source>::read(const PlyElement& element)
             read_property(element.properties[p], roles[p]);
         source_.end_element();
         if (element.name == "vertex")
-            builder_.add_vertex(point_[0], point_[1], point_[2]);
+            builder_.add_vertex(point_);
         else if (element.name == "face")
             builder_.add_face(corners_);
     }
@@ -95,39 +97,24 @@ void ElementReader<Source>::read_property(const PlyProperty& property, Role role
 {
     switch (role) {
     case Role::X:
-        point_[0] = source_.real(property.type);
-        break;
     case Role::Y:
-        point_[1] = source_.real(property.type);
-        break;
     case Role::Z:
-        point_[2] = source_.real(property.type);
+        point_[static_cast<std::size_t>(role)] = source_.real(property.type);
         break;
     case Role::Corners:
         read_corners(property);
         break;
     case Role::Other:
-        source_.pass_over(property.type, property.length_type ? read_length(property) : 1);
+        pass_over(source_, property);
         break;
     }
-}
-
-template <class Source>
-std::int64_t ElementReader<Source>::read_length(const PlyProperty& property)
-{
-    const std::int64_t n = source_.integer(*property.length_type);
-    if (n < 0)
-        source_.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
-                                "; export the mesh again");
-    source_.require_room(property.type, n);
-    return n;
 }
 
 template <class Source>
 void ElementReader<Source>::read_corners(const PlyProperty& property)
 {
     corners_.clear();
-    for (std::int64_t n = read_length(property); n > 0; --n)
+    for (std::int64_t n = read_length(source_, property); n > 0; --n)
         corners_.push_back(builder_.vertex(source_.integer(property.type), n_vertices_));
 }
 
@@ -167,9 +154,11 @@ void require_corners(const TextScanner& scanner, const PlyElement& faces)
         ++n_found;
     }
     if (n_found != 1)
-        refuse(scanner, faces.line,
-               "the faces must have one list named vertex_indices or vertex_index, but have " +
-                   std::to_string(n_found) + "; correct the header or export the mesh again");
+        refuse(
+            scanner, faces.line,
+            fmt::format("the faces must have one list named vertex_indices or vertex_index, but have {}; correct the "
+                        "header or export the mesh again",
+                        n_found));
 }
 
 void require_surface(const TextScanner& scanner, const PlyHeader& header)
@@ -200,12 +189,9 @@ MeshFile read_ply(const std::filesystem::path& path, std::string_view file, Faul
     TextScanner scanner(path, file, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_surface(scanner, header);
-    const FileKind kind{FileFormat::Ply, header.encoding};
-    if (header.encoding == Encoding::Ascii)
-        return {read_elements(PlyTextSource(scanner), header, faults), kind};
-    return {read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding), header,
-                          faults),
-            kind};
+    PolygonMesh mesh = with_source(scanner, path, file, header.encoding,
+                                   [&](auto source) { return read_elements(std::move(source), header, faults); });
+    return {std::move(mesh), {FileFormat::Ply, header.encoding}};
 }
 
 }  // namespace seamflow

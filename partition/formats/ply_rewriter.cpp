@@ -6,13 +6,13 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "partition/formats/moved_normals.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/splicer.h"
+#include "partition/formats/splicing.h"
 
 namespace seamflow {
 
@@ -29,30 +29,6 @@ struct Change {
     /// The type of the number in the file that is written.
     PlyType type = PlyType::Float64;
 };
-
-/// Calls `act` with a zero of that type.
-auto with_type(PlyType type, const auto& act)
-{
-    switch (type) {
-    case PlyType::Int8:
-        return act(std::int8_t{});
-    case PlyType::UInt8:
-        return act(std::uint8_t{});
-    case PlyType::Int16:
-        return act(std::int16_t{});
-    case PlyType::UInt16:
-        return act(std::uint16_t{});
-    case PlyType::Int32:
-        return act(std::int32_t{});
-    case PlyType::UInt32:
-        return act(std::uint32_t{});
-    case PlyType::Float32:
-        return act(float{});
-    case PlyType::Float64:
-        break;
-    }
-    return act(double{});
-}
 
 /// Whether numbers of that type can be those of the list, floats after rounding.
 bool can_hold(PlyType type, const auto& numbers)
@@ -116,9 +92,6 @@ class VertexRewriter {
     {
     }
 
-    /// Goes past element i, without changes.
-    void pass_over(const PlyElement& element, std::uint64_t i);
-
     /// Writes vertex v.
     /// @param normals null: there are none.
     void rewrite(const PlyElement& vertices, const std::vector<Change>& changes, Index v, const Point& position,
@@ -127,11 +100,6 @@ class VertexRewriter {
     [[nodiscard]] bool rounded() const { return rounded_; }
 
   private:
-    void pass_over(const PlyProperty& property)
-    {
-        source_.pass_over(property.type, property.length_type ? source_.integer(*property.length_type) : 1);
-    }
-
     Row read(const PlyElement& vertices, const std::vector<Change>& changes, Index v);
     void exchange(std::string_view part, const Change& change, double number);
 
@@ -144,15 +112,6 @@ class VertexRewriter {
 };
 
 template <class Source>
-void VertexRewriter<Source>::pass_over(const PlyElement& element, std::uint64_t i)
-{
-    source_.begin_element(element, i);
-    for (const PlyProperty& property : element.properties)
-        pass_over(property);
-    source_.end_element();
-}
-
-template <class Source>
 Row VertexRewriter<Source>::read(const PlyElement& vertices, const std::vector<Change>& changes, Index v)
 {
     Row row = Row::Zero();
@@ -161,7 +120,7 @@ Row VertexRewriter<Source>::read(const PlyElement& vertices, const std::vector<C
     for (std::size_t p = 0; p < changes.size(); ++p) {
         const PlyProperty& property = vertices.properties[p];
         if (changes[p].column < 0) {
-            pass_over(property);
+            pass_over(source_, property);
             continue;
         }
         parts_[p] = source_.peek(property.type);
@@ -232,7 +191,7 @@ bool rewrite_elements(Source source, Splicer& splicer, const PlyHeader& header, 
     const PlyElement* const vertices = header.element("vertex");
     for (const PlyElement* element = header.elements.data(); element != vertices; ++element)
         for (std::uint64_t i = 0; i < element->count; ++i)
-            rewriter.pass_over(*element, i);
+            pass_over(source, *element, i);
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         rewriter.rewrite(*vertices, changes, v, mesh.vertices.row(v), normals);
     splicer.finish();
@@ -254,13 +213,9 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     const MovedNormals* const moved = normals ? &*normals : nullptr;
     Splicer splicer(file, content);
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
-    bool rounded = false;
-    if (header.encoding == Encoding::Ascii)
-        rounded = rewrite_elements(PlyTextSource(scanner), splicer, header, changes, mesh, moved);
-    else
-        rounded =
-            rewrite_elements(PlyBinarySource(path, content, content.size() - scanner.rest().size(), header.encoding),
-                             splicer, header, changes, mesh, moved);
+    const bool rounded = with_source(scanner, path, content, header.encoding, [&](auto source) {
+        return rewrite_elements(std::move(source), splicer, header, changes, mesh, moved);
+    });
     if (normals_of(vertices) == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

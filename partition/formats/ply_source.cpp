@@ -4,14 +4,16 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
+
 namespace seamflow {
 
 void PlyTextSource::begin_element(const PlyElement& element, std::uint64_t i)
 {
     if (!scanner_.next_line())
-        scanner_.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(element.count) +
-                      " elements " + in_quotes(element.name) +
-                      "; it has been cut off, or the header is wrong: export or copy the mesh again");
+        scanner_.fail(fmt::format("the file ends after {} of {} elements {}; it has been cut off, or the header is "
+                                  "wrong: export or copy the mesh again",
+                                  i, element.count, in_quotes(element.name)));
 }
 
 void PlyTextSource::end_element()
@@ -52,31 +54,14 @@ double PlyBinarySource::real(PlyType type)
 
 double PlyBinarySource::number(PlyType type)
 {
-    if (type == PlyType::Float64)
-        return scanner_.read<double>();
-    return type == PlyType::Float32 ? double{scanner_.read<float>()} : static_cast<double>(integer(type));
+    return with_type(type, [&](auto zero) { return static_cast<double>(scanner_.read<decltype(zero)>()); });
 }
 
 std::int64_t PlyBinarySource::integer(PlyType type)
 {
-    switch (type) {
-    case PlyType::Int8:
-        return scanner_.read<std::int8_t>();
-    case PlyType::UInt8:
-        return scanner_.read<std::uint8_t>();
-    case PlyType::Int16:
-        return scanner_.read<std::int16_t>();
-    case PlyType::UInt16:
-        return scanner_.read<std::uint16_t>();
-    case PlyType::Int32:
-        return scanner_.read<std::int32_t>();
-    case PlyType::UInt32:
-        return scanner_.read<std::uint32_t>();
-    case PlyType::Float32:
-    case PlyType::Float64:
-        break;
-    }
-    scanner_.fail("a number that should be whole has a type with decimals; correct the header");
+    if (!is_integer(type))
+        scanner_.fail("a number that should be whole has a type with decimals; correct the header");
+    return with_type(type, [&](auto zero) { return static_cast<std::int64_t>(scanner_.read<decltype(zero)>()); });
 }
 
 void PlyBinarySource::pass_over(PlyType type, std::int64_t n)
@@ -88,9 +73,9 @@ void PlyBinarySource::pass_over(PlyType type, std::int64_t n)
 void PlyBinarySource::require_room(PlyType type, std::int64_t n) const
 {
     if (static_cast<std::uint64_t>(n) > scanner_.remaining() / size_in_bytes(type))
-        scanner_.fail("a list of " + std::to_string(n) +
-                      " numbers goes past the end of the file; it has been cut off, or the length is wrong: export or "
-                      "copy the mesh again");
+        scanner_.fail(fmt::format("a list of {} numbers goes past the end of the file; it has been cut off, or the "
+                                  "length is wrong: export or copy the mesh again",
+                                  n));
 }
 
 }  // namespace seamflow

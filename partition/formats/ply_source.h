@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "partition/formats/ply_header.h"
@@ -79,5 +80,45 @@ class PlyBinarySource {
   private:
     ByteScanner scanner_;
 };
+
+/// Reads the length of a list.
+/// @param what is to be exported again if it is negative.
+template <class Source>
+std::int64_t read_length(Source& source, const PlyProperty& property, const char* what = "mesh")
+{
+    const std::int64_t n = source.integer(*property.length_type);
+    if (n < 0)
+        source.position().fail("the length of the list " + in_quotes(property.name) + " is " + std::to_string(n) +
+                               "; export the " + what + " again");
+    source.require_room(property.type, n);
+    return n;
+}
+
+/// Passes over a property of one element. @param what see read_length.
+template <class Source>
+void pass_over(Source& source, const PlyProperty& property, const char* what = "mesh")
+{
+    source.pass_over(property.type, property.length_type ? read_length(source, property, what) : 1);
+}
+
+/// Passes over element i. @param what see read_length.
+template <class Source>
+void pass_over(Source& source, const PlyElement& element, std::uint64_t i, const char* what = "mesh")
+{
+    source.begin_element(element, i);
+    for (const PlyProperty& property : element.properties)
+        pass_over(source, property, what);
+    source.end_element();
+}
+
+/// Calls `read` with the source of what follows the header.
+/// @param after_header stands at the last line of the header. @param file the whole file.
+auto with_source(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
+                 Encoding encoding, const auto& read)
+{
+    if (encoding == Encoding::Ascii)
+        return read(PlyTextSource(after_header));
+    return read(PlyBinarySource(path, file, file.size() - after_header.rest().size(), encoding));
+}
 
 }  // namespace seamflow

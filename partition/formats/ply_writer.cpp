@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "partition/formats/ply.h"
 
 namespace seamflow {
@@ -76,14 +78,13 @@ class PlyWriter {
 void PlyWriter::write_header()
 {
     const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    std::string header = std::string("ply\nformat ") + name_of(encoding_) + " 1.0\n";
-    header += "element vertex " + std::to_string(mesh_.n_vertices()) + "\n";
+    std::string header = fmt::format("ply\nformat {} 1.0\nelement vertex {}\n", name_of(encoding_), mesh_.n_vertices());
     header += "property double x\nproperty double y\nproperty double z\n";
     header += extras_.vertex_colours.empty() ? "" : colour;
     for (const VertexValues& list : extras_.vertex_values)
         header += "property double " + list.name + "\n";
-    header += "element face " + std::to_string(mesh_.n_faces()) + "\n";
-    header += std::string("property list ") + (long_faces_ ? "int" : "uchar") + " int vertex_indices\n";
+    header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", mesh_.n_faces(),
+                          long_faces_ ? "int" : "uchar");
     header += extras_.face_labels.empty() ? "" : colour + "property int label\n";
     file_.text(header + "end_header\n");
 }

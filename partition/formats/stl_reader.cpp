@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "partition/formats/stl.h"
-#include "partition/formats/vertex_welder.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
@@ -36,21 +38,32 @@ std::uint64_t declared_facets(std::string_view file)
     return from_bytes<std::uint32_t>(file.data() + title_bytes, std::endian::little);
 }
 
-/// Joins the corners of facets to vertices, and facets to a mesh.
+/// Mixes the bits of the coordinates: multiplication carries them up, the shift brings them down again.
+std::size_t hash_of(const Corner& point)
+{
+    std::uint64_t result = 0;
+    for (const double x : point) {
+        result = (result ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U;
+        result ^= result >> 32U;
+    }
+    return static_cast<std::size_t>(result);
+}
+
+/// Joins the corners of facets to vertices, and facets to a mesh. Points with equal coordinates become the same vertex,
+/// numbered in the order in which they first appear. Positive and negative zero are equal; the vertex keeps the sign
+/// that came first.
 class FacetCollector {
   public:
     explicit FacetCollector(const InputPosition& position)
         : position_(position)
         , builder_(position)
-        , welder_(builder_)
+        , slots_(1024, -1)
     {
     }
 
     void add(const std::array<Corner, 3>& points)
     {
-        std::array<Index, 3> corners{};
-        for (std::size_t k = 0; k < 3; ++k)
-            corners[k] = welder_.vertex(points[k]);
+        const std::array<Index, 3> corners = {vertex(points[0]), vertex(points[1]), vertex(points[2])};
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
             position_.fault("two corners of the facet have the same coordinates; remove the facet");
         else
@@ -60,10 +73,50 @@ class FacetCollector {
     PolygonMesh finish() { return builder_.finish(); }
 
   private:
+    Index vertex(const Corner& point);
+    [[nodiscard]] std::size_t slot_of(const Corner& point) const;
+    void grow();
+
     const InputPosition& position_;
     MeshBuilder builder_;
-    VertexWelder welder_;
+    /// The points of the vertices, zeros positive.
+    std::vector<Corner> points_;
+    /// A hash table with open addressing: vertices, or -1. Its length is a power of two.
+    std::vector<Index> slots_;
 };
+
+/// The slot that holds the vertex at this point, or the free one where it belongs.
+std::size_t FacetCollector::slot_of(const Corner& point) const
+{
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash_of(point) & mask;
+    while (slots_[slot] >= 0 && points_[static_cast<std::size_t>(slots_[slot])] != point)
+        slot = (slot + 1) & mask;
+    return slot;
+}
+
+void FacetCollector::grow()
+{
+    slots_.assign(2 * slots_.size(), -1);
+    for (std::size_t v = 0; v < points_.size(); ++v)
+        slots_[slot_of(points_[v])] = static_cast<Index>(v);
+}
+
+/// The vertex at that point.
+Index FacetCollector::vertex(const Corner& point)
+{
+    const Corner key = {point[0] + 0.0, point[1] + 0.0, point[2] + 0.0};
+    const std::size_t slot = slot_of(key);
+    if (slots_[slot] >= 0)
+        return slots_[slot];
+    const auto result = static_cast<Index>(points_.size());
+    builder_.add_vertex(point);
+    points_.push_back(key);
+    slots_[slot] = result;
+    if (2 * points_.size() > slots_.size())
+        grow();
+    return result;
+}
 
 class TextReader {
   public:
@@ -125,13 +178,11 @@ Corner TextReader::read_corner()
 {
     next_line("vertex");
     expect("vertex");
-    const double x = scanner_.real("coordinate x");
-    const double y = scanner_.real("coordinate y");
-    const double z = scanner_.real("coordinate z");
+    const Corner position = scanner_.coordinates();
     if (scanner_.has_token())
         scanner_.fail("expected the end of the line after the three coordinates, but found " +
                       in_quotes(scanner_.peek()) + "; put each vertex on a line of its own");
-    return {x, y, z};
+    return position;
 }
 
 void TextReader::next_line(std::string_view keyword)
@@ -145,9 +196,8 @@ void TextReader::expect(std::string_view keyword)
 {
     const auto token = scanner_.token();
     if (!is_keyword(token, keyword))
-        scanner_.fail("expected " + in_quotes(keyword) + ", but found " +
-                      (token.empty() ? std::string("the end of the line") : in_quotes(token)) +
-                      "; correct the line or export the mesh again");
+        scanner_.fail(fmt::format("expected {}, but found {}; correct the line or export the mesh again",
+                                  in_quotes(keyword), token.empty() ? "the end of the line" : in_quotes(token)));
 }
 
 double read_coordinate(ByteScanner& scanner)
@@ -173,10 +223,10 @@ void require_room_for_facets(ByteScanner& scanner, std::string_view file)
                      "84 bytes; export the mesh again");
     const std::uint64_t n = declared_facets(file);
     if (n > (file.size() - header_bytes) / facet_bytes)
-        scanner.fail("the file announces " + counted(n, "facet", "facets") + ", but its " +
-                     std::to_string(file.size()) + " bytes hold only " +
-                     std::to_string((file.size() - header_bytes) / facet_bytes) +
-                     "; it has been cut off or is no STL file: export or copy the mesh again");
+        scanner.fail(fmt::format("the file announces {}, but its {} bytes hold only {}; it has been cut off or is no "
+                                 "STL file: export or copy the mesh again",
+                                 counted(n, "facet", "facets"), file.size(),
+                                 (file.size() - header_bytes) / facet_bytes));
 }
 
 PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, FaultLog* faults)

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/formats/stl.h"
@@ -19,35 +19,36 @@ namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason)
 {
-    throw OutputError(path.string() + ": cannot be written: " + reason + "; write " +
-                      extensions_of(FormatGroup::Polygons) + ", which can hold this mesh");
+    throw OutputError(fmt::format("{}: cannot be written: {}; write {}, which can hold this mesh", path.string(),
+                                  reason, extensions_of(FormatGroup::Polygons)));
 }
 
 void require_triangles(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (mesh.face(f).size() != 3)
-            refuse(path, "face " + std::to_string(f) + " (numbered from 0) has " + std::to_string(mesh.face(f).size()) +
-                             " sides, but STL holds triangles only");
+            refuse(path, fmt::format("face {} (numbered from 0) has {} sides, but STL holds triangles only", f,
+                                     mesh.face(f).size()));
 }
 
 void require_no_isolated_vertex(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
-    std::vector<bool> used(static_cast<std::size_t>(mesh.n_vertices()), false);
+    std::vector<bool> used(at(mesh.n_vertices()), false);
     for (const Index v : mesh.face_vertices)
-        used[static_cast<std::size_t>(v)] = true;
+        used[v] = true;
     const auto unused = std::find(used.begin(), used.end(), false);
     if (unused != used.end())
-        refuse(path, "vertex " + std::to_string(unused - used.begin()) +
-                         " (numbered from 0) belongs to no face, and STL holds only vertices of faces");
+        refuse(path, fmt::format("vertex {} (numbered from 0) belongs to no face, and STL holds only vertices of faces",
+                                 unused - used.begin()));
 }
 
 void require_floats(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (mesh.vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
-            refuse(path, "vertex " + std::to_string(v) +
-                             " (numbered from 0) has a coordinate too large for the single precision of binary STL");
+            refuse(path, fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single precision "
+                                     "of binary STL",
+                                     v));
 }
 
 template <class Scalar>
@@ -64,9 +65,9 @@ void require_distinct_corners(const std::filesystem::path& path, const PolygonMe
         const auto corners = mesh.face(f);
         for (std::size_t k = 0; k < 3; ++k)
             if (coincide<Scalar>(mesh, corners[k], corners[(k + 1) % 3]))
-                refuse(path, "the vertices " + std::to_string(corners[k]) + " and " +
-                                 std::to_string(corners[(k + 1) % 3]) + " of face " + std::to_string(f) +
-                                 " (all numbered from 0) are one and the same point" + precision);
+                refuse(path, fmt::format("the vertices {} and {} of face {} (all numbered from 0) are one and the same "
+                                         "point{}",
+                                         corners[k], corners[(k + 1) % 3], f, precision));
     }
 }
 
@@ -84,22 +85,12 @@ Eigen::Vector3f normal_of(const Facet& triangle)
     return u.stableNormalized().cross(v.stableNormalized()).stableNormalized().cast<float>();
 }
 
-void write_text_row(OutputFile& file, const char* keyword, const auto& row)
-{
-    file.text(keyword);
-    for (Eigen::Index k = 0; k < 3; ++k) {
-        file.text(" ");
-        file.number(row[k]);
-    }
-    file.text("\n");
-}
-
 void write_text_facet(OutputFile& file, const Facet& triangle)
 {
-    write_text_row(file, "facet normal", normal_of(triangle));
+    file.line("facet normal", normal_of(triangle));
     file.text("outer loop\n");
     for (const auto& point : triangle)
-        write_text_row(file, "vertex", point);
+        file.line("vertex", point);
     file.text("endloop\nendfacet\n");
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "partition/connected_components.h"
-#include "partition/inspection/repeated_faces.h"
+#include "partition/index_lists.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -30,10 +30,7 @@ struct Surface {
     {
         return mesh.vertices.row(start(h)).allFinite() && mesh.vertices.row(end(h)).allFinite();
     }
-    [[nodiscard]] double length(Index h) const
-    {
-        return (mesh.vertices.row(end(h)) - mesh.vertices.row(start(h))).norm();
-    }
+    [[nodiscard]] double length(Index h) const { return edge_length(mesh, topology, h); }
 };
 
 /// The edges of the half-edges for which `holds`, each once, ascending.
@@ -43,15 +40,8 @@ std::vector<Edge> edges_where(const Surface& s, const Loop& loop, Predicate&& ho
     std::vector<Edge> edges;
     for (const Index h : select(loop, s.mesh.n_corners(), holds))
         edges.push_back(s.edge(h));
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
     return edges;
-}
-
-void count_sides(const PolygonMesh& mesh, MeshInspection& found)
-{
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        ++found.faces_by_sides[std::min<std::size_t>(mesh.face(f).size() - 3, found.faces_by_sides.size() - 1)];
 }
 
 /// Half-edges without a twin are on edges of one face, or of three and more.
@@ -62,29 +52,28 @@ void inspect_edges(const Surface& s, const Loop& loop, MeshInspection& found)
     for (const Index h : alone)
         edges.push_back(s.edge(h));
     std::sort(edges.begin(), edges.end());
-    Index n_edges = (s.mesh.n_corners() - static_cast<Index>(alone.size())) / 2;
+    found.counts.edges = (s.mesh.n_corners() - static_cast<Index>(alone.size())) / 2;
     for (auto first = edges.begin(); first != edges.end();) {
         const auto last = std::find_if(first, edges.end(), [&](const Edge& e) { return e != *first; });
-        ++n_edges;
+        ++found.counts.edges;
         if (last - first == 1)
-            ++found.boundary_edges;
+            ++found.counts.boundary_edges;
         else
-            found.non_manifold_edges.push_back(*first);
+            found.defects.non_manifold_edges.push_back(*first);
         first = last;
     }
-    found.edges = n_edges;
-    found.inconsistent_edges = edges_where(s, loop, [&](Index h) {
+    found.defects.inconsistent_edges = edges_where(s, loop, [&](Index h) {
         const Index twin = s.topology.twin[h];
         return twin > h && s.start(h) == s.start(twin);
     });
-    found.edges_without_length =
+    found.defects.edges_without_length =
         edges_where(s, loop, [&](Index h) { return s.is_finite(h) && !std::isnormal(s.length(h)); });
 }
 
-void measure_edges(const Surface& s, MeshInspection& found)
+EdgeLengths measure_edges(const Surface& s)
 {
+    EdgeLengths found{.shortest = std::numeric_limits<double>::infinity()};
     double sum = 0.0;
-    double shortest = std::numeric_limits<double>::infinity();
     Index count = 0;
     for (Index h = 0; h < s.mesh.n_corners(); ++h) {
         if (!s.is_finite(h))
@@ -92,13 +81,13 @@ void measure_edges(const Surface& s, MeshInspection& found)
         const double length = s.length(h);
         sum += length;
         ++count;
-        shortest = std::min(shortest, length);
-        found.longest_edge = std::max(found.longest_edge, length);
+        found.shortest = std::min(found.shortest, length);
+        found.longest = std::max(found.longest, length);
     }
     if (count == 0)
-        return;
-    found.shortest_edge = shortest;
-    found.mean_edge = sum / static_cast<double>(count);
+        return {};
+    found.mean = sum / static_cast<double>(count);
+    return found;
 }
 
 void measure_box(const PolygonMesh& mesh, MeshInspection& found)
@@ -114,11 +103,11 @@ void measure_box(const PolygonMesh& mesh, MeshInspection& found)
     if (low[0] > high[0])
         return;
     const Point middle = low + (high - low) / 2.0;
-    found.middle = {middle[0], middle[1], middle[2]};
-    found.diagonal = (high - low).norm();
+    found.box.middle = {middle[0], middle[1], middle[2]};
+    found.box.diagonal = (high - low).norm();
     const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-    if (std::isnormal(found.mean_edge) && farthest > found.mean_edge)
-        found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.mean_edge)));
+    if (std::isnormal(found.edge_lengths.mean) && farthest > found.edge_lengths.mean)
+        found.bits_for_detail = std::max(0, 53 - (std::ilogb(farthest) - std::ilogb(found.edge_lengths.mean)));
 }
 
 /// The largest of the face's coordinates bounds what rounding can make of its area.
@@ -137,18 +126,20 @@ bool lacks_area(const PolygonMesh& mesh, Index f)
     return !std::isnormal(area) || area <= epsilon * farthest * longest;
 }
 
-/// The numbers of those elements that are equal to one before them.
+/// The elements that are equal to one before them, with the first of these, ascending.
 /// @param before an order in which equal elements follow each other. @param same whether two are equal.
 template <class Before, class Same>
-std::vector<Index> repetitions(Index n, Before&& before, Same&& same)
+std::vector<std::pair<Index, Index>> repetitions(Index n, Before&& before, Same&& same)
 {
     std::vector<Index> order(n);
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](Index a, Index b) { return before(a, b) || (!before(b, a) && a < b); });
-    std::vector<Index> repeated;
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (same(order[i - 1], order[i]))
-            repeated.push_back(order[i]);
+    std::vector<std::pair<Index, Index>> repeated;
+    for (std::size_t i = 1, first = 0; i < order.size(); ++i)
+        if (same(order[first], order[i]))
+            repeated.emplace_back(order[i], order[first]);
+        else
+            first = i;
     std::sort(repeated.begin(), repeated.end());
     return repeated;
 }
@@ -162,18 +153,22 @@ std::vector<Index> coincident_vertices(const Points& positions)
                 return order < 0;
         return false;
     };
-    return repetitions(static_cast<Index>(positions.rows()), before,
-                       [&](Index a, Index b) { return positions.row(a) == positions.row(b); });
+    std::vector<Index> vertices;
+    for (const auto& [vertex, first] : repetitions(static_cast<Index>(positions.rows()), before, [&](Index a, Index b) {
+             return positions.row(a) == positions.row(b);
+         }))
+        vertices.push_back(vertex);
+    return vertices;
 }
 
 std::vector<Index> duplicate_faces(const PolygonMesh& mesh)
 {
-    std::vector<Index> all(mesh.n_faces());
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<Index> duplicates;
-    for (const RepeatedFace& repeated : find_repeated_faces(mesh, all))
-        duplicates.push_back(repeated.face);
-    return duplicates;
+    std::vector<Index> faces(mesh.n_faces());
+    std::iota(faces.begin(), faces.end(), 0);
+    const std::vector<RepeatedFace> repeated = find_repeated_faces(mesh, faces);
+    faces.resize(repeated.size());
+    std::ranges::transform(repeated, faces.begin(), &RepeatedFace::face);
+    return faces;
 }
 
 /// Turns faces, one after the other, so that they fit those before; whether all fit each other in the end.
@@ -205,28 +200,50 @@ bool is_orientable(const Surface& s)
 
 }  // namespace
 
+std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std::vector<Index>& candidates)
+{
+    // The vertices of each candidate, ascending.
+    IndexLists vertices;
+    for (const Index f : candidates) {
+        const auto begin = static_cast<std::ptrdiff_t>(vertices.values.size());
+        vertices.values.insert(vertices.values.end(), mesh.face(f).begin(), mesh.face(f).end());
+        std::sort(vertices.values.begin() + begin, vertices.values.end());
+        vertices.close();
+    }
+    const auto before = [&](Index a, Index b) {
+        return std::ranges::lexicographical_compare(vertices[a], vertices[b]);
+    };
+    std::vector<RepeatedFace> repeated;
+    for (const auto& [place, first] : repetitions(static_cast<Index>(candidates.size()), before, [&](Index a, Index b) {
+             return std::ranges::equal(vertices[a], vertices[b]);
+         }))
+        repeated.push_back({candidates[place], candidates[first]});
+    return repeated;
+}
+
 MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
 {
     const Surface surface{mesh, topology};
     MeshInspection found;
-    found.vertices = mesh.n_vertices();
-    found.faces = mesh.n_faces();
-    count_sides(mesh, found);
-    found.components = face_components(mesh, topology).count();
+    found.counts.vertices = mesh.n_vertices();
+    found.counts.faces = mesh.n_faces();
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        ++found.counts.faces_by_sides[std::min(mesh.face(f).size() - 3, found.counts.faces_by_sides.size() - 1)];
+    found.counts.components = face_components(mesh, topology).count();
     inspect_edges(surface, loop, found);
-    measure_edges(surface, found);
+    found.edge_lengths = measure_edges(surface);
     measure_box(mesh, found);
-    found.vertices_not_finite =
+    found.defects.vertices_not_finite =
         select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     const auto of_kind = [&](VertexKind kind) {
         return select(loop, mesh.n_vertices(), [&](Index v) { return topology.kind[v] == kind; });
     };
-    found.non_manifold_vertices = of_kind(VertexKind::NonManifold);
-    found.isolated_vertices = of_kind(VertexKind::Isolated);
+    found.defects.non_manifold_vertices = of_kind(VertexKind::NonManifold);
+    found.defects.isolated_vertices = of_kind(VertexKind::Isolated);
     found.orientable = is_orientable(surface);
-    found.duplicate_faces = duplicate_faces(mesh);
-    found.faces_without_area = select(loop, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
-    found.coincident_vertices = coincident_vertices(mesh.vertices);
+    found.defects.duplicate_faces = duplicate_faces(mesh);
+    found.defects.faces_without_area = select(loop, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
+    found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
     return found;
 }
 

@@ -13,8 +13,8 @@ namespace seamflow {
 /// An edge by its two vertices, the lower number first.
 using Edge = std::array<Index, 2>;
 
-/// What is uncommon or wrong about a mesh, element by element. All numbers count from 0; all lists are ascending.
-struct MeshInspection {
+/// How much there is of a mesh.
+struct ElementCounts {
     Index vertices = 0;
     Index faces = 0;
     Index edges = 0;
@@ -24,14 +24,23 @@ struct MeshInspection {
     Index components = 0;
     /// Edges of one face.
     Index boundary_edges = 0;
-    /// Shortest, mean (over half-edges) and longest edge, in units of length.
-    double shortest_edge = 0.0;
-    double mean_edge = 0.0;
-    double longest_edge = 0.0;
-    /// Of the bounding box of all vertices: its middle, and the length of its diagonal.
+};
+
+/// In units of length; the mean is over half-edges.
+struct EdgeLengths {
+    double shortest = 0.0;
+    double mean = 0.0;
+    double longest = 0.0;
+};
+
+/// The bounding box of all vertices: its middle, and the length of its diagonal.
+struct MeshBox {
     std::array<double, 3> middle{};
     double diagonal = 0.0;
+};
 
+/// What is uncommon or wrong, element by element. All numbers count from 0; all lists are ascending.
+struct MeshDefects {
     /// Vertices with a coordinate that is no finite number. What is measured leaves them and their edges and faces out.
     std::vector<Index> vertices_not_finite;
     /// Edges of three faces or more.
@@ -40,8 +49,6 @@ struct MeshInspection {
     std::vector<Index> non_manifold_vertices;
     /// Edges whose two faces run along them in the same direction: they are oriented against each other.
     std::vector<Edge> inconsistent_edges;
-    /// Whether faces could be turned so that there are none of those; a Möbius band's cannot.
-    bool orientable = true;
     /// Faces that have the same vertices as a face before them, in whatever order.
     std::vector<Index> duplicate_faces;
     /// Faces whose vector area is no normal double, or smaller than rounding of their coordinates leaves.
@@ -52,6 +59,16 @@ struct MeshInspection {
     std::vector<Index> coincident_vertices;
     /// Vertices without faces.
     std::vector<Index> isolated_vertices;
+};
+
+/// What a mesh is made of and what is wrong with it.
+struct MeshInspection {
+    ElementCounts counts;
+    EdgeLengths edge_lengths;
+    MeshBox box;
+    MeshDefects defects;
+    /// Whether faces could be turned so that there are no inconsistent edges; a Möbius band's cannot.
+    bool orientable = true;
     /// How many of the bits of a double are left for detail of the size of the mean edge at the distance from the
     /// origin at which the mesh lies; of 53. A file with floats keeps 29 fewer.
     int bits_for_detail = 53;
@@ -60,5 +77,16 @@ struct MeshInspection {
 /// Examines a mesh. Near to linear in its size.
 /// @param mesh valid (see require_valid), but that coordinates need not be finite.
 MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+
+/// A face with the same vertices as one before it, in whatever order.
+struct RepeatedFace {
+    Index face;
+    /// The first face with these vertices.
+    Index first;
+};
+
+/// Those among the candidates that repeat another candidate, in ascending order.
+/// @param candidates faces, ascending.
+std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std::vector<Index>& candidates);
 
 }  // namespace seamflow

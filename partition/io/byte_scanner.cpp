@@ -1,5 +1,7 @@
 #include "partition/io/byte_scanner.h"
 
+#include <fmt/format.h>
+
 namespace seamflow {
 
 ByteScanner::ByteScanner(const std::filesystem::path& path, std::string_view file, std::size_t offset,
@@ -32,10 +34,9 @@ void ByteScanner::require_end()
 
 std::string ByteScanner::position() const
 {
-    const std::string byte = "byte " + std::to_string(last_);
     if (element_.empty())
-        return path_ + ": " + byte;
-    return path_ + ": " + printable(element_) + " " + std::to_string(i_) + " (numbered from 0), " + byte;
+        return fmt::format("{}: byte {}", path_, last_);
+    return fmt::format("{}: {} {} (numbered from 0), byte {}", path_, printable(element_), i_, last_);
 }
 
 void ByteScanner::fail_at_end() const

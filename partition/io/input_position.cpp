@@ -1,5 +1,9 @@
 #include "partition/io/input_position.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -27,14 +31,18 @@ std::string printable(std::string_view text)
 
 std::string in_quotes(std::string_view text)
 {
-    std::string result = "'";
-    result += printable(text);
-    return result += "'";
+    return fmt::format("'{}'", printable(text));
 }
 
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural)
 {
-    return std::to_string(count) + " " + (count == 1 ? singular : plural);
+    return fmt::format("{} {}", count, count == 1 ? singular : plural);
+}
+
+void add_once(std::vector<std::string>& list, std::string_view what)
+{
+    if (std::ranges::find(list, what) == list.end())
+        list.emplace_back(what);
 }
 
 }  // namespace seamflow

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/io/fault_log.h"
 
@@ -38,7 +39,7 @@ class InputPosition {
     FaultLog* log_ = nullptr;
 };
 
-/// A piece of a file for a message: shortened, and with '?' for what cannot be printed.
+/// A part of a file for a message: shortened, and with '?' for what cannot be printed.
 std::string printable(std::string_view text);
 
 /// The same in quotation marks.
@@ -46,5 +47,8 @@ std::string in_quotes(std::string_view text);
 
 /// "1 vertex", "3 vertices": a count and the word for what is counted.
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
+
+/// Appends what a list does not have yet.
+void add_once(std::vector<std::string>& list, std::string_view what);
 
 }  // namespace seamflow

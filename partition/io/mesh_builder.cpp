@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace seamflow {
 
 namespace {
@@ -26,21 +28,20 @@ void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
     mesh_.face_vertices.reserve(3 * n_faces);
 }
 
-void MeshBuilder::add_vertex(double x, double y, double z)
+void MeshBuilder::add_vertex(const std::array<double, 3>& position)
 {
     if (coordinates_.size() >= 3 * most)
-        position_.fail("more than " + std::to_string(most) + " vertices; divide the mesh into several files");
-    coordinates_.insert(coordinates_.end(), {x, y, z});
+        position_.fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
+    coordinates_.insert(coordinates_.end(), position.begin(), position.end());
 }
 
 Index MeshBuilder::vertex(std::int64_t index, std::int64_t n) const
 {
     if (index < 0 || index >= n) {
-        position_.fault("names vertex " + std::to_string(index + first_number_) + ", but the file has " +
-                        (n == 0 ? std::string("no vertices")
-                                : "only the vertices " + std::to_string(first_number_) + " to " +
-                                      std::to_string(n - 1 + first_number_)) +
-                        "; correct the face or export the mesh again");
+        const std::string there =
+            n == 0 ? "no vertices" : fmt::format("only the vertices {} to {}", first_number_, n - 1 + first_number_);
+        position_.fault(fmt::format("names vertex {}, but the file has {}; correct the face or export the mesh again",
+                                    index + first_number_, there));
         return -1;
     }
     return static_cast<Index>(index);
@@ -53,23 +54,23 @@ bool MeshBuilder::are_distinct(std::span<const Index> corners)
     const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());
     if (twice == sorted_.end())
         return true;
-    position_.fault("the face names vertex " + std::to_string(std::int64_t{*twice} + first_number_) +
-                    " twice; remove the face, or split it at that vertex");
+    position_.fault(fmt::format("the face names vertex {} twice; remove the face, or split it at that vertex",
+                                std::int64_t{*twice} + first_number_));
     return false;
 }
 
 void MeshBuilder::add_face(std::span<const Index> corners)
 {
     if (corners.size() < 3) {
-        position_.fault("the face has " + counted(corners.size(), "corner", "corners") +
-                        ", but needs at least 3; remove it or add what is missing");
+        position_.fault(fmt::format("the face has {}, but needs at least 3; remove it or add what is missing",
+                                    counted(corners.size(), "corner", "corners")));
         return;
     }
     if (position_.notes_faults() && std::find(corners.begin(), corners.end(), -1) != corners.end())
         return;
     if (corners.size() > most - mesh_.face_vertices.size())
-        position_.fail("the faces have more than " + std::to_string(most) +
-                       " corners together; divide the mesh into several files");
+        position_.fail(
+            fmt::format("the faces have more than {} corners together; divide the mesh into several files", most));
     const bool triangle = corners.size() == 3;
     const bool suspicious =
         !triangle || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,7 +22,7 @@ class MeshBuilder {
     void reserve(std::uint64_t n_vertices, std::uint64_t n_faces);
 
     /// @throws InputError if there are 2^31 - 1 vertices already.
-    void add_vertex(double x, double y, double z);
+    void add_vertex(const std::array<double, 3>& position);
 
     /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
     /// with.

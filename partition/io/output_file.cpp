@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,13 +27,13 @@ std::filesystem::path folder_of(const std::filesystem::path& file)
 std::filesystem::path temporary_name(const std::filesystem::path& target)
 {
     static std::atomic<unsigned> counter = 0;
-    return folder_of(target) / (".seamflow-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+    return folder_of(target) / fmt::format(".seamflow-{}-{}.tmp", ::getpid(), counter++);
 }
 
 /// How the system knows an open file.
 std::string name_of_descriptor(int descriptor)
 {
-    return "/proc/self/fd/" + std::to_string(descriptor);
+    return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
 /// Opens a file without a name, which vanishes with the process, however that ends.

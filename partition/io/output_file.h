@@ -47,6 +47,19 @@ class OutputFile {
             append_chars(value, std::chars_format::scientific);
     }
 
+    /// A line of the word, which may be empty, and the numbers, with blanks between.
+    void line(std::string_view word, const auto& numbers)
+    {
+        text(word);
+        for (bool follows = !word.empty(); const auto value : numbers) {
+            if (follows)
+                put(' ');
+            follows = true;
+            number(value);
+        }
+        put('\n');
+    }
+
     /// The bytes of a number.
     template <class Number>
     void binary(Number value, std::endian order)
@@ -67,6 +80,12 @@ class OutputFile {
     {
         if (buffer_.size() - used_ < n)
             flush();
+    }
+
+    void put(char c)
+    {
+        make_room(1);
+        buffer_[used_++] = c;
     }
 
     void append_chars(auto... value_and_format)

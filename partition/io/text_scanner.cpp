@@ -6,6 +6,8 @@
 #include <limits>
 #include <system_error>
 
+#include <fmt/format.h>
+
 namespace seamflow {
 
 namespace {
@@ -63,7 +65,7 @@ TextScanner::TextScanner(const std::filesystem::path& path, std::string_view tex
 
 std::string TextScanner::position_of(std::size_t line) const
 {
-    return path_ + ":" + std::to_string(line);
+    return fmt::format("{}:{}", path_, line);
 }
 
 void TextScanner::load_line()
@@ -147,6 +149,14 @@ std::string_view TextScanner::token()
     return result;
 }
 
+std::size_t TextScanner::pass_over_rest()
+{
+    std::size_t n = 0;
+    while (!token().empty())
+        ++n;
+    return n;
+}
+
 double TextScanner::real(const char* what)
 {
     skip_blanks();
@@ -162,6 +172,14 @@ double TextScanner::real(const char* what)
     fault(complaint);
     skip(rest_of_token().size());
     return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::array<double, 3> TextScanner::coordinates()
+{
+    const double x = real("coordinate x");
+    const double y = real("coordinate y");
+    const double z = real("coordinate z");
+    return {x, y, z};
 }
 
 double TextScanner::number_or_nan()
@@ -200,10 +218,9 @@ std::int64_t TextScanner::integer(const char* what)
 std::string TextScanner::complaint_at_number(const char* what, const char* form)
 {
     const auto found = peek();
-    const std::string expected = std::string("expected ") + what;
     if (found.empty())
-        return expected + ", but the line ends; add what is missing or export the mesh again";
-    return expected + ", but found " + in_quotes(found) + "; write " + form;
+        return fmt::format("expected {}, but the line ends; add what is missing or export the mesh again", what);
+    return fmt::format("expected {}, but found {}; write {}", what, in_quotes(found), form);
 }
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -41,6 +42,9 @@ class TextScanner final : public InputPosition {
     /// Whether a token of the line is left.
     [[nodiscard]] bool has_token();
 
+    /// Passes over the tokens that are left of the line. @returns how many.
+    std::size_t pass_over_rest();
+
     /// What is left of the token from which a number has just been read; empty if it is used up.
     [[nodiscard]] std::string_view rest_of_token() const;
 
@@ -51,6 +55,10 @@ class TextScanner final : public InputPosition {
     /// @param what is expected ("a coordinate"), for the message.
     /// @throws InputError if there is no token left or it is no finite number.
     double real(const char* what);
+
+    /// The next three tokens as the coordinates x, y and z.
+    /// @throws InputError as for `real`.
+    std::array<double, 3> coordinates();
 
     /// The next token as a number; what is none, or not finite, or missing, is NaN.
     double number_or_nan();

@@ -3,6 +3,8 @@
 #include <limits>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -23,8 +25,8 @@ Displacement split_displacement(const Point& displacement, const Point& normal_b
 DisplacementField displacement_field(const PolygonMesh& mesh, const Points& before, const Points& after)
 {
     if (before.rows() != mesh.n_vertices() || after.rows() != mesh.n_vertices())
-        throw InputError("a mesh of " + std::to_string(mesh.n_vertices()) + " vertices cannot have moved from " +
-                         std::to_string(before.rows()) + " positions to " + std::to_string(after.rows()));
+        throw InputError(fmt::format("a mesh of {} vertices cannot have moved from {} positions to {}",
+                                     mesh.n_vertices(), before.rows(), after.rows()));
     const Topology topology = make_topology(mesh);
     const VertexNormals normals(mesh, topology);
     constexpr double undefined = std::numeric_limits<double>::quiet_NaN();

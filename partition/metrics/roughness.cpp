@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "partition/metrics/centre_fans.h"
+#include "partition/metrics/triangulation.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
 

@@ -5,8 +5,14 @@
 
 #include "partition/metrics/length_statistics.h"
 #include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
+
+/// Squared distance of the origin from the triangle abc, in length². The triangle may be as thin as it likes, a segment
+/// or a point. Never less than the truth but by rounding: it is always taken to a point of the triangle. Pass the
+/// corners relative to the point of interest, and no offset costs precision.
+double squared_distance_to_triangle(const Point& a, const Point& b, const Point& c);
 
 /// Distances from points to the surface of a mesh, whose polygons are triangulated (see triangulation.h); triangles
 /// without area count as the segments or points that they are. A spatial tree makes them fast: the time for a point

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -28,12 +30,12 @@ double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const 
 VertexDistance vertex_distance(const PolygonMesh& mesh, const Points& reference, const Points& candidate)
 {
     if (reference.rows() != candidate.rows())
-        throw InputError("the reference has " + std::to_string(reference.rows()) + " vertices, the candidate " +
-                         std::to_string(candidate.rows()) +
-                         ": only meshes with corresponding vertices can be compared");
+        throw InputError(fmt::format("the reference has {} vertices, the candidate {}: only meshes with corresponding "
+                                     "vertices can be compared",
+                                     reference.rows(), candidate.rows()));
     if (reference.rows() != mesh.vertices.rows())
-        throw InputError("there are " + std::to_string(reference.rows()) + " positions, but the mesh has " +
-                         std::to_string(mesh.vertices.rows()) + " vertices");
+        throw InputError(fmt::format("there are {} positions, but the mesh has {} vertices", reference.rows(),
+                                     mesh.vertices.rows()));
     VertexDistance distance;
     distance.mean_edge = mean_edge_length(mesh, reference);
     if (reference.rows() == 0)

@@ -1,17 +1,20 @@
 #include "partition/repair/pinches.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "partition/connected_components.h"
+#include "partition/index_lists.h"
 #include "partition/labels.h"
 
 namespace seamflow {
 
-bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v)
+namespace {
+
+/// How many runs too many there are at an interior vertex.
+Index excess_runs_at_interior(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels,
+                              Index v)
 {
-    if (!is_mixed(topology, labels, v))
-        return false;
-    if (topology.kind[v] != VertexKind::Interior)
-        return true;
     const auto label_of = [&](Index halfedge) { return labels[topology.face_of[halfedge]]; };
     const auto corners = topology.corners_at(v);
     std::size_t n_half_joints = 0;
@@ -22,17 +25,34 @@ bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std
     const std::size_t n_runs = corners.size() - n_half_joints / 2;
     // There are two labels at least: with one run each, none is pinched.
     if (n_runs == 2)
-        return false;
+        return 0;
     std::vector<Index> around;
     labels_around(topology, labels, v, around);
-    return n_runs > around.size();
+    return static_cast<Index>(n_runs - around.size());
+}
+
+/// Follows a chain of merged labels to its end.
+Index merged_into(std::vector<Index>& parent, Index label)
+{
+    while (parent[label] != label) {
+        parent[label] = parent[parent[label]];
+        label = parent[label];
+    }
+    return label;
+}
+
+}  // namespace
+
+bool may_be_pinched(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& labels, Index v)
+{
+    return is_mixed(topology, labels, v) &&
+           (topology.kind[v] != VertexKind::Interior || excess_runs_at_interior(mesh, topology, labels, v) > 0);
 }
 
 PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, Index n_labels)
     : mesh_(mesh)
     , topology_(topology)
     , labels_(labels)
-    , walker_(mesh, topology)
     , n_faces_(n_labels)
     , met_in_count_(n_labels, 0)
 {
@@ -45,11 +65,11 @@ void PinchMender::count_faces(const Loop& loop)
         [](Index) { return 1; });
 }
 
-void PinchMender::find_runs(const FanWalker::Fan& fan)
+void PinchMender::find_runs(const Fan& fan)
 {
     runs_.clear();
-    for (std::size_t i = 0; i < fan.faces.size(); ++i) {
-        const Index label = labels_[fan.faces[i]];
+    for (std::size_t i = 0; i < fan.corners.size(); ++i) {
+        const Index label = labels_[topology_.face_of[fan.corners[i]]];
         if (runs_.empty() || runs_.back().label != label)
             runs_.push_back({label, i, 0});
         ++runs_.back().count;
@@ -80,8 +100,10 @@ Index PinchMender::pinches_at(Index v)
 {
     if (!is_mixed(topology_, labels_, v))
         return 0;
+    if (topology_.kind[v] == VertexKind::Interior)
+        return excess_runs_at_interior(mesh_, topology_, labels_, v);
     Index excess = 0;
-    for (const FanWalker::Fan& fan : walker_.at_vertex(v)) {
+    for (const Fan& fan : fans_at(mesh_, topology_, v, {}, 0)) {
         find_runs(fan);
         excess += count_excess_runs();
     }
@@ -89,37 +111,37 @@ Index PinchMender::pinches_at(Index v)
 }
 
 /// The first fan at v with a pinch, and its runs in runs_; no faces if there is none.
-FanWalker::Fan PinchMender::find_pinch(Index v)
+Fan PinchMender::find_pinch(Index v)
 {
-    if (is_mixed(topology_, labels_, v))
-        for (const FanWalker::Fan& fan : walker_.at_vertex(v)) {
+    if (pinches_at(v) > 0)
+        for (Fan& fan : fans_at(mesh_, topology_, v, {}, 0)) {
             find_runs(fan);
             if (count_excess_runs() > 0)
-                return fan;
+                return std::move(fan);
         }
     return {};
 }
 
 /// Proposes to give the faces of some runs in a row, counted around the end of the fan, to another part.
-void PinchMender::propose(const FanWalker::Fan& fan, std::size_t first_run, std::size_t last_run, Index label)
+void PinchMender::propose(const Fan& fan, std::size_t first_run, std::size_t last_run, Index label)
 {
     Move& move = moves_.emplace_back();
     move.label = label;
     for (std::size_t r = first_run; r < last_run; ++r) {
         const Run& run = runs_[r % runs_.size()];
         for (std::size_t i = run.begin; i < run.begin + run.count; ++i)
-            move.faces.push_back(fan.faces[i % fan.faces.size()]);
+            move.faces.push_back(topology_.face_of[fan.corners[i % fan.corners.size()]]);
     }
 }
 
 /// Proposes to fill the smallest gap between two runs of the pinched part.
-void PinchMender::propose_filling(const FanWalker::Fan& fan)
+void PinchMender::propose_filling(const Fan& fan)
 {
     const std::size_t n = runs_.size();
     const std::size_t end = fan.closed ? 2 * n : n;
     std::size_t gap_begin = 0;
     std::size_t gap_end = 0;
-    std::size_t fewest = fan.faces.size() + 1;
+    std::size_t fewest = fan.corners.size() + 1;
     std::size_t run_before = end;
     std::size_t faces_since = 0;
     for (std::size_t r = 0; r < end; ++r) {
@@ -139,7 +161,7 @@ void PinchMender::propose_filling(const FanWalker::Fan& fan)
 }
 
 /// Proposes to give the smallest run of the pinched part to the part on its one side or the other.
-void PinchMender::propose_giving(const FanWalker::Fan& fan)
+void PinchMender::propose_giving(const Fan& fan)
 {
     const std::size_t n = runs_.size();
     std::size_t smallest = n;
@@ -164,8 +186,7 @@ Index PinchMender::pinches_around(const std::vector<Index>& faces)
     nearby_.clear();
     for (const Index f : faces)
         nearby_.insert(nearby_.end(), mesh_.face(f).begin(), mesh_.face(f).end());
-    std::sort(nearby_.begin(), nearby_.end());
-    nearby_.erase(std::unique(nearby_.begin(), nearby_.end()), nearby_.end());
+    sort_unique(nearby_);
     Index pinches = 0;
     for (const Index v : nearby_)
         pinches += pinches_at(v);
@@ -177,14 +198,10 @@ double PinchMender::cut_length_around(const std::vector<Index>& faces) const
 {
     double length = 0;
     for (const Index f : faces)
-        for (Index h = mesh_.face_offsets[f]; h < mesh_.face_offsets[f + 1]; ++h) {
-            const Index twin = topology_.twin[h];
-            if (twin < 0 || labels_[topology_.face_of[twin]] == labels_[f])
-                continue;
-            const Index from = mesh_.face_vertices[h];
-            const Index to = mesh_.face_vertices[topology_.next(mesh_, h)];
-            length += (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
-        }
+        for_each_neighbour(mesh_, topology_, f, [&](Index h, Index across) {
+            if (labels_[across] != labels_[f])
+                length += edge_length(mesh_, topology_, h);
+        });
     return length;
 }
 
@@ -208,7 +225,7 @@ PinchMender::Cost PinchMender::try_out(const Move& move)
 
 void PinchMender::mend(Index v, std::vector<Index>& moved, std::vector<Index>& labels_before)
 {
-    for (FanWalker::Fan fan = find_pinch(v); !fan.faces.empty(); fan = find_pinch(v)) {
+    for (Fan fan = find_pinch(v); !fan.corners.empty(); fan = find_pinch(v)) {
         moves_.clear();
         propose_filling(fan);
         propose_giving(fan);
@@ -229,7 +246,7 @@ void PinchMender::mend(Index v, std::vector<Index>& moved, std::vector<Index>& l
 
 std::pair<Index, Index> PinchMender::pinched_and_between(Index v)
 {
-    const FanWalker::Fan fan = find_pinch(v);
+    const Fan fan = find_pinch(v);
     const std::size_t n = runs_.size();
     std::size_t first = 0;
     while (runs_[first].label != pinched_label_)
@@ -249,6 +266,29 @@ std::pair<Index, Index> PinchMender::pinched_and_between(Index v)
     if (n_faces_[pinched_label_] < n_faces_[between])
         return {between, pinched_label_};
     return {pinched_label_, between};
+}
+
+void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)
+{
+    PinchMender mender(mesh, topology, labels, n_labels);
+    std::vector<Index> vertices = mixed_vertices(topology, labels);
+    std::vector<Index> parent(n_labels);
+    std::iota(parent.begin(), parent.end(), 0);
+    for (bool merged = true; merged;) {
+        merged = false;
+        mender.count_faces();
+        std::erase_if(vertices, [&](Index v) { return !is_mixed(topology, labels, v); });
+        for (const Index v : vertices) {
+            if (mender.pinches_at(v) == 0)
+                continue;
+            const auto [larger, smaller] = mender.pinched_and_between(v);
+            const Index root = merged_into(parent, larger);
+            parent[merged_into(parent, smaller)] = root;
+            merged = true;
+        }
+        for (Index& label : labels)
+            label = merged_into(parent, label);
+    }
 }
 
 }  // namespace seamflow

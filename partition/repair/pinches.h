@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
-#include "partition/repair/fans.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -58,12 +56,12 @@ class PinchMender {
         friend auto operator<=>(const Cost&, const Cost&) = default;
     };
 
-    void find_runs(const FanWalker::Fan& fan);
+    void find_runs(const Fan& fan);
     Index count_excess_runs();
-    FanWalker::Fan find_pinch(Index v);
-    void propose(const FanWalker::Fan& fan, std::size_t first_run, std::size_t last_run, Index label);
-    void propose_filling(const FanWalker::Fan& fan);
-    void propose_giving(const FanWalker::Fan& fan);
+    Fan find_pinch(Index v);
+    void propose(const Fan& fan, std::size_t first_run, std::size_t last_run, Index label);
+    void propose_filling(const Fan& fan);
+    void propose_giving(const Fan& fan);
     Cost try_out(const Move& move);
     Index pinches_around(const std::vector<Index>& faces);
     [[nodiscard]] double cut_length_around(const std::vector<Index>& faces) const;
@@ -72,7 +70,6 @@ class PinchMender {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    FanWalker walker_;
     /// One entry per label.
     std::vector<std::int64_t> n_faces_;
     std::vector<std::size_t> met_in_count_;
@@ -84,5 +81,11 @@ class PinchMender {
     std::vector<Index> nearby_;
     std::vector<Index> labels_before_;
 };
+
+/// Merges pairs of neighbouring parts at pinched vertices, the smaller into the larger, until no vertex is pinched.
+/// Connected parts stay connected, and each round leaves fewer: at worst there is one part for each connected component
+/// of the mesh.
+/// @param labels #F, from 0 to n_labels - 1; labels of parts that are merged into others no longer occur.
+void merge_pinched(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels);
 
 }  // namespace seamflow

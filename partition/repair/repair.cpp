@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "partition/labels.h"
-#include "partition/repair/merge.h"
-#include "partition/repair/pieces.h"
+#include "partition/repair/loose_components.h"
 #include "partition/repair/pinches.h"
 
 namespace seamflow {
@@ -54,7 +53,7 @@ class VertexQueue {
 
 /// What to look at first.
 struct Suspects {
-    /// See join_loose_pieces.
+    /// See join_loose_components.
     std::vector<bool> parts;
     /// All that are pinched, and perhaps others, ascending.
     std::vector<Index> vertices;
@@ -85,7 +84,7 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Su
     return suspects;
 }
 
-/// Mends loose pieces and pinches in turn, as either may cause the other. Leaves all parts connected.
+/// Mends loose components and pinches in turn, as either may cause the other. Leaves all parts connected.
 /// @returns whether no vertex is pinched any more.
 bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects found, std::vector<Index>& labels,
                     const Loop& loop)
@@ -97,7 +96,7 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
     PinchMender mender(mesh, topology, labels, n_labels);
     VertexQueue queue(mesh.n_vertices(), std::move(found.vertices));
     for (int round = 0;; ++round) {
-        queue.add_corners_of(mesh, join_loose_pieces(mesh, topology, suspects, labels, loop));
+        queue.add_corners_of(mesh, join_loose_components(mesh, topology, suspects, labels, loop));
         if (round == max_repair_rounds)
             return false;
         mender.count_faces(loop);
@@ -114,35 +113,24 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
     }
 }
 
-/// The labels of all faces as they are at some time.
-class Snapshot {
-  public:
-    Snapshot(const std::vector<Index>& labels, const Loop& loop)
-        : labels_(std::make_unique_for_overwrite<Index[]>(labels.size()))
-    {
-        for_each(loop, static_cast<Index>(labels.size()), [&](Index f) { labels_[f] = labels[f]; });
-    }
-
-    /// Of how many faces they are others now.
-    [[nodiscard]] Index count_changes(const std::vector<Index>& labels, const Loop& loop) const
-    {
-        return static_cast<Index>(
-            sum(loop, static_cast<Index>(labels.size()), [&](Index f) { return labels[f] != labels_[f] ? 1.0 : 0.0; }));
-    }
-
-  private:
-    std::unique_ptr<Index[]> labels_;
-};
+std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Loop& loop)
+{
+    auto copy = std::make_unique_for_overwrite<Index[]>(labels.size());
+    for_each(loop, static_cast<Index>(labels.size()), [&](Index f) { copy[f] = labels[f]; });
+    return copy;
+}
 
 /// @param suspects their parts are those of all labels, each within one component.
-/// @returns the number of faces whose labels differ from `before`.
-Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Snapshot& before,
+/// @param before #F, the labels at first.
+/// @returns the number of faces whose labels differ from them.
+Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Index* before,
            std::vector<Index>& labels, const Loop& loop)
 {
     const auto n_labels = static_cast<Index>(suspects.parts.size());
     if (!mend_in_rounds(mesh, topology, std::move(suspects), labels, loop))
         merge_pinched(mesh, topology, n_labels, labels);
-    const Index n_moved = before.count_changes(labels, loop);
+    const auto n_moved =
+        static_cast<Index>(sum(loop, mesh.n_faces(), [&](Index f) { return labels[f] != before[f] ? 1.0 : 0.0; }));
     const auto n_faces = sums_by_value(
         loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; }, [](Index) { return 1; });
     if (std::ranges::find(n_faces, 0) != n_faces.end())
@@ -155,24 +143,24 @@ Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects,
 Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, const Loop& loop)
 {
     Index n_labels = compact_labels(labels);
-    const Snapshot before(labels, loop);
+    const auto before = copy_of(labels, loop);
     n_labels = split_by_component(mesh, topology, n_labels, labels);
-    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before.get(), labels, loop);
 }
 
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
                                const Loop& loop)
 {
     const Index n_labels = compact_labels(labels);
-    const Snapshot before(labels, loop);
-    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before, labels, loop);
+    const auto before = copy_of(labels, loop);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before.get(), labels, loop);
 }
 
 Index repair_where_suspected(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
                              std::vector<Index>& labels, const Loop& loop)
 {
-    const Snapshot before(labels, loop);
-    return mend(mesh, topology, suspects_of(mesh, topology, suspected, labels, loop), before, labels, loop);
+    const auto before = copy_of(labels, loop);
+    return mend(mesh, topology, suspects_of(mesh, topology, suspected, labels, loop), before.get(), labels, loop);
 }
 
 }  // namespace seamflow

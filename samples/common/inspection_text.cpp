@@ -84,20 +84,20 @@ class FindingsPrinter {
 void print_sizes(std::ostream& out, const std::string& file, const MeshInspection& found)
 {
     out << file << '\n'
-        << "vertices   " << found.vertices << '\n'
-        << "edges      " << found.edges << ", " << found.boundary_edges << " of them on the boundary; shortest "
-        << digits_of(found.shortest_edge) << ", mean " << digits_of(found.mean_edge) << ", longest "
-        << digits_of(found.longest_edge) << '\n'
-        << "faces      " << found.faces;
+        << "vertices   " << found.counts.vertices << '\n'
+        << "edges      " << found.counts.edges << ", " << found.counts.boundary_edges
+        << " of them on the boundary; shortest " << digits_of(found.edge_lengths.shortest) << ", mean "
+        << digits_of(found.edge_lengths.mean) << ", longest " << digits_of(found.edge_lengths.longest) << '\n'
+        << "faces      " << found.counts.faces;
     constexpr std::array<const char*, 5> names = {"triangles", "quads", "pentagons", "hexagons", "with more sides"};
     for (std::size_t k = 0; k < names.size(); ++k)
-        if (found.faces_by_sides[k] > 0)
-            out << ", " << found.faces_by_sides[k] << ' ' << names[k];
+        if (found.counts.faces_by_sides[k] > 0)
+            out << ", " << found.counts.faces_by_sides[k] << ' ' << names[k];
     out << '\n'
-        << "components " << found.components << '\n'
-        << "box        " << digits_of(found.diagonal) << " from corner to corner, around ("
-        << digits_of(found.middle[0]) << ", " << digits_of(found.middle[1]) << ", " << digits_of(found.middle[2])
-        << ")\n";
+        << "components " << found.counts.components << '\n'
+        << "box        " << digits_of(found.box.diagonal) << " from corner to corner, around ("
+        << digits_of(found.box.middle[0]) << ", " << digits_of(found.box.middle[1]) << ", "
+        << digits_of(found.box.middle[2]) << ")\n";
 }
 
 }  // namespace
@@ -108,23 +108,25 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     print_sizes(out, file, found);
     FindingsPrinter printer(out, most_listed);
     printer.print(faults);
-    printer.print(found.vertices_not_finite, "vertices with coordinates that are no finite numbers",
+    printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are no finite numbers",
                   "smooth refuses them: give them positions, or remove them and their faces");
-    printer.print(found.non_manifold_edges, "edges of three faces or more", "smooth holds their vertices fixed");
-    printer.print(found.non_manifold_vertices, "vertices around which the mesh is not manifold",
+    printer.print(found.defects.non_manifold_edges, "edges of three faces or more",
+                  "smooth holds their vertices fixed");
+    printer.print(found.defects.non_manifold_vertices, "vertices around which the mesh is not manifold",
                   "smooth holds them fixed");
-    printer.print(found.inconsistent_edges, "edges whose faces are oriented against each other",
+    printer.print(found.defects.inconsistent_edges, "edges whose faces are oriented against each other",
                   found.orientable ? "smooth does not mind; normals that it writes do"
                                    : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
     printer.print(
-        found.duplicate_faces, "faces with the same vertices as one before them",
+        found.defects.duplicate_faces, "faces with the same vertices as one before them",
         "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
-    printer.print(found.faces_without_area, "faces without area",
+    printer.print(found.defects.faces_without_area, "faces without area",
                   "with alexa-wardetzky and ptackova-velho smooth cannot move their vertices");
-    printer.print(found.edges_without_length, "edges without length", "with fujiwara smooth cannot move their ends");
-    printer.print(found.coincident_vertices, "vertices at the same place as one before them",
+    printer.print(found.defects.edges_without_length, "edges without length",
+                  "with fujiwara smooth cannot move their ends");
+    printer.print(found.defects.coincident_vertices, "vertices at the same place as one before them",
                   "smooth moves each with its own faces: weld them where the surface should not open there");
-    printer.print(found.isolated_vertices, "vertices without faces", "they stay where they are");
+    printer.print(found.defects.isolated_vertices, "vertices without faces", "they stay where they are");
     if (found.bits_for_detail < 30)
         printer.print("The mesh lies so far from the origin that its coordinates are coarse against its edges: floats "
                       "cannot hold it; move it to the origin.");

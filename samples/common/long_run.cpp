@@ -59,9 +59,9 @@ StepObserver LongRun::observing(StepObserver inner)
     return [this, inner = std::move(inner)](const StepState& state) {
         bar_.erase();
         // Before what may fail: the mesh has moved already.
-        if (state.pieces != nullptr) {
-            PolygonMesh pieces = *state.pieces;
-            pieces_ = std::move(pieces);
+        if (state.separated != nullptr) {
+            PolygonMesh separated = *state.separated;
+            separated_ = std::move(separated);
         }
         step_ = state.step;
         inner(state);
@@ -107,7 +107,7 @@ void LongRun::keep_last_step()
 std::filesystem::path LongRun::write_last_step() const
 {
     const auto path = interrupted_path(command_->output, command_->input);
-    write_state(path, file_->mesh, pieces_ ? &*pieces_ : nullptr, *file_);
+    write_state(path, file_->mesh, separated_ ? &*separated_ : nullptr, *file_);
     return path;
 }
 

@@ -56,7 +56,7 @@ class LongRun {
     /// The last complete step of this run; 0: none.
     int step_ = 0;
     /// With --keep-gaps, as they were then.
-    std::optional<PolygonMesh> pieces_;
+    std::optional<PolygonMesh> separated_;
 };
 
 }  // namespace seamflow

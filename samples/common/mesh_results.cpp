@@ -12,11 +12,11 @@ bool has_format_of(const MeshFile& input, const std::filesystem::path& path)
 }  // namespace
 
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                     const PolygonMesh* pieces, const MeshFile& input)
+                                     const PolygonMesh* separated, const MeshFile& input)
 {
-    if (pieces == nullptr && has_format_of(input, path))
+    if (separated == nullptr && has_format_of(input, path))
         return write_mesh_like(*input.source, path, mesh);
-    write_mesh(path, pieces == nullptr ? mesh : *pieces, kind_for_writing(path, input.kind));
+    write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind));
     return {};
 }
 

@@ -10,11 +10,11 @@ namespace seamflow {
 
 /// Writes a state of a mesh: in the form of the input (see write_mesh_like) where the format of `path` is the same and
 /// the sub-meshes are joined, else as a plain mesh.
-/// @param pieces the sub-meshes unjoined; null: they are joined.
+/// @param separated the sub-meshes, each with its own copies of shared vertices; null: they are joined.
 /// @returns remarks for the user.
 /// @throws OutputError, InputError (see write_mesh_like).
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                     const PolygonMesh* pieces, const MeshFile& input);
+                                     const PolygonMesh* separated, const MeshFile& input);
 
 /// Says what of the input such a file will not have.
 /// @param joined whether the sub-meshes will be.

@@ -189,7 +189,7 @@ void Claims::add_authors_last_step(std::string_view conditions)
     for (const Experiment& experiment : experiments())
         for (const AuthorsDistances& one : experiment.theirs) {
             if (experiment.name != table_.figure ||
-                conditions != conditions_of({.pieces = Pieces::Halves, .conditions = one.conditions}))
+                conditions != conditions_of({.cut = CutKind::Halves, .conditions = one.conditions}))
                 continue;
             const double mean = quantity(table_, one.laplacian, conditions, table_.steps, v_mean);
             const double largest = quantity(table_, one.laplacian, conditions, table_.steps, v_max);

@@ -37,7 +37,7 @@ std::vector<Variant> in_halves(std::span<const Laplacian> laplacians, std::initi
     std::vector<Variant> variants = undecomposed(laplacians);
     for (const Conditions conditions : all_conditions)
         for (const Laplacian laplacian : laplacians)
-            variants.push_back({.laplacian = laplacian, .pieces = Pieces::Halves, .conditions = conditions});
+            variants.push_back({.laplacian = laplacian, .cut = CutKind::Halves, .conditions = conditions});
     return variants;
 }
 
@@ -48,7 +48,7 @@ std::string alone(Laplacian laplacian)
 
 std::string halves(Laplacian laplacian, Conditions conditions = robin)
 {
-    return title_of({.laplacian = laplacian, .pieces = Pieces::Halves, .conditions = conditions});
+    return title_of({.laplacian = laplacian, .cut = CutKind::Halves, .conditions = conditions});
 }
 
 const std::string input_picture(picture_of::input);
@@ -256,7 +256,7 @@ std::string plain_arguments(const FlowOptions& options)
 
 std::string conditions_of(const Variant& variant)
 {
-    if (variant.pieces == Pieces::One)
+    if (variant.cut == CutKind::Uncut)
         return "undecomposed";
     for (const auto& [name, conditions] : conditions_choices())
         if (conditions == variant.conditions)
@@ -273,16 +273,16 @@ std::string title_of(const Variant& variant)
 {
     std::string text(name_of(variant.laplacian));
     text.append("-").append(conditions_of(variant));
-    if (variant.pieces == Pieces::Metis)
+    if (variant.cut == CutKind::Metis)
         text.append("-").append(std::to_string(variant.subdomains)).append("-").append(name_of(variant.settings));
     return text;
 }
 
 std::string words_of(const Variant& variant)
 {
-    if (variant.pieces == Pieces::One)
+    if (variant.cut == CutKind::Uncut)
         return symbol_of(variant.laplacian) + ", undecomposed";
-    const std::string parts = variant.pieces == Pieces::Halves ? "two" : std::to_string(variant.subdomains);
+    const std::string parts = variant.cut == CutKind::Halves ? "two" : std::to_string(variant.subdomains);
     std::string conditions = "adapted Robin";
     if (variant.conditions == schwarz)
         conditions = "Schwarz";
@@ -304,15 +304,15 @@ Experiment with_many_sub_meshes(const Experiment& experiment)
 {
     Experiment many = experiment;
     many.pictures.clear();
-    std::erase_if(many.variants, [](const Variant& variant) { return variant.pieces != Pieces::One; });
+    std::erase_if(many.variants, [](const Variant& variant) { return variant.cut != CutKind::Uncut; });
     for (const Variant& variant : experiment.variants) {
-        if (variant.pieces != Pieces::Halves || variant.conditions == ventcell)
+        if (variant.cut != CutKind::Halves || variant.conditions == ventcell)
             continue;
         for (const int subdomains : {2, 4, 8, 16, 32})
             for (const Settings settings : {Settings::Plain, Settings::Default})
                 if (settings == Settings::Plain || variant.conditions == robin)
                     many.variants.push_back({.laplacian = variant.laplacian,
-                                             .pieces = Pieces::Metis,
+                                             .cut = CutKind::Metis,
                                              .subdomains = subdomains,
                                              .conditions = variant.conditions,
                                              .settings = settings});
@@ -328,13 +328,13 @@ FlowOptions options_of(const Experiment& experiment, const Variant& variant, con
     options.steps = experiment.steps;
     // What the paper shows is shown, spikes included.
     options.accuracy.largest_update = std::numeric_limits<double>::infinity();
-    if (variant.settings == Settings::Plain && variant.pieces != Pieces::One) {
+    if (variant.settings == Settings::Plain && variant.cut != CutKind::Uncut) {
         options.interface.conditions = variant.conditions;
         if (variant.conditions == ventcell)
             options.interface.q = ventcell_q;
     }
-    options.cut.subdomains = variant.pieces == Pieces::Metis ? variant.subdomains : 1;
-    if (variant.pieces == Pieces::Halves)
+    options.cut.subdomains = variant.cut == CutKind::Metis ? variant.subdomains : 1;
+    if (variant.cut == CutKind::Halves)
         cut_in_two(options, mesh);
     return options;
 }
@@ -346,8 +346,8 @@ std::string command_of(const Experiment& experiment, const Variant& variant, con
     std::string text = "smooth " + name + "-input.ply out.ply --laplacian ";
     text.append(name_of(options.laplacian)).append(" --time-step ").append(exact(options.time_step));
     text.append(" --steps ").append(std::to_string(options.steps));
-    text += variant.pieces == Pieces::Halves ? " --labels " + name + "-cut.txt"
-                                             : " --subdomains " + std::to_string(options.cut.subdomains);
+    text += variant.cut == CutKind::Halves ? " --labels " + name + "-cut.txt"
+                                           : " --subdomains " + std::to_string(options.cut.subdomains);
     if (variant.settings == Settings::Plain)
         text += plain_arguments(options);
     return text;

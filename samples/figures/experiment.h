@@ -9,10 +9,10 @@
 
 namespace seamflow {
 
-/// Into what a mesh is cut.
-enum class Pieces {
-    /// Into nothing: the reference.
-    One,
+/// How a mesh is cut.
+enum class CutKind {
+    /// Not at all: the reference.
+    Uncut,
     /// Into two, as in the paper (see FigureMesh::labels).
     Halves,
     /// By METIS.
@@ -30,8 +30,8 @@ enum class Settings {
 /// One of the flows of a figure.
 struct Variant {
     Laplacian laplacian = Laplacian::Fujiwara;
-    Pieces pieces = Pieces::One;
-    /// With Pieces::Metis.
+    CutKind cut = CutKind::Uncut;
+    /// With CutKind::Metis.
     int subdomains = 2;
     Conditions conditions = Conditions::AdaptedRobin;
     Settings settings = Settings::Plain;
@@ -98,7 +98,7 @@ inline constexpr std::string_view many_sub_meshes = "subdomains";
 /// defaults, instead of its own; those Laplacians whose decomposed flow the figure shows.
 Experiment with_many_sub_meshes(const Experiment& experiment);
 
-/// The options of one flow on the mesh of its figure. With Pieces::Halves the paper to the letter, except for what
+/// The options of one flow on the mesh of its figure. With CutKind::Halves the paper to the letter, except for what
 /// AuthorsRun says of the authors' own mesh.
 FlowOptions options_of(const Experiment& experiment, const Variant& variant, const FigureMesh& mesh);
 

@@ -14,7 +14,7 @@ std::string symbol_of(Laplacian laplacian)
 bool is_of(const Row& row, const AuthorsDistances& theirs)
 {
     return row.laplacian == theirs.laplacian && row.settings == name_of(Settings::Plain) &&
-           row.conditions == conditions_of({.pieces = Pieces::Halves, .conditions = theirs.conditions});
+           row.conditions == conditions_of({.cut = CutKind::Halves, .conditions = theirs.conditions});
 }
 
 double quantity(const Table& table, Laplacian laplacian, std::string_view conditions, int step, Quantity what)

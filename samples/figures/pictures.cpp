@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "partition/formats/mesh_io.h"
-#include "partition/metrics/centre_fans.h"
+#include "partition/metrics/triangulation.h"
 #include "samples/common/output_files.h"
 
 namespace seamflow {
@@ -67,7 +67,7 @@ PolygonMesh part_of(const FigureMesh& input, Index label)
 
 bool is_in_halves(const Variant& variant)
 {
-    return variant.pieces == Pieces::Halves;
+    return variant.cut == CutKind::Halves;
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ class Run {
         {
             const auto reference = run.reference_.find(variant.laplacian);
             const auto steps = at(run.experiment_.steps);
-            if (variant.pieces != Pieces::One && reference != run.reference_.end() && reference->second.size() == steps)
+            if (variant.cut != CutKind::Uncut && reference != run.reference_.end() && reference->second.size() == steps)
                 undecomposed_ = &reference->second;
             if (run.page_)
                 flow_ = run.page_->begin(words_of(variant), variant.laplacian, run.experiment_.steps,
@@ -116,7 +116,7 @@ class Run {
             meter.add_step(before, state.positions);
             before = state.positions;
             shown.add_step(state);
-            if (variant.pieces == Pieces::One)
+            if (variant.cut == CutKind::Uncut)
                 reference_[variant.laplacian].push_back(state.positions);
             table_.rows.push_back(measured(variant, state, meter.total().drift.mean));
         };
@@ -137,7 +137,7 @@ class Run {
     {
         std::vector<double> p;
         for (std::size_t part = 0; part < report.p.size(); ++part)
-            if (report.p[part] > 0.0 && (variant.pieces == Pieces::Metis || report.subdomain_colors[part] == 0))
+            if (report.p[part] > 0.0 && (variant.cut == CutKind::Metis || report.subdomain_colors[part] == 0))
                 p.push_back(report.p[part]);
         std::string range;
         if (!p.empty()) {
@@ -148,7 +148,7 @@ class Run {
             table_.rows[row].subdomains = report.subdomains;
             table_.rows[row].p = range;
         }
-        if (variant.pieces == Pieces::Halves && report.subdomains == 2)
+        if (variant.cut == CutKind::Halves && report.subdomains == 2)
             leading_ = report.subdomain_colors[0] == 0 ? 0 : 1;
     }
 
@@ -165,7 +165,7 @@ class Run {
         row.step = state.step;
         row.seconds = state.report.seconds;
         row.roughness = roughness(input_.mesh, state.positions);
-        if (variant.pieces != Pieces::One && variant.conditions == Conditions::AdaptedVentcell)
+        if (variant.cut != CutKind::Uncut && variant.conditions == Conditions::AdaptedVentcell)
             row.q = csv_number(ventcell_q);
         row.subdomains = asked_for(variant);
         row.cut = cut_of(variant);
@@ -173,7 +173,7 @@ class Run {
         row.title = title_of(variant);
         row.words = words_of(variant);
         compare(row, state.positions, drift);
-        if (variant.pieces != Pieces::Halves)
+        if (variant.cut != CutKind::Halves)
             row.interface_length = std::nan("");
         return row;
     }
@@ -201,17 +201,16 @@ class Run {
     /// Sub-meshes; another number may come out.
     static Index asked_for(const Variant& variant)
     {
-        if (variant.pieces == Pieces::One)
+        if (variant.cut == CutKind::Uncut)
             return 1;
-        return variant.pieces == Pieces::Halves ? 2 : variant.subdomains;
+        return variant.cut == CutKind::Halves ? 2 : variant.subdomains;
     }
 
     [[nodiscard]] std::string cut_of(const Variant& variant) const
     {
-        if (variant.pieces == Pieces::One)
+        if (variant.cut == CutKind::Uncut)
             return "none";
-        return variant.pieces == Pieces::Halves ? input_.cut
-                                                : "METIS, " + std::to_string(variant.subdomains) + " parts";
+        return variant.cut == CutKind::Halves ? input_.cut : "METIS, " + std::to_string(variant.subdomains) + " parts";
     }
 
     /// Of the edges between the two halves.

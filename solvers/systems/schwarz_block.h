@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "partition/decomposition/grown_part.h"
+#include "partition/decomposition/overlap.h"
 #include "solvers/direct/columns.h"
 #include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/laplacian_assembler.h"

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Builds and runs the consumer in one of the ways in which a program comes by the library.
 #
-#     tests/consumer/run.sh install|headers|find_package|pkg-config|destdir|add_subdirectory BUILD WORK [CMAKE_ARGUMENT…]
+#     tests/consumer/run.sh install|headers|find_package|pkg-config|destdir|add_subdirectory|shared BUILD WORK \
+#         [CMAKE_ARGUMENT…]
 #
 # BUILD is a build folder of the project. WORK is for what is made here; `install` installs into WORK/static, from where
-# find_package and pkg-config take it. add_subdirectory builds the library once more, with shared libraries and without
-# optimisation, and installs that, too: into WORK/shared.
+# find_package and pkg-config take it. add_subdirectory takes the objects of BUILD (see reuse.sh). shared compiles the
+# library once more, with shared libraries and without optimisation, and installs that, too: into WORK/shared.
 
 set -euo pipefail
 way="$1"
@@ -81,18 +82,24 @@ destdir)
     with_find_package "$work/dest dir/opt/seamflow" "of destdir" "$@"
     ;;
 add_subdirectory)
-    configure_consumer "with sources" -DSEAMFLOW_SOURCE="$root" -DBUILD_SHARED_LIBS=ON -DSEAMFLOW_INSTALL=ON \
-        -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_CXX_FLAGS="-O0 -w" "$@"
+    mapfile -t unity < <(sed -n 's/^\(CMAKE_UNITY_BUILD[A-Z_]*:[A-Z]*=.*\)/-D\1/p' "$build/CMakeCache.txt")
+    configure_consumer "with sources" -DSEAMFLOW_SOURCE="$root" "${unity[@]}" "$@" \
+        -DCMAKE_CXX_FLAGS="-O0" -DCMAKE_CXX_COMPILER_LAUNCHER="$sources/reuse.sh;$(realpath "$build")"
     cmake --build "$work/with sources"
     "$work/with sources/consumer"
+    # Who does not ask for it gets no rule to install anything.
+    cmake --install "$work/with sources" --prefix "$work/nothing"
+    [[ ! -e "$work/nothing" ]]
+    ;;
+shared)
+    configure_consumer "with shared sources" -DSEAMFLOW_SOURCE="$root" -DBUILD_SHARED_LIBS=ON -DSEAMFLOW_INSTALL=ON \
+        -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_CXX_FLAGS="-O0 -w" "$@"
+    cmake --build "$work/with shared sources"
+    "$work/with shared sources/consumer"
     rm -rf "$work/shared"
-    cmake --install "$work/with sources" --prefix "$work/shared"
+    cmake --install "$work/with shared sources" --prefix "$work/shared"
     with_find_package "$work/shared" "of shared" "$@"
     with_pkg_config "$work/shared" "by pkg-config, shared"
-    # Who does not ask for it gets no rule to install anything.
-    configure_consumer "without install" -DSEAMFLOW_SOURCE="$root"
-    cmake --install "$work/without install" --prefix "$work/nothing"
-    [[ ! -e "$work/nothing" ]]
     ;;
 *)
     echo "unknown way: $way" >&2

@@ -91,7 +91,7 @@ TEST_CASE("every OBJ, OFF and PLY file of the corpus is the same file when it is
         }
 }
 
-TEST_CASE("every mesh of the corpus survives reading, writing and flowing, in one piece and in eight")
+TEST_CASE("every mesh of the corpus survives reading, writing and flowing, in one sub-mesh and in eight")
 {
     const char* corpus = std::getenv("SEAMFLOW_CORPUS");
     if (corpus == nullptr) {

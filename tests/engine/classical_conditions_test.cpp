@@ -76,8 +76,8 @@ TEST_CASE("classical conditions in one sub-mesh are the undecomposed flow to the
             const FlowReport report = mean_curvature_flow(moved, options);
             CHECK(same_bits(moved.vertices, flowed(mesh, undecomposed)));
             CHECK(report.steps.back().gap->max == 0.0);
-            CHECK(same_bits(report.pieces->vertices, moved.vertices));
-            CHECK(report.pieces->face_vertices == mesh.face_vertices);
+            CHECK(same_bits(report.separated->vertices, moved.vertices));
+            CHECK(report.separated->face_vertices == mesh.face_vertices);
         }
 }
 
@@ -89,27 +89,27 @@ TEST_CASE("the result has the mean of the copies, and the gap is the largest dis
             PolygonMesh moved = mesh;
             FlowOptions options = classical_options(conditions, Laplacian::Fujiwara, subdomains);
             options.report.keep_gaps = true;
-            Points pieces_seen;
+            Points separated_seen;
             const FlowReport report = mean_curvature_flow(
-                moved, options, [&](const StepState& state) { pieces_seen = state.pieces->vertices; });
-            const PolygonMesh& pieces = *report.pieces;
-            CHECK(same_bits(pieces_seen, pieces.vertices));
-            REQUIRE(pieces.n_faces() == mesh.n_faces());
-            REQUIRE(pieces.n_vertices() > mesh.n_vertices());
+                moved, options, [&](const StepState& state) { separated_seen = state.separated->vertices; });
+            const PolygonMesh& separated = *report.separated;
+            CHECK(same_bits(separated_seen, separated.vertices));
+            REQUIRE(separated.n_faces() == mesh.n_faces());
+            REQUIRE(separated.n_vertices() > mesh.n_vertices());
 
             std::vector<std::vector<Index>> copies(mesh.n_vertices());
             for (std::size_t c = 0; c < mesh.face_vertices.size(); ++c) {
                 auto& of_vertex = copies[mesh.face_vertices[c]];
-                if (std::find(of_vertex.begin(), of_vertex.end(), pieces.face_vertices[c]) == of_vertex.end())
-                    of_vertex.push_back(pieces.face_vertices[c]);
+                if (std::find(of_vertex.begin(), of_vertex.end(), separated.face_vertices[c]) == of_vertex.end())
+                    of_vertex.push_back(separated.face_vertices[c]);
             }
             double largest = 0.0;
             for (Index v = 0; v < mesh.n_vertices(); ++v) {
                 Point mean = Point::Zero();
                 for (const Index a : copies[v]) {
-                    mean += pieces.vertices.row(a) / static_cast<double>(copies[v].size());
+                    mean += separated.vertices.row(a) / static_cast<double>(copies[v].size());
                     for (const Index b : copies[v])
-                        largest = std::max(largest, (pieces.vertices.row(a) - pieces.vertices.row(b)).norm());
+                        largest = std::max(largest, (separated.vertices.row(a) - separated.vertices.row(b)).norm());
                 }
                 CHECK((mean - moved.vertices.row(v)).norm() < 1e-14);
             }

@@ -12,7 +12,7 @@
 #include "engine/memory/factor_window.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
-#include "partition/decomposition/narrow_order.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
@@ -171,7 +171,7 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     std::vector<std::vector<Index>> ranks{report.subdomain_colors};
     if (alternates(options, at(report.subdomains)))
         ranks.push_back(reversed(report.subdomain_colors));
-    const FactorWindow window{narrow_order(decomposition.adjacency), report.live_factors};
+    const FactorWindow window{reverse_cuthill_mckee(decomposition.adjacency), report.live_factors};
     const Schedule& schedule = report.schedule.value();
     std::size_t first = 0;
     for (const std::vector<Index>& rank : ranks) {

@@ -71,13 +71,13 @@ class Machines {
                 : accept_corrected(states_, s, decomposition_.halo[s]);
     }
 
-    /// Checks that pieces that were kept apart have the same bits.
-    void check_pieces(const PolygonMesh& pieces) const
+    /// Checks that sub-meshes that were kept apart have the same bits.
+    void check_separated(const PolygonMesh& separated) const
     {
         const SeparatedSubMeshes expected = separate(mesh_, decomposition_);
-        REQUIRE(pieces.face_vertices == expected.mesh.face_vertices);
+        REQUIRE(separated.face_vertices == expected.mesh.face_vertices);
         for_each_own([&](Index s, Index v) {
-            CHECK(pieces.vertices.row(expected.vertex_of[s][v]) == states_[s].position.row(v));
+            CHECK(separated.vertices.row(expected.vertex_of[s][v]) == states_[s].position.row(v));
         });
     }
 
@@ -225,8 +225,8 @@ TEST_CASE("the same holds where every sub-mesh keeps a copy of the interface of 
                 for (int step = 0; step < options.steps; ++step)
                     machines.step();
                 const FlowReport report = mean_curvature_flow(mesh, options);
-                REQUIRE(report.pieces);
+                REQUIRE(report.separated);
                 CHECK(report.steps.back().gap->max > 0.0);
-                machines.check_pieces(*report.pieces);
+                machines.check_separated(*report.separated);
             }
 }

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "partition/errors.h"
-#include "partition/formats/extras.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/topology.h"
@@ -29,7 +28,7 @@ std::optional<std::uint64_t> faults_of(const FuzzedFile& file)
         FaultLog faults;
         const MeshFile read = read_faulty_mesh(file.path(), faults);
         const MeshInspection inspection = inspect(read.mesh, make_topology(read.mesh));
-        demand(faults.count > 0 || inspection.vertices_not_finite.empty(),
+        demand(faults.count > 0 || inspection.defects.vertices_not_finite.empty(),
                "a coordinate that is not finite is a fault");
         return faults.count;
     } catch (const InputError&) {

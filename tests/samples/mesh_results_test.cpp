@@ -23,13 +23,13 @@ TEST_CASE("a result has the form of the input where the format is the same and t
     CHECK(test::content_of(folder / "b.OBJ") == textured);
     write_state(folder / "b.off", input.mesh, nullptr, input);
     CHECK(test::content_of(folder / "b.off") == "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    PolygonMesh pieces = input.mesh;
-    pieces.add_face(std::vector<Index>{2, 1, 0});
-    write_state(folder / "c.obj", input.mesh, &pieces, input);
+    PolygonMesh separated = input.mesh;
+    separated.add_face(std::vector<Index>{2, 1, 0});
+    write_state(folder / "c.obj", input.mesh, &separated, input);
     CHECK(test::content_of(folder / "c.obj") == "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n");
 }
 
-TEST_CASE("a remark says what a result in another format, or unjoined, does not have")
+TEST_CASE("a remark says what a result in another format, or of separated sub-meshes, does not have")
 {
     using List = std::vector<std::string>;
     const TemporaryDirectory folder;

@@ -138,20 +138,21 @@ TEST_CASE("vertices without faces neither decide where a surface lies nor lose a
             check(state.positions);
             REQUIRE(state.reference_positions != nullptr);
             check(*state.reference_positions);
-            REQUIRE((state.pieces != nullptr) == options.report.keep_gaps);
-            if (state.pieces != nullptr)
-                CHECK(same_bits(state.pieces->vertices.middleRows(n, 4), alone));
+            REQUIRE((state.separated != nullptr) == options.report.keep_gaps);
+            if (state.separated != nullptr)
+                CHECK(same_bits(state.separated->vertices.middleRows(n, 4), alone));
         });
         CHECK(n_steps == 3);
         CHECK(same_bits(far.vertices.bottomRows(4), alone));
         CHECK(largest_difference((far.vertices.topRows(n).array() - 1e6).matrix(), expected) < 1e-9);
-        CHECK(report.pieces.has_value() == options.report.keep_gaps);
-        if (report.pieces)
-            CHECK(same_bits(report.pieces->vertices.middleRows(n, 4), alone));
+        CHECK(report.separated.has_value() == options.report.keep_gaps);
+        if (report.separated)
+            CHECK(same_bits(report.separated->vertices.middleRows(n, 4), alone));
     }
 }
 
-TEST_CASE("an observer sees everything where it is in truth: the undecomposed flow and the pieces as well")
+TEST_CASE(
+    "an observer sees everything where it is in truth: the undecomposed flow and the separated sub-meshes as well")
 {
     constexpr double offset = 1e6;
     PolygonMesh near = make_noisy_sphere(800);
@@ -165,17 +166,17 @@ TEST_CASE("an observer sees everything where it is in truth: the undecomposed fl
     struct Seen {
         Points positions;
         Points undecomposed;
-        Points of_pieces;
+        Points of_separated;
     };
     const auto seen_in = [&](PolygonMesh mesh) {
         std::vector<Seen> seen;
         const FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
             REQUIRE(state.reference_positions != nullptr);
-            REQUIRE(state.pieces != nullptr);
-            seen.push_back({state.positions, *state.reference_positions, state.pieces->vertices});
+            REQUIRE(state.separated != nullptr);
+            seen.push_back({state.positions, *state.reference_positions, state.separated->vertices});
         });
         CHECK(seen.back().positions == mesh.vertices);
-        CHECK(seen.back().of_pieces == report.pieces.value().vertices);
+        CHECK(seen.back().of_separated == report.separated.value().vertices);
         return seen;
     };
     const std::vector<Seen> expected = seen_in(near);
@@ -188,9 +189,9 @@ TEST_CASE("an observer sees everything where it is in truth: the undecomposed fl
     for (std::size_t step = 0; step < 3; ++step) {
         check_same(seen[step].positions, expected[step].positions);
         check_same(seen[step].undecomposed, expected[step].undecomposed);
-        check_same(seen[step].of_pieces, expected[step].of_pieces);
+        check_same(seen[step].of_separated, expected[step].of_separated);
         CHECK(seen[step].undecomposed != seen[step].positions);
-        CHECK(seen[step].of_pieces.rows() > seen[step].positions.rows());
+        CHECK(seen[step].of_separated.rows() > seen[step].positions.rows());
     }
 }
 

@@ -88,9 +88,9 @@ TEST_CASE("a flow that goes on after any step ends with the same bits and the sa
                 CHECK(resumed.report.steps_short_of_tolerance == whole.report.steps_short_of_tolerance);
                 CHECK(resumed.report.seconds.step >= state->seconds.step);
                 CHECK(resumed.report.seconds.factorise >= state->seconds.factorise);
-                REQUIRE(resumed.report.pieces.has_value() == options.report.keep_gaps);
+                REQUIRE(resumed.report.separated.has_value() == options.report.keep_gaps);
                 if (options.report.keep_gaps)
-                    CHECK(test::same_bits(resumed.report.pieces->vertices, whole.report.pieces->vertices));
+                    CHECK(test::same_bits(resumed.report.separated->vertices, whole.report.separated->vertices));
             }
         }
 }

@@ -165,7 +165,7 @@ TEST_CASE("good labels are taken as they are")
     CHECK(cut.remarks.empty());
 }
 
-TEST_CASE("labels with gaps, loose pieces or several components are put right and remarked upon")
+TEST_CASE("labels with gaps, loose components or several components are put right and remarked upon")
 {
     const NamedMesh strip = with_topology(quad_grid(5, 1));
     const Cut gaps = cut_by_labels(strip.mesh, strip.topology, std::vector<Index>{9, 9, 4, 4, 4});

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/loose_nodes.h"
 #include "partition/cut/refine.h"
 #include "tests/support/test_meshes.h"
 
@@ -42,21 +41,21 @@ Index count(const std::vector<Index>& labels, Index label)
 
 }  // namespace
 
-TEST_CASE("loose pieces go to the parts across most of their edges, rings of them too")
+TEST_CASE("loose components go to the parts across most of their edges, rings of them too")
 {
     const Graph graph(quad_grid(12, 12));
     std::vector<Index> labels = graph.labels_by_row(12, [](Index row) { return row < 6 ? 0 : 1; });
     const std::vector<Index> whole = labels;
-    CHECK(!join_loose_nodes(graph.faces, 3, labels));
+    CHECK(!join_loose_components(graph.faces, 3, labels));
     CHECK(labels == whole);
-    // A ring of part 1 within part 0 and a piece of part 2, which has another one, in its middle.
+    // A ring of part 1 within part 0 and a component of part 2, which has another one, in its middle.
     for (Index row = 1; row < 4; ++row)
         for (Index column = 4; column < 7; ++column)
             labels[row * 12 + column] = row == 2 && column == 5 ? 2 : 1;
     labels[11 * 12] = labels[11 * 12 + 1] = 2;
     std::vector<Index> expected = whole;
     expected[11 * 12] = expected[11 * 12 + 1] = 2;
-    CHECK(join_loose_nodes(graph.faces, 3, labels));
+    CHECK(join_loose_components(graph.faces, 3, labels));
     CHECK(labels == expected);
 }
 
@@ -69,7 +68,7 @@ TEST_CASE("refined parts are balanced and connected")
         CHECK(count(labels, label) <= 300 * (1.0 + balance_tolerance) + 1);
         CHECK(count(labels, label) >= 300 / (1.0 + balance_tolerance) - 1);
     }
-    CHECK(!join_loose_nodes(graph.faces, 3, labels));
+    CHECK(!join_loose_components(graph.faces, 3, labels));
 }
 
 TEST_CASE("a balanced cut along straight lines is left as it is")

@@ -43,10 +43,10 @@ std::vector<double> weights(const PolygonMesh& mesh, const std::vector<Index>& l
     return weight;
 }
 
-/// Of how many pieces each part consists.
-std::vector<Index> count_pieces(const NamedMesh& m, const std::vector<Index>& labels, Index n_labels)
+/// Of how many components each part consists.
+std::vector<Index> count_components(const NamedMesh& m, const std::vector<Index>& labels, Index n_labels)
 {
-    std::vector<Index> n_pieces(n_labels, 0);
+    std::vector<Index> n_components(n_labels, 0);
     std::vector<bool> reached(labels.size(), false);
     for (Index root = 0; root < m.mesh.n_faces(); ++root) {
         std::vector<Index> stack;
@@ -55,7 +55,7 @@ std::vector<Index> count_pieces(const NamedMesh& m, const std::vector<Index>& la
                 stack.push_back(f);
         };
         reach(root);
-        n_pieces[labels[root]] += static_cast<Index>(stack.size());
+        n_components[labels[root]] += static_cast<Index>(stack.size());
         while (!stack.empty()) {
             const Index f = stack.back();
             stack.pop_back();
@@ -65,7 +65,7 @@ std::vector<Index> count_pieces(const NamedMesh& m, const std::vector<Index>& la
                     reach(m.topology.face_of[twin]);
         }
     }
-    return n_pieces;
+    return n_components;
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ TEST_CASE("mixed vertices are those whose faces differ")
     CHECK(mixed_vertices(m.topology, std::vector<Index>{5, 5}).empty());
 }
 
-TEST_CASE("parts that have come to pieces are suspected")
+TEST_CASE("parts that are no longer connected are suspected")
 {
     for (const PolygonMesh& mesh : {quad_torus(40, 40), hexagon_sheet(30, 30), triangle_torus(30, 30)})
         for (const Index weight : {6, 12, 20, 40, 100}) {
@@ -171,8 +171,8 @@ TEST_CASE("parts that have come to pieces are suspected")
             const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
             std::vector<Index> labels = clusters.cluster_of;
             const SuspectedDefects defects = shorten_seams(m.mesh, m.topology, clusters.size(), labels);
-            const std::vector<Index> n_pieces = count_pieces(m, labels, clusters.size());
+            const std::vector<Index> n_components = count_components(m, labels, clusters.size());
             for (Index label = 0; label < clusters.size(); ++label)
-                CHECK((n_pieces[label] <= 1 || defects.parts[label]));
+                CHECK((n_components[label] <= 1 || defects.parts[label]));
         }
 }

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "partition/formats/extras.h"
+#include "partition/formats/obj.h"
+#include "partition/formats/off.h"
+#include "partition/formats/ply.h"
 
 using namespace seamflow;
 

@@ -1,10 +1,12 @@
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
-#include "partition/formats/mesh_source.h"
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -106,8 +108,11 @@ TEST_CASE("the source of a file outlives its mesh and is shared by copies")
         source = file.source;
         mesh = file.mesh;
     }
-    CHECK(source->path() == folder / "a.obj");
-    CHECK(source->kind() == FileKind{FileFormat::Obj, Encoding::Ascii});
+    PolygonMesh further = mesh;
+    further.add_face(std::array{0, 1, 2});
+    const std::string its_path = (folder / "a.obj").string();
+    CHECK_THROWS_WITH_AS(write_mesh_like(*source, folder / "b.obj", further),
+                         doctest::Contains(("cannot be written in the form of " + its_path).c_str()), OutputError);
     write_mesh_like(*source, folder / "b.obj", mesh);
     CHECK(content_of(folder / "b.obj") == file_after);
 }

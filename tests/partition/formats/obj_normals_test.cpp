@@ -1,14 +1,14 @@
 #include <doctest/doctest.h>
 
-#include "partition/formats/obj_normals.h"
+#include "partition/formats/obj.h"
 
 using namespace seamflow;
 
 namespace {
 
-std::vector<Index> corners_of(const ObjNormals& normals, Index normal)
+std::vector<Index> corners_of(const IndexLists& normals, Index normal)
 {
-    const auto corners = normals.corners_of(normal);
+    const auto corners = normals[normal];
     return {corners.begin(), corners.end()};
 }
 
@@ -16,9 +16,9 @@ std::vector<Index> corners_of(const ObjNormals& normals, Index normal)
 
 TEST_CASE("the corners that name each normal, absolutely or counted back, before or after it")
 {
-    const ObjNormals normals =
-        read_obj_normals("a.obj", "f 1//3 2/1/1 3\nvn 0 0 1\nvn 0 0 1\nf 1//-1 2/5/-2 \\\n3//+1\n"
-                                  "vn 0 0 1\nfo 1/1/1 2/1 3//\n");
+    const IndexLists normals =
+        corners_of_obj_normals("a.obj", "f 1//3 2/1/1 3\nvn 0 0 1\nvn 0 0 1\nf 1//-1 2/5/-2 \\\n3//+1\n"
+                                        "vn 0 0 1\nfo 1/1/1 2/1 3//\n");
     REQUIRE(normals.size() == 3);
     CHECK(corners_of(normals, 0) == std::vector<Index>{1, 4, 5, 6});
     CHECK(corners_of(normals, 1) == std::vector<Index>{3});
@@ -27,8 +27,8 @@ TEST_CASE("the corners that name each normal, absolutely or counted back, before
 
 TEST_CASE("normals that there are not are named by no corner")
 {
-    const ObjNormals normals = read_obj_normals("a.obj", "vn 0 0 1\nf 1//0 2//2 3//-2 4//99999999999 5//1\n");
+    const IndexLists normals = corners_of_obj_normals("a.obj", "vn 0 0 1\nf 1//0 2//2 3//-2 4//99999999999 5//1\n");
     REQUIRE(normals.size() == 1);
     CHECK(corners_of(normals, 0) == std::vector<Index>{4});
-    CHECK(read_obj_normals("a.obj", "f 1//1 2//1 3//1\n").size() == 0);
+    CHECK(corners_of_obj_normals("a.obj", "f 1//1 2//1 3//1\n").size() == 0);
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <doctest/doctest.h>
 
@@ -17,10 +18,11 @@ namespace {
 bool has_findings(const MeshInspection& found)
 {
     return !found.orientable ||
-           !(found.vertices_not_finite.empty() && found.non_manifold_edges.empty() &&
-             found.non_manifold_vertices.empty() && found.inconsistent_edges.empty() && found.duplicate_faces.empty() &&
-             found.faces_without_area.empty() && found.edges_without_length.empty() &&
-             found.coincident_vertices.empty() && found.isolated_vertices.empty());
+           !(found.defects.vertices_not_finite.empty() && found.defects.non_manifold_edges.empty() &&
+             found.defects.non_manifold_vertices.empty() && found.defects.inconsistent_edges.empty() &&
+             found.defects.duplicate_faces.empty() && found.defects.faces_without_area.empty() &&
+             found.defects.edges_without_length.empty() && found.defects.coincident_vertices.empty() &&
+             found.defects.isolated_vertices.empty());
 }
 
 MeshInspection inspected(const PolygonMesh& mesh)
@@ -31,6 +33,13 @@ MeshInspection inspected(const PolygonMesh& mesh)
 using Numbers = std::vector<Index>;
 using Edges = std::vector<Edge>;
 
+Numbers all_faces(const PolygonMesh& mesh)
+{
+    Numbers all(at(mesh.n_faces()));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+}
+
 }  // namespace
 
 TEST_CASE("a sound mesh is counted and measured, without findings")
@@ -40,17 +49,17 @@ TEST_CASE("a sound mesh is counted and measured, without findings")
         mesh.vertices.row(v) = Point(v % 5, v / 5, 0.0);
     const MeshInspection found = inspected(mesh);
     CHECK_FALSE(has_findings(found));
-    CHECK(found.vertices == 20);
-    CHECK(found.faces == 12);
-    CHECK(found.edges == 31);
-    CHECK(found.boundary_edges == 14);
-    CHECK(found.components == 1);
-    CHECK(found.faces_by_sides == std::array<Index, 5>{0, 12, 0, 0, 0});
-    CHECK(found.shortest_edge == 1.0);
-    CHECK(found.mean_edge == 1.0);
-    CHECK(found.longest_edge == 1.0);
-    CHECK(found.middle == std::array<double, 3>{2.0, 1.5, 0.0});
-    CHECK(found.diagonal == 5.0);
+    CHECK(found.counts.vertices == 20);
+    CHECK(found.counts.faces == 12);
+    CHECK(found.counts.edges == 31);
+    CHECK(found.counts.boundary_edges == 14);
+    CHECK(found.counts.components == 1);
+    CHECK(found.counts.faces_by_sides == std::array<Index, 5>{0, 12, 0, 0, 0});
+    CHECK(found.edge_lengths.shortest == 1.0);
+    CHECK(found.edge_lengths.mean == 1.0);
+    CHECK(found.edge_lengths.longest == 1.0);
+    CHECK(found.box.middle == std::array<double, 3>{2.0, 1.5, 0.0});
+    CHECK(found.box.diagonal == 5.0);
     CHECK(found.bits_for_detail == 51);
     mesh.vertices.rowwise() += Point(1048576.0, 0.0, 0.0);
     CHECK(inspected(mesh).bits_for_detail == 33);
@@ -59,12 +68,12 @@ TEST_CASE("a sound mesh is counted and measured, without findings")
 TEST_CASE("what is not manifold is listed")
 {
     const MeshInspection wings = inspected(three_wings());
-    CHECK(wings.non_manifold_edges.size() == 1);
-    CHECK(wings.non_manifold_vertices.size() == 2);
+    CHECK(wings.defects.non_manifold_edges.size() == 1);
+    CHECK(wings.defects.non_manifold_vertices.size() == 2);
     CHECK(has_findings(wings));
     const MeshInspection glass = inspected(hourglass());
-    CHECK(glass.non_manifold_edges.empty());
-    CHECK(glass.non_manifold_vertices.size() == 1);
+    CHECK(glass.defects.non_manifold_edges.empty());
+    CHECK(glass.defects.non_manifold_vertices.size() == 1);
 }
 
 TEST_CASE("edges whose faces run against each other are listed, and what can be oriented is known")
@@ -77,7 +86,7 @@ TEST_CASE("edges whose faces run against each other are listed, and what can be 
     for (std::size_t k = 0; k < 3; ++k)
         expected.push_back({std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])});
     std::sort(expected.begin(), expected.end());
-    CHECK(found.inconsistent_edges == expected);
+    CHECK(found.defects.inconsistent_edges == expected);
     CHECK(found.orientable);
     const MeshInspection band = inspected(moebius_band(12, 3));
     CHECK_FALSE(band.orientable);
@@ -93,8 +102,8 @@ TEST_CASE("repetitions are listed, not what they repeat")
     mesh.vertices.row(7) = mesh.vertices.row(3);
     mesh.vertices.row(9) = mesh.vertices.row(3);
     const MeshInspection found = inspected(mesh);
-    CHECK(found.duplicate_faces == Numbers{9, 10});
-    CHECK(found.coincident_vertices == Numbers{7, 9});
+    CHECK(found.defects.duplicate_faces == Numbers{9, 10});
+    CHECK(found.defects.coincident_vertices == Numbers{7, 9});
 }
 
 TEST_CASE("what has no extent is listed, and what has no faces")
@@ -106,17 +115,17 @@ TEST_CASE("what has no extent is listed, and what has no faces")
     mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
     mesh.vertices.bottomRows(1) = Point(9.0, 9.0, 9.0);
     const MeshInspection found = inspected(mesh);
-    CHECK(found.edges_without_length == Edges{{std::min(a, b), std::max(a, b)}});
-    CHECK(std::count(found.faces_without_area.begin(), found.faces_without_area.end(), 3) == 1);
-    CHECK(found.faces_without_area.size() == 2);
-    CHECK(found.isolated_vertices == Numbers{mesh.n_vertices() - 1});
+    CHECK(found.defects.edges_without_length == Edges{{std::min(a, b), std::max(a, b)}});
+    CHECK(std::count(found.defects.faces_without_area.begin(), found.defects.faces_without_area.end(), 3) == 1);
+    CHECK(found.defects.faces_without_area.size() == 2);
+    CHECK(found.defects.isolated_vertices == Numbers{mesh.n_vertices() - 1});
 
     // Three corners in a row, whose area is what rounding leaves of it.
     PolygonMesh flat;
     flat.vertices.resize(3, 3);
     flat.vertices << 0.1, 0.1, 0.1, 0.3, 0.3, 0.3, 0.7, 0.7, 0.7;
     flat.add_face(Numbers{0, 1, 2});
-    CHECK(inspected(flat).faces_without_area == Numbers{0});
+    CHECK(inspected(flat).defects.faces_without_area == Numbers{0});
 }
 
 TEST_CASE("vertices that are nowhere are listed, and the rest is measured")
@@ -127,16 +136,40 @@ TEST_CASE("vertices that are nowhere are listed, and the rest is measured")
     mesh.vertices(6, 0) = std::numeric_limits<double>::infinity();
     mesh.vertices(10, 1) = nan;
     const MeshInspection found = inspected(mesh);
-    CHECK(found.vertices_not_finite == Numbers{5, 6, 10});
+    CHECK(found.defects.vertices_not_finite == Numbers{5, 6, 10});
     CHECK(has_findings(found));
-    CHECK(found.edges_without_length.empty());
-    CHECK(found.faces_without_area.empty());
-    CHECK(found.coincident_vertices.empty());
-    CHECK(std::isfinite(found.mean_edge));
-    CHECK(std::isfinite(found.diagonal));
+    CHECK(found.defects.edges_without_length.empty());
+    CHECK(found.defects.faces_without_area.empty());
+    CHECK(found.defects.coincident_vertices.empty());
+    CHECK(std::isfinite(found.edge_lengths.mean));
+    CHECK(std::isfinite(found.box.diagonal));
 }
 
 TEST_CASE("nothing is found where there is nothing")
 {
     CHECK_FALSE(has_findings(inspected(PolygonMesh{})));
+}
+
+TEST_CASE("repeated faces are found with the first of their vertices, whatever their order")
+{
+    PolygonMesh mesh;
+    mesh.vertices.setZero(6, 3);
+    for (const Numbers& face : {Numbers{0, 1, 2}, Numbers{3, 4, 5}, Numbers{2, 0, 1}, Numbers{0, 1, 2, 3},
+                                Numbers{5, 4, 3}, Numbers{2, 1, 0}, Numbers{0, 1, 3}})
+        mesh.add_face(face);
+    const auto repeated = find_repeated_faces(mesh, all_faces(mesh));
+    REQUIRE(repeated.size() == 3);
+    CHECK((repeated[0].face == 2 && repeated[0].first == 0));
+    CHECK((repeated[1].face == 4 && repeated[1].first == 1));
+    CHECK((repeated[2].face == 5 && repeated[2].first == 0));
+    CHECK(find_repeated_faces(mesh, {1, 2, 3}).empty());
+    CHECK(find_repeated_faces(mesh, {}).empty());
+}
+
+TEST_CASE("sound meshes have no repeated faces")
+{
+    for (const test::NamedMesh& m : test::assorted_meshes()) {
+        CAPTURE(m.name);
+        CHECK(find_repeated_faces(m.mesh, all_faces(m.mesh)).empty());
+    }
 }

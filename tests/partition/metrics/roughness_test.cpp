@@ -4,8 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/metrics/centre_fans.h"
 #include "partition/metrics/roughness.h"
+#include "partition/metrics/triangulation.h"
 #include "partition/topology.h"
 #include "tests/support/test_meshes.h"
 

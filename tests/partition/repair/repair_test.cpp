@@ -146,7 +146,7 @@ TEST_CASE("gaps are closed and the order of labels is kept")
     CHECK(labels == std::vector<Index>{2, 0, 0, 1});
 }
 
-TEST_CASE("the largest piece of a part stays where it is")
+TEST_CASE("the largest component of a part stays where it is")
 {
     const PolygonMesh mesh = quad_grid(7, 1);
     const Topology topology = make_topology(mesh);

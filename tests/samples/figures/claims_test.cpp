@@ -115,7 +115,7 @@ TEST_CASE("of many sub-meshes every flow counts that was to run beside a smooth 
         made.title = title_of(variant);
         return made;
     };
-    const Variant plain{.laplacian = velho, .pieces = Pieces::Metis, .subdomains = 4};
+    const Variant plain{.laplacian = velho, .cut = CutKind::Metis, .subdomains = 4};
     Variant ours = plain;
     ours.settings = Settings::Default;
     Table many;

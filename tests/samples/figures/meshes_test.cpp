@@ -40,7 +40,7 @@ TEST_CASE("every file of the authors that is cut has their cut, and with Robin c
 {
     for (const Experiment& experiment : experiments()) {
         CAPTURE(experiment.name);
-        const bool is_cut = experiment.variants.back().pieces == Pieces::Halves;
+        const bool is_cut = experiment.variants.back().cut == CutKind::Halves;
         CHECK(experiment.source.authors.has_value() == is_cut);
         if (is_cut)
             CHECK(experiment.source.authors->p.has_value() == (experiment.name != "schwarz"));

@@ -89,7 +89,7 @@ TEST_CASE("where little of a residual can mean much of an error, the distance is
     }
 }
 
-TEST_CASE("a mesh in one piece has no traces and its step at once")
+TEST_CASE("a mesh that is not cut has no traces and its step at once")
 {
     const CutMesh& many = cut_meshes().front();
     CutMesh cut = many;

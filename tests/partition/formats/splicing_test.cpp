@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "partition/formats/moved_normals.h"
+#include "partition/formats/splicing.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/test_meshes.h"
 

@@ -9,6 +9,6 @@ namespace seamflow {
 /// An order of the vertices of a graph in which adjacent ones are near each other (reverse Cuthill-McKee, from a vertex
 /// at the far end of each component).
 /// @param adjacency for each vertex its neighbours, ascending.
-std::vector<Index> narrow_order(const std::vector<std::vector<Index>>& adjacency);
+std::vector<Index> reverse_cuthill_mckee(const std::vector<std::vector<Index>>& adjacency);
 
 }  // namespace seamflow

@@ -1,11 +1,25 @@
-#include "partition/formats/splicer.h"
+#include "partition/formats/splicing.h"
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "partition/formats/mesh_io.h"
 
 namespace seamflow {
+
+namespace {
+
+std::optional<Point> on_the_side_of(const Point& given, const Point& before, const Point& after)
+{
+    if (after == before || after == Point::Zero())
+        return std::nullopt;
+    const double side = given.dot(before) < 0.0 ? -1.0 : 1.0;
+    // The sum has no negative zeros, which nobody likes to read.
+    return Point(side * after + Point::Zero());
+}
+
+}  // namespace
 
 OutputFile& Splicer::exchange(std::string_view part)
 {
@@ -44,6 +58,29 @@ void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point&
     for (Index k = 0; k < 3; ++k)
         if (!before.parts[k].empty())
             splicer.exchange(before.parts[k]).number(static_cast<float>(after[k]));
+}
+
+MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before)
+    : mesh_(mesh)
+    , before_(std::move(before))
+    , topology_(make_topology(mesh))
+    , normals_(mesh, topology_)
+{
+}
+
+std::optional<Point> MovedNormals::around_vertex(std::span<const Index> corners, const Point& given) const
+{
+    return on_the_side_of(given, normals_(corners, before_), normals_(corners, mesh_.vertices));
+}
+
+std::optional<Point> MovedNormals::of_face(Index f, const Point& given) const
+{
+    const auto normal = [&](const Points& positions) {
+        Point area = vector_area(mesh_.face(f), positions);
+        area.stableNormalize();
+        return area;
+    };
+    return on_the_side_of(given, normal(before_), normal(mesh_.vertices));
 }
 
 std::string rounding_remark(const std::filesystem::path& source)

@@ -1,4 +1,4 @@
-#include "partition/repair/pieces.h"
+#include "partition/repair/loose_components.h"
 
 #include <algorithm>
 #include <numeric>
@@ -15,10 +15,10 @@ namespace {
 constexpr Index settled = -1;
 constexpr Index unvisited = -2;
 
-/// The loose pieces of the suspect parts and what is done about them.
-class LoosePieces {
+/// The loose components of the suspect parts and what is done about them.
+class LooseComponents {
   public:
-    LoosePieces(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, std::size_t n_labels)
+    LooseComponents(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, std::size_t n_labels)
         : mesh_(mesh)
         , topology_(topology)
         , labels_(labels)
@@ -30,17 +30,17 @@ class LoosePieces {
     std::vector<Index> join();
 
   private:
-    void collect_piece(Index f, IndexLists& pieces);
-    void keep_loose_pieces(const IndexLists& pieces);
-    void enqueue_loose_neighbours(Index f);
-    Index best_neighbour(Index piece);
+    void collect_component(Index f, IndexLists& components);
+    void keep_loose_components(const IndexLists& components);
+    void enqueue(Index component);
+    Index best_neighbour(Index component);
 
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
-    /// #F: the face's loose piece, or `settled`.
-    std::vector<Index> piece_of_;
-    IndexLists pieces_;
+    /// #F: the face's loose component, or `settled`.
+    std::vector<Index> component_of_;
+    IndexLists components_;
     std::vector<bool> queued_;
     std::vector<Index> queue_;
     /// Scratch: one entry per label, zero between uses.
@@ -48,96 +48,92 @@ class LoosePieces {
     std::vector<Index> candidates_;
 };
 
-/// Appends the piece of its part that face f lies in, whose faces become settled. Looks at `piece_of_` for faces of
-/// this part alone.
-void LoosePieces::collect_piece(Index f, IndexLists& pieces)
+/// Appends the component of its part that face f lies in, whose faces become settled. Looks at `component_of_` for
+/// faces of this part alone.
+void LooseComponents::collect_component(Index f, IndexLists& components)
 {
-    piece_of_[f] = settled;
-    append_reachable(f, pieces.values, [&](Index g, auto&& reach) {
+    component_of_[f] = settled;
+    append_reachable(f, components.values, [&](Index g, auto&& reach) {
         for_each_neighbour(mesh_, topology_, g, [&](Index, Index across) {
-            if (labels_[across] != labels_[f] || piece_of_[across] != unvisited)
+            if (labels_[across] != labels_[f] || component_of_[across] != unvisited)
                 return;
-            piece_of_[across] = settled;
+            component_of_[across] = settled;
             reach(across);
         });
     });
-    pieces.close();
+    components.close();
 }
 
 /// All of a part but the largest one.
-void LoosePieces::keep_loose_pieces(const IndexLists& pieces)
+void LooseComponents::keep_loose_components(const IndexLists& components)
 {
     Index largest = 0;
-    for (Index piece = 1; piece < pieces.size(); ++piece)
-        if (pieces[piece].size() > pieces[largest].size())
-            largest = piece;
-    for (Index piece = 0; piece < pieces.size(); ++piece) {
-        if (piece == largest)
+    for (Index component = 1; component < components.size(); ++component)
+        if (components[component].size() > components[largest].size())
+            largest = component;
+    for (Index component = 0; component < components.size(); ++component) {
+        if (component == largest)
             continue;
-        for (const Index f : pieces[piece]) {
-            piece_of_[f] = pieces_.size();
-            pieces_.values.push_back(f);
+        for (const Index f : components[component]) {
+            component_of_[f] = components_.size();
+            components_.values.push_back(f);
         }
-        pieces_.close();
+        components_.close();
     }
 }
 
-void LoosePieces::find(const std::vector<bool>& suspects, const Loop& loop)
+void LooseComponents::find(const std::vector<bool>& suspects, const Loop& loop)
 {
-    piece_of_.assign(labels_.size(), settled);
+    component_of_.assign(labels_.size(), settled);
     std::vector<Index> lowest(suspects.size(), -1);
     std::vector<std::size_t> n_faces(suspects.size(), 0);
     for (Index f = 0; f < mesh_.n_faces(); ++f)
         if (const auto label = at(labels_[f]); suspects[label]) {
-            piece_of_[f] = unvisited;
+            component_of_[f] = unvisited;
             if (n_faces[label]++ == 0)
                 lowest[label] = f;
         }
-    // The piece with the lowest face is all there is of most parts.
+    // The component with the lowest face is all there is of most parts.
     std::vector<IndexLists> found(suspects.size());
     for_each(loop, static_cast<Index>(found.size()), [&](Index label) {
         if (n_faces[label] == 0)
             return;
-        collect_piece(lowest[label], found[label]);
+        collect_component(lowest[label], found[label]);
         if (found[label].values.size() == n_faces[label])
             found[label] = {};
     });
-    const auto is_left = [&](Index f) { return piece_of_[f] == unvisited; };
+    const auto is_left = [&](Index f) { return component_of_[f] == unvisited; };
     for (const Index f : select(loop, mesh_.n_faces(), is_left))
         if (is_left(f))
-            collect_piece(f, found[labels_[f]]);
-    for (const IndexLists& pieces : found)
-        if (pieces.size() > 0)
-            keep_loose_pieces(pieces);
-    queued_.assign(pieces_.size(), false);
+            collect_component(f, found[labels_[f]]);
+    for (const IndexLists& components : found)
+        if (components.size() > 0)
+            keep_loose_components(components);
+    queued_.assign(components_.size(), false);
 }
 
-void LoosePieces::enqueue_loose_neighbours(Index f)
+/// Queues a component, once; not what is settled.
+void LooseComponents::enqueue(Index component)
 {
-    for_each_neighbour(mesh_, topology_, f, [&](Index, Index g) {
-        const Index piece = piece_of_[g];
-        if (piece == settled || queued_[piece])
-            return;
-        queued_[piece] = true;
-        queue_.push_back(piece);
-    });
+    if (component == settled || queued_[component])
+        return;
+    queued_[component] = true;
+    queue_.push_back(component);
 }
 
-/// The settled part with the longest boundary to the piece; of equals the one met first.
-Index LoosePieces::best_neighbour(Index piece)
+/// The settled part with the longest boundary to the component; of equals the one met first.
+Index LooseComponents::best_neighbour(Index component)
 {
     candidates_.clear();
-    for (const Index f : pieces_[piece])
+    for (const Index f : components_[component])
         for_each_neighbour(mesh_, topology_, f, [&](Index h, Index g) {
-            if (piece_of_[g] != settled)
+            if (component_of_[g] != settled)
                 return;
-            const Index from = mesh_.face_vertices[h];
-            const Index to = mesh_.face_vertices[topology_.next(mesh_, h)];
             double& length = shared_length_[labels_[g]];
             if (length == 0)
                 candidates_.push_back(labels_[g]);
             // Not zero even for an edge without length, so that each part becomes a candidate once.
-            length += 1e-300 + (mesh_.vertices.row(from) - mesh_.vertices.row(to)).norm();
+            length += 1e-300 + edge_length(mesh_, topology_, h);
         });
     const Index best = *std::max_element(candidates_.begin(), candidates_.end(),
                                          [&](Index a, Index b) { return shared_length_[a] < shared_length_[b]; });
@@ -146,41 +142,39 @@ Index LoosePieces::best_neighbour(Index piece)
     return best;
 }
 
-/// Joins the loose pieces in rings around the settled ones.
-std::vector<Index> LoosePieces::join()
+/// Joins the loose components in rings around the settled ones.
+std::vector<Index> LooseComponents::join()
 {
     std::vector<Index> moved;
-    for (const Index f : pieces_.values)
+    for (const Index f : components_.values)
         for_each_neighbour(mesh_, topology_, f, [&](Index, Index g) {
-            const Index piece = piece_of_[f];
-            if (piece_of_[g] != settled || queued_[piece])
-                return;
-            queued_[piece] = true;
-            queue_.push_back(piece);
+            if (component_of_[g] == settled)
+                enqueue(component_of_[f]);
         });
     for (std::size_t i = 0; i < queue_.size(); ++i) {
         const Index label = best_neighbour(queue_[i]);
-        for (const Index f : pieces_[queue_[i]]) {
+        for (const Index f : components_[queue_[i]]) {
             labels_[f] = label;
-            piece_of_[f] = settled;
+            component_of_[f] = settled;
             moved.push_back(f);
         }
-        for (const Index f : pieces_[queue_[i]])
-            enqueue_loose_neighbours(f);
+        for (const Index f : components_[queue_[i]])
+            for_each_neighbour(mesh_, topology_, f, [&](Index, Index g) { enqueue(component_of_[g]); });
     }
     return moved;
 }
 
 }  // namespace
 
-std::vector<Index> join_loose_pieces(const PolygonMesh& mesh, const Topology& topology,
-                                     const std::vector<bool>& suspects, std::vector<Index>& labels, const Loop& loop)
+std::vector<Index> join_loose_components(const PolygonMesh& mesh, const Topology& topology,
+                                         const std::vector<bool>& suspects, std::vector<Index>& labels,
+                                         const Loop& loop)
 {
     if (std::find(suspects.begin(), suspects.end(), true) == suspects.end())
         return {};
-    LoosePieces pieces(mesh, topology, labels, suspects.size());
-    pieces.find(suspects, loop);
-    return pieces.join();
+    LooseComponents components(mesh, topology, labels, suspects.size());
+    components.find(suspects, loop);
+    return components.join();
 }
 
 Index split_by_component(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "partition/loop.h"
@@ -9,14 +8,14 @@
 
 namespace seamflow {
 
-/// Makes parts connected through edges: each keeps its largest piece (of equals the one with the lowest face), and
-/// every other piece goes to the neighbouring part with which it shares the longest boundary.
+/// Makes parts connected through edges: each keeps its largest connected component (of equals the one with the lowest
+/// face), and every other one goes to the neighbouring part with which it shares the longest boundary.
 /// @param suspects one entry per label: the parts to look at; the others are taken to be connected.
 /// @param labels #F, in the range of `suspects`; no part may lie in several connected components of the mesh.
 /// @returns the faces that changed their label.
-std::vector<Index> join_loose_pieces(const PolygonMesh& mesh, const Topology& topology,
-                                     const std::vector<bool>& suspects, std::vector<Index>& labels,
-                                     const Loop& loop = run_serially);
+std::vector<Index> join_loose_components(const PolygonMesh& mesh, const Topology& topology,
+                                         const std::vector<bool>& suspects, std::vector<Index>& labels,
+                                         const Loop& loop = run_serially);
 
 /// Gives a part that lies in several connected components of the mesh a label for each of them: the first
 /// component keeps the label, the others get new ones.

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/decomposition/narrow_order.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
 
 using namespace seamflow;
 
@@ -89,9 +89,9 @@ TEST_CASE("the order has every vertex once, also of several components and of no
 {
     const Neighbours several = side_by_side({shuffled_grid(5, 4, 1), Neighbours(3), shuffled_grid(1, 7, 2)});
     for (const Neighbours& graph : {several, shuffled_grid(9, 9, 3), Neighbours(1), Neighbours()}) {
-        const std::vector<Index> order = narrow_order(graph);
+        const std::vector<Index> order = reverse_cuthill_mckee(graph);
         CHECK(is_permutation_of(order, graph.size()));
-        CHECK(order == narrow_order(graph));
+        CHECK(order == reverse_cuthill_mckee(graph));
     }
 }
 
@@ -102,17 +102,17 @@ TEST_CASE("of a grid numbered at random, adjacent vertices are about as near as 
             CAPTURE(sides.first);
             CAPTURE(sides.second);
             const Neighbours grid = shuffled_grid(sides.first, sides.second, seed);
-            CHECK(bandwidth(grid, narrow_order(grid)) <= std::min(sides.first, sides.second) + 1);
+            CHECK(bandwidth(grid, reverse_cuthill_mckee(grid)) <= std::min(sides.first, sides.second) + 1);
         }
 }
 
 TEST_CASE("components follow each other, each as narrow as alone")
 {
     const Neighbours several = side_by_side({shuffled_grid(6, 6, 1), shuffled_grid(3, 30, 2), shuffled_grid(6, 6, 3)});
-    const std::vector<Index> places = places_in(narrow_order(several));
+    const std::vector<Index> places = places_in(reverse_cuthill_mckee(several));
     for (const auto& [first, n] : {std::pair<Index, Index>{0, 36}, {36, 90}, {126, 36}}) {
         const auto [least, most] = std::minmax_element(places.begin() + first, places.begin() + first + n);
         CHECK(*most - *least == n - 1);
     }
-    CHECK(bandwidth(several, narrow_order(several)) <= 7);
+    CHECK(bandwidth(several, reverse_cuthill_mckee(several)) <= 7);
 }
