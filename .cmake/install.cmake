@@ -12,19 +12,16 @@ foreach(header IN ITEMS
         engine/openmesh.h
         engine/options/flow_control.h
         engine/options/flow_options.h
-        engine/options/flow_remarks.h
         engine/options/flow_report.h
         engine/options/schedule.h
         engine/state/checkpoint.h
         engine/state/flow_identity.h
         engine/state/flow_state.h
-        partition/decomposition/sub_mesh.h
         partition/eigen.h
         partition/errors.h
         partition/formats/mesh_io.h
         partition/formats/palette.h
         partition/index.h
-        partition/index_lists.h
         partition/io/fault_log.h
         partition/loop.h
         partition/metrics/displacement.h
@@ -40,7 +37,6 @@ foreach(header IN ITEMS
         partition/version.h
         solvers/conditions/robin_parameter.h
         solvers/direct/factorisation.h
-        solvers/laplacian/geometry.h
         solvers/laplacian/laplacian.h)
     cmake_path(GET header PARENT_PATH folder)
     install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow/${folder})
@@ -67,13 +63,14 @@ install(FILES
         ${PROJECT_BINARY_DIR}/seamflowConfigVersion.cmake
         ${CMAKE_CURRENT_LIST_DIR}/FindMETIS.cmake
         ${CMAKE_CURRENT_LIST_DIR}/FindSuiteSparse.cmake
+        ${CMAKE_CURRENT_LIST_DIR}/FindxxHash.cmake
     DESTINATION ${package_dir})
 
 # The file for pkg-config finds its prefix from where it lies. Whoever links static libraries links what they use, with
 # `pkg-config --static` or without; what shared libraries use is theirs alone.
 set(used "")
 set(known_folders ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES})
-foreach(library IN LISTS UMFPACK_LIBRARY CHOLMOD_LIBRARY AMD_LIBRARY CAMD_LIBRARY METIS_LIBRARY)
+foreach(library IN LISTS UMFPACK_LIBRARY CHOLMOD_LIBRARY AMD_LIBRARY CAMD_LIBRARY METIS_LIBRARY XXHASH_LIBRARY)
     cmake_path(GET library PARENT_PATH folder)
     if(NOT folder IN_LIST known_folders)
         string(APPEND used " -L${folder}")

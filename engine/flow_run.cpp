@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "engine/measure/surface_curvature.h"
+#include "engine/measure/remarks.h"
+#include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
-#include "engine/options/flow_remarks.h"
 #include "engine/steppers/make_stepper.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/stopwatch.h"
@@ -60,6 +60,46 @@ void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 
 }  // namespace
 
+/// Where in a whole flow the parts of its steps begin and end. All steps are as long as each other; what happens in one
+/// is divided as the time of the step before was.
+class FlowRun::StepFractions {
+  public:
+    /// @param begin the fraction of the whole that is done before the first step.
+    /// @param steps how many there are.
+    StepFractions(double begin, int steps, bool with_reference)
+        : begin_(begin)
+        , length_((1.0 - begin) / steps)
+        , tasks_(with_reference ? 0.3 : 0.9)
+        , reference_(with_reference ? 0.6 : 0.0)
+    {
+    }
+
+    /// Fractions of the whole: the beginning of the step, the end of its tasks, the beginning of its reference step,
+    /// and its end.
+    [[nodiscard]] double begin() const { return begin_ + n_done_ * length_; }
+    [[nodiscard]] double end_of_tasks() const { return begin() + tasks_ * length_; }
+    [[nodiscard]] double begin_of_reference() const { return end() - reference_ * length_; }
+    [[nodiscard]] double end() const { return begin_ + (n_done_ + 1) * length_; }
+
+    /// Goes on to the next step.
+    void end_step(double task_seconds, double measuring_seconds, double reference_seconds)
+    {
+        ++n_done_;
+        const double all = task_seconds + measuring_seconds + reference_seconds;
+        if (!(all > 0.0))
+            return;
+        tasks_ = task_seconds / all;
+        reference_ = reference_seconds / all;
+    }
+
+  private:
+    double begin_;
+    double length_;
+    double tasks_;
+    double reference_;
+    int n_done_ = 0;
+};
+
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
                  FlowReport& report)
     : mesh_(mesh)
@@ -74,7 +114,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
     stepper_ =
         make_stepper(mesh.mesh(), prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress);
-    report.labels = std::move(prepared_->cut.labels);
+    report.cut.labels = std::move(prepared_->cut.labels);
     report.seconds.analyse = watch.lap();
     report.seconds.total = report.seconds.cut + report.seconds.analyse;
     if (options().report.reference) {
@@ -88,7 +128,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 /// Brings everything to where it was after a step.
 void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
 {
-    if (state.cut != checksum_of(report_.labels))
+    if (state.cut != checksum_of(report_.cut.labels))
         throw InputError("the state to go on from belongs to another cut of the same mesh: another version of the "
                          "program made it, or one with another METIS");
     require_positions(state.flow, mesh_.mesh());
@@ -111,7 +151,7 @@ void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
 FlowState FlowRun::capture(const FlowState* resume) const
 {
     FlowState state{.identity = prepared_->identity,
-                    .cut = checksum_of(report_.labels),
+                    .cut = checksum_of(report_.cut.labels),
                     .steps = report_.steps,
                     .seconds = {.step = report_.seconds.step,
                                 .total = report_.seconds.total - report_.seconds.cut - report_.seconds.analyse},
@@ -125,9 +165,9 @@ FlowState FlowRun::capture(const FlowState* resume) const
     return state;
 }
 
-void FlowRun::compare_with_reference(int step, const StepShares& shares, StepReport& of_step)
+void FlowRun::compare_with_reference(int step, const StepFractions& fractions, StepReport& of_step)
 {
-    progress_.enter(FlowPhase::Reference, step, shares.begin_of_reference(), shares.end());
+    progress_.enter(FlowPhase::Reference, step, fractions.begin_of_reference(), fractions.end());
     Stopwatch watch;
     named("step " + std::to_string(step) + " of the undecomposed flow",
           [&] { reference_->step(reference_->positions()); });
@@ -167,7 +207,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     const auto first = static_cast<int>(report_.steps.size()) + 1;
     if (!report_.steps.empty())
         curvature_before_ = report_.steps.back().max_mean_curvature_after;
-    StepShares shares(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
+    StepFractions fractions(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
     const bool is_rescaled = options().motion.rescale != Rescale::None;
     // Steps begin where the last one ended before it was rescaled.
     Points unscaled = is_rescaled ? stepper_->positions() : Points();
@@ -176,7 +216,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     Points undecomposed;
     for (int step = first; step <= options().steps; ++step) {
         const std::string name = "step " + std::to_string(step);
-        progress_.enter(FlowPhase::Step, step, shares.begin(), shares.end_of_tasks());
+        progress_.enter(FlowPhase::Step, step, fractions.begin(), fractions.end_of_tasks());
         Stopwatch watch;
         named(name, [&] { stepper_->step(before); });
         StepReport of_step;
@@ -185,7 +225,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
         // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named(name, [&] {
-            limit.require(before, stepper_->positions(), report_.labels);
+            limit.require(before, stepper_->positions(), report_.cut.labels);
             if (is_rescaled) {
                 unscaled = rescaled = stepper_->positions();
                 rescaling.apply(rescaled);
@@ -198,11 +238,11 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
             measure_largest_curvature(mesh, prepared_->topology, after, options().laplacian);
         const double measuring = watch.lap();
         if (reference_) {
-            compare_with_reference(step, shares, of_step);
+            compare_with_reference(step, fractions, of_step);
             undecomposed = reference_->positions();
             named(name + " of the undecomposed flow", [&] { rescaling.apply(undecomposed); });
         }
-        shares.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
+        fractions.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
         // What takes memory comes first: the mesh moves when nothing but the observer can fail any more.
         report_.steps.push_back(of_step);

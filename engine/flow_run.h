@@ -9,7 +9,6 @@
 #include "engine/state/flow_state.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
-#include "engine/tasks/step_shares.h"
 
 namespace seamflow {
 
@@ -29,10 +28,12 @@ class FlowRun {
     void take_steps(const StepObserver& on_step, const FlowState* resume);
 
   private:
+    class StepFractions;
+
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void restore(const FlowState& state, const Rescaling& rescaling);
     [[nodiscard]] FlowState capture(const FlowState* resume) const;
-    void compare_with_reference(int step, const StepShares& shares, StepReport& of_step);
+    void compare_with_reference(int step, const StepFractions& fractions, StepReport& of_step);
     void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
               const FlowState* resume) const;
     void finish(double extent_before, const FlowState* resume);

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "engine/flow_run.h"
 #include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
@@ -27,8 +29,10 @@ double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 void require_ahead(const FlowOptions& options, const FlowState& state)
 {
     if (state.n_steps() > options.steps)
-        throw OptionError("steps is " + std::to_string(options.steps) + ", but the state to go on from is after step " +
-                          std::to_string(state.n_steps()) + " already: ask for as many at least, or begin anew");
+        throw OptionError(
+            fmt::format("steps is {}, but the state to go on from is after step {} already: ask for as many "
+                        "at least, or begin anew",
+                        options.steps, state.n_steps()));
 }
 
 }  // namespace
@@ -51,7 +55,7 @@ FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, co
         progress.expect(8.0);
         FlowingMesh flowing(mesh);
         auto prepared = prepare(flowing, options, static_cast<bool>(on_step), resume, progress);
-        report.threads = workers.threads();
+        report.resources.threads = workers.threads();
         report.seconds.cut = watch.lap();
         FlowRun run(flowing, std::move(prepared), progress, setup, report);
         run.take_steps(on_step, resume);

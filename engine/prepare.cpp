@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "engine/measure/surface_curvature.h"
-#include "engine/setup/choose_subdomains.h"
-#include "engine/setup/choose_tolerance.h"
+#include "engine/measure/surface_measures.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
 #include "engine/tasks/parallel_loop.h"
 #include "solvers/laplacian/laplacian.h"
@@ -117,18 +116,18 @@ void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport&
 {
     const FlowOptions& options = prepared.options;
     const Topology& topology = prepared.topology;
-    report.vertices = mesh.n_vertices();
-    report.faces = mesh.n_faces();
+    report.mesh.vertices = mesh.n_vertices();
+    report.mesh.faces = mesh.n_faces();
     report.time_step = options.time_step;
-    report.tolerance = options.accuracy.tolerance;
-    report.repaired_faces = prepared.cut.repaired_faces;
+    report.convergence.tolerance = options.accuracy.tolerance;
+    report.cut.repaired_faces = prepared.cut.repaired_faces;
     report.remarks = prepared.remarks;
-    report.non_manifold_vertices =
+    report.mesh.non_manifold_vertices =
         static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));
-    if (report.non_manifold_vertices > 0)
-        report.remarks.push_back(std::to_string(report.non_manifold_vertices) +
+    if (report.mesh.non_manifold_vertices > 0)
+        report.remarks.push_back(std::to_string(report.mesh.non_manifold_vertices) +
                                  " vertices are held fixed because the mesh is not manifold there.");
-    report.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
+    report.mesh.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
         const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/measure/displacement_meter.h"
-#include "engine/measure/mesh_size.h"
+#include "engine/measure/surface_measures.h"
 #include "engine/options/flow_options.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/state/flow_state.h"

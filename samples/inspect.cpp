@@ -7,8 +7,8 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "samples/common/command_line.h"
-#include "samples/common/inspection_json.h"
 #include "samples/common/inspection_text.h"
+#include "samples/common/report_json.h"
 
 using namespace seamflow;
 

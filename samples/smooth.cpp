@@ -24,7 +24,6 @@
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
-#include "samples/common/missed_tolerance.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -88,7 +87,7 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
 {
     auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file);
     if (!command.parts.empty())
-        write_labelled_ply(command.parts, file.mesh, report.labels);
+        write_labelled_ply(command.parts, file.mesh, report.cut.labels);
     return remarks;
 }
 

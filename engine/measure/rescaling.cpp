@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 #include "partition/vector_area.h"
@@ -18,13 +20,13 @@ void require_movable(const Topology& topology, Index n_vertices)
     const auto held = select(run_in_parallel, n_vertices,
                              [&](Index v) { return !topology.moves(v) && topology.kind[v] != VertexKind::Isolated; });
     if (!held.empty())
-        throw InputError(
-            "rescaling moves every vertex, but " + std::to_string(held.size()) + (held.size() == 1 ? " is" : " are") +
-            " held fixed, vertex " + std::to_string(held.front()) + " (numbered from 0) among them" +
-            (topology.kind[held.front()] == VertexKind::Boundary
-                 ? ", which is on the boundary: let the boundary move (--boundary free), or leave the size "
-                   "as it comes"
-                 : ", where the mesh is not manifold or degenerate: mend it, or leave the size as it comes"));
+        throw InputError(fmt::format(
+            "rescaling moves every vertex, but {} {} held fixed, vertex {} (numbered from 0) among them, {}, or leave "
+            "the size as it comes",
+            held.size(), held.size() == 1 ? "is" : "are", held.front(),
+            topology.kind[held.front()] == VertexKind::Boundary
+                ? "which is on the boundary: let the boundary move (--boundary free)"
+                : "where the mesh is not manifold or degenerate: mend it"));
 }
 
 void require_closed(const PolygonMesh& mesh, const Topology& topology)
@@ -37,13 +39,17 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
     if (bad.empty())
         return;
     const Index h = bad.front();
-    const std::string edge = "the edge from vertex " + std::to_string(starts_at(h)) + " to " +
-                             std::to_string(starts_at(topology.next(mesh, h))) + " of face " +
-                             std::to_string(topology.face_of[h]);
-    throw InputError(topology.twin[h] < 0 ? "only a closed surface has a volume to keep, but " + edge +
-                                                " lies on the boundary: close the mesh, or keep its area instead"
-                                          : "the volume is that of faces oriented alike, but those at " + edge +
-                                                " are not: orient the mesh, or keep its area instead");
+    const std::string edge = fmt::format("the edge from vertex {} to {} of face {}", starts_at(h),
+                                         starts_at(topology.next(mesh, h)), topology.face_of[h]);
+    if (topology.twin[h] < 0)
+        throw InputError(
+            fmt::format("only a closed surface has a volume to keep, but {} lies on the boundary: close the "
+                        "mesh, or keep its area instead",
+                        edge));
+    throw InputError(
+        fmt::format("the volume is that of faces oriented alike, but those at {} are not: orient the mesh, "
+                    "or keep its area instead",
+                    edge));
 }
 
 Point mean_of(std::span<const Index> corners, const Points& positions, const Point& origin)
@@ -71,8 +77,9 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
     const double least = kind_ == Rescale::Volume ? 1e-12 * first_.area * std::sqrt(first_.area) : 0.0;
     const bool sound = std::isnormal(first_.size) && std::abs(first_.size) > least && first_.centroid.allFinite();
     if (mesh.n_faces() > 0 && !sound)
-        throw InputError(std::string("the surface has no ") + (kind_ == Rescale::Area ? "area" : "volume") +
-                         " above rounding: scale the mesh, or leave the size as it comes");
+        throw InputError(
+            fmt::format("the surface has no {} above rounding: scale the mesh, or leave the size as it comes",
+                        kind_ == Rescale::Area ? "area" : "volume"));
 }
 
 Rescaling::Extent Rescaling::measure(const Points& positions) const

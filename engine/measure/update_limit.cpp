@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "engine/measure/mesh_size.h"
+#include <fmt/format.h>
+
+#include "engine/measure/surface_measures.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 
@@ -48,13 +49,6 @@ Index farthest_mover(const Points& before, const Points& after, double unit)
     return farthest.vertex;
 }
 
-std::string number(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
 }  // namespace
 
 UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
@@ -75,9 +69,10 @@ void UpdateLimit::require(const Points& before, const Points& after, std::span<c
     const double update = (after.row(vertex) - before.row(vertex)).stableNorm();
     if (update > largest_)
         refuse(vertex,
-               "would move by " + number(update) +
-                   (largest_ == diagonal_ ? ", but the mesh is " + number(diagonal_) + " across"
-                                          : ", but largest_update allows " + number(largest_) + " at most"),
+               fmt::format(fmt::runtime(largest_ == diagonal_
+                                            ? "would move by {:.3g}, but the mesh is {:.3g} across"
+                                            : "would move by {:.3g}, but largest_update allows {:.3g} at most"),
+                           update, largest_),
                labels);
 }
 
@@ -86,10 +81,10 @@ void UpdateLimit::refuse(Index vertex, const std::string& what, std::span<const 
     Index face = 0;
     while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), vertex) == mesh_.face(face).end())
         ++face;
-    const std::string where =
-        face < mesh_.n_faces() ? "sub-mesh " + std::to_string(labels[face]) + ", " : std::string();
-    throw ComputationError(where + "vertex " + std::to_string(vertex) + " " + what +
-                           ": use a smaller time step, another Laplacian, or repair the mesh there");
+    const std::string where = face < mesh_.n_faces() ? fmt::format("sub-mesh {}, ", labels[face]) : "";
+    throw ComputationError(fmt::format("{}vertex {} {}: use a smaller time step, another Laplacian, or repair the mesh "
+                                       "there",
+                                       where, vertex, what));
 }
 
 }  // namespace seamflow

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <string>
+#include <type_traits>
+
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "solvers/laplacian/laplacian.h"
@@ -17,10 +18,9 @@ void require(bool holds, const char* field, Value value, const char* limits)
 {
     if (holds)
         return;
-    std::ostringstream message;
-    message.precision(17);
-    message << field << " is " << value << ", but must be " << limits;
-    throw OptionError(message.str());
+    constexpr const char* text =
+        std::is_same_v<Value, double> ? "{} is {:.17g}, but must be {}" : "{} is {}, but must be {}";
+    throw OptionError(fmt::format(fmt::runtime(text), field, value, limits));
 }
 
 bool positive_and_finite(double value)
@@ -141,8 +141,8 @@ void require_valid(const FlowOptions& options)
     const auto negative =
         std::find_if(options.cut.labels.begin(), options.cut.labels.end(), [](Index label) { return label < 0; });
     if (negative != options.cut.labels.end())
-        throw InputError("the label of face " + std::to_string(negative - options.cut.labels.begin()) + " is " +
-                         std::to_string(*negative) + ", but labels must be at least 0");
+        throw InputError(fmt::format("the label of face {} is {}, but labels must be at least 0",
+                                     negative - options.cut.labels.begin(), *negative));
 }
 
 }  // namespace seamflow

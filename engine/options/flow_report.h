@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -66,40 +67,74 @@ struct StepReport {
     std::optional<double> reference_seconds;
 };
 
-/// What a flow did.
-struct FlowReport {
+/// The mesh that flowed.
+struct MeshReport {
     Index vertices = 0;
     Index faces = 0;
-    /// Number of sub-meshes used, and of colours.
-    Index subdomains = 0;
-    Index colors = 0;
-    /// Faces and vertices of each sub-mesh (vertices of the interface, and the overlap of Conditions::Schwarz, counted
-    /// in each).
-    std::vector<Index> subdomain_faces;
-    std::vector<Index> subdomain_vertices;
-    /// Colour of each sub-mesh; colour 0 solves first in even steps.
-    std::vector<Index> subdomain_colors;
+    /// Vertices that stay where they are, for whatever reason: boundary, not manifold, without faces, or asked for.
+    Index fixed_vertices = 0;
+    /// Those held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
+    Index non_manifold_vertices = 0;
+};
+
+/// One sub-mesh.
+struct SubMeshReport {
+    Index faces = 0;
+    /// With those of the interface, and of the overlap of Conditions::Schwarz.
+    Index vertices = 0;
+    /// Colour 0 solves first in even steps.
+    Index color = 0;
+    /// Robin parameter, in 1/length; 0 without interface, and with conditions that have none.
+    double p = 0.0;
+};
+
+/// How the mesh was cut.
+struct CutReport {
+    std::vector<SubMeshReport> sub_meshes;
     /// Sub-mesh of every face after repair.
     std::vector<Index> labels;
     /// Number of vertices on the interface Γ.
     Index interface_vertices = 0;
     /// Faces moved to another sub-mesh so that each is connected and has one fan of faces around each of its vertices.
     Index repaired_faces = 0;
-    /// Vertices held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
-    Index non_manifold_vertices = 0;
-    /// Vertices that stay where they are, for whatever reason: boundary, not manifold, without faces, or asked for.
-    Index fixed_vertices = 0;
-    /// Robin parameter of each sub-mesh, in 1/length (0 for a sub-mesh without interface, and with conditions that have
-    /// none).
-    std::vector<double> p;
+
+    [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(sub_meshes.size()); }
+    /// Colours are numbered from 0, and each is used.
+    [[nodiscard]] Index n_colors() const
+    {
+        Index n = 0;
+        for (const SubMeshReport& sub_mesh : sub_meshes)
+            n = std::max(n, sub_mesh.color + 1);
+        return n;
+    }
+};
+
+/// Whether steps were converged, and how many were not as far as asked.
+struct ConvergenceReport {
+    /// What steps were converged to, asked for or chosen; empty: they were sweeps.
+    std::optional<double> tolerance;
+    /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.
+    int steps_short_of_tolerance = 0;
+    int steps_stagnated = 0;
+};
+
+/// What the flow used of the machine.
+struct ResourceReport {
+    int threads = 0;
     /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for those made by
     /// Cholesky's method.
     Index live_factors = 0;
     std::size_t factor_memory_bytes = 0;
+};
+
+/// What a flow did.
+struct FlowReport {
+    MeshReport mesh;
+    CutReport cut;
     /// dt, in length².
     double time_step = 0.0;
-    /// Threads used.
-    int threads = 0;
+    ConvergenceReport convergence;
+    ResourceReport resources;
     PhaseSeconds seconds;
     std::vector<StepReport> steps;
     TotalDisplacement displacement;
@@ -108,11 +143,6 @@ struct FlowReport {
     std::optional<PolygonMesh> separated;
     /// With ReportOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
-    /// What steps were converged to, asked for or chosen; empty: they were sweeps.
-    std::optional<double> tolerance;
-    /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.
-    int steps_short_of_tolerance = 0;
-    int steps_stagnated = 0;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
     std::vector<std::string> remarks;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "engine/tasks/parallel_loop.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
@@ -22,9 +24,11 @@ void require_manifold(const Topology& topology)
 {
     const auto found = std::find(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold);
     if (found != topology.kind.end())
-        throw InputError("the mesh is not manifold at vertex " + std::to_string(found - topology.kind.begin()) +
-                         " (numbered from 0): three faces or more share an edge there, or several fans of faces meet; "
-                         "mend it, or do without strict to hold such vertices fixed");
+        throw InputError(
+            fmt::format("the mesh is not manifold at vertex {} (numbered from 0): three faces or more share an "
+                        "edge there, or several fans of faces meet; mend it, or do without strict to hold "
+                        "such vertices fixed",
+                        found - topology.kind.begin()));
 }
 
 std::size_t count_moving(const Topology& topology)
@@ -36,9 +40,11 @@ std::size_t count_moving(const Topology& topology)
 std::string remark_on(const std::vector<Index>& held, Laplacian laplacian)
 {
     const bool lengths = traits_of(laplacian).divisor == Divisor::EdgeLengths;
-    return std::to_string(held.size()) + (held.size() == 1 ? " vertex is" : " vertices are") + " held fixed because " +
-           (lengths ? "edges without length" : "faces without area") + " leave the Laplacian undefined there, vertex " +
-           std::to_string(held.front()) + " (numbered from 0) among them: inspect lists them.";
+    return fmt::format(
+        "{} held fixed because {} leave the Laplacian undefined there, vertex {} (numbered from 0) among "
+        "them: inspect lists them.",
+        held.size() == 1 ? "1 vertex is" : fmt::format("{} vertices are", held.size()),
+        lengths ? "edges without length" : "faces without area", held.front());
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/inspection/mesh_inspection.h"
@@ -95,12 +97,14 @@ void FlowingMesh::complete(FlowReport& report) const
     if (number_.empty())
         return;
     const Index n_left_out = given_->n_faces() - mesh().n_faces();
-    report.faces += n_left_out;
+    report.mesh.faces += n_left_out;
     std::vector<Index> labels(number_.size());
-    std::transform(number_.begin(), number_.end(), labels.begin(), [&](Index number) { return report.labels[number]; });
-    report.labels = std::move(labels);
-    report.remarks.push_back(std::to_string(n_left_out) + (n_left_out == 1 ? " face has" : " faces have") +
-                             " the same vertices as one before and took no part in the flow; they are still there.");
+    std::transform(number_.begin(), number_.end(), labels.begin(),
+                   [&](Index number) { return report.cut.labels[number]; });
+    report.cut.labels = std::move(labels);
+    report.remarks.push_back(fmt::format("{} {} the same vertices as one before and took no part in the flow; they are "
+                                         "still there.",
+                                         n_left_out, n_left_out == 1 ? "face has" : "faces have"));
 }
 
 }  // namespace seamflow

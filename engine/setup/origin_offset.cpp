@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/measure/mesh_size.h"
+#include "engine/measure/surface_measures.h"
 
 namespace seamflow {
 

@@ -4,9 +4,6 @@
 
 #include "engine/tasks/parallel_loop.h"
 #include "partition/decomposition/overlap.h"
-#include "solvers/conditions/adapted_robin.h"
-#include "solvers/conditions/adapted_ventcell.h"
-#include "solvers/conditions/robin.h"
 #include "solvers/conditions/robin_parameter.h"
 #include "solvers/conditions/ventcell.h"
 
@@ -32,7 +29,7 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const Flo
     case Conditions::AdaptedVentcell:
         return with(make_adapted_ventcell(sub_mesh, options.interface.q.value()));
     case Conditions::Robin:
-        return with(make_robin(sub_mesh));
+        return with(make_ventcell(sub_mesh));
     case Conditions::Ventcell:
         return with(make_ventcell(sub_mesh, options.interface.q.value()));
     case Conditions::Schwarz:
@@ -40,7 +37,7 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const Flo
     }
     return predicts(options)
                ? make_predicted_system(sub_mesh, options.laplacian, workspace, options.resources.factorisation)
-               : with(make_adapted_robin(sub_mesh));
+               : with(make_adapted_ventcell(sub_mesh));
 }
 
 namespace {

@@ -26,8 +26,8 @@ namespace seamflow {
 namespace {
 
 constexpr std::string_view first_line = "seamflow checkpoint\n";
-/// To be raised whenever `transfer` changes.
-constexpr std::uint32_t format = 0x5ea30001;
+/// To be raised whenever `transfer` or the checksum changes.
+constexpr std::uint32_t format = 0x5ea30002;
 constexpr std::size_t n_checksum_bytes = sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason)
@@ -149,84 +149,47 @@ class Reader {
 template <class Value, class Struct>
 concept Is = std::is_same_v<std::remove_const_t<Value>, Struct>;
 
-/// The fields of each struct: all of them, or the compiler complains.
-template <Is<FlowIdentity::Entry> Struct>
-auto fields(Struct& entry)
+/// The fields of a struct: all of them, or the compiler complains. Of what is no struct of a state, nothing.
+template <class Struct>
+auto fields([[maybe_unused]] Struct& of)
 {
-    auto& [name, value] = entry;
-    return std::tie(name, value);
-}
-
-template <Is<FlowIdentity> Struct>
-auto fields(Struct& identity)
-{
-    auto& [entries] = identity;
-    return std::tie(entries);
-}
-
-template <Is<LengthStatistics> Struct>
-auto fields(Struct& lengths)
-{
-    auto& [mean, rms, max] = lengths;
-    return std::tie(mean, rms, max);
-}
-
-template <Is<DisplacementStatistics> Struct>
-auto fields(Struct& displacement)
-{
-    auto& [tangential, normal] = displacement;
-    return std::tie(tangential, normal);
-}
-
-template <Is<VertexDistance> Struct>
-auto fields(Struct& distance)
-{
-    auto& [mean, rms, max, mean_edge] = distance;
-    return std::tie(mean, rms, max, mean_edge);
-}
-
-template <Is<StepReport> Struct>
-auto fields(Struct& report)
-{
-    auto& [seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated, distance,
-           reference_seconds] = report;
-    return std::tie(seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated,
-                    distance, reference_seconds);
-}
-
-template <Is<PhaseSeconds> Struct>
-auto fields(Struct& all)
-{
-    auto& [cut, analyse, assemble, factorise, solve, correct, interface, step, total] = all;
-    return std::tie(cut, analyse, assemble, factorise, solve, correct, interface, step, total);
-}
-
-template <Is<DisplacementSums> Struct>
-auto fields(Struct& sums)
-{
-    auto& [drift, tangential, normal] = sums;
-    return std::tie(drift, tangential, normal);
-}
-
-template <Is<StepMemory> Struct>
-auto fields(Struct& memory)
-{
-    auto& [positions, arrays, numbers] = memory;
-    return std::tie(positions, arrays, numbers);
-}
-
-template <Is<FlowState> Struct>
-auto fields(Struct& state)
-{
-    auto& [identity, cut, steps, seconds, displacement, flow, reference] = state;
-    return std::tie(identity, cut, steps, seconds, displacement, flow, reference);
+    if constexpr (Is<Struct, FlowIdentity::Entry>) {
+        auto& [name, value] = of;
+        return std::tie(name, value);
+    } else if constexpr (Is<Struct, FlowIdentity>) {
+        auto& [entries] = of;
+        return std::tie(entries);
+    } else if constexpr (Is<Struct, LengthStatistics>) {
+        auto& [mean, rms, max] = of;
+        return std::tie(mean, rms, max);
+    } else if constexpr (Is<Struct, DisplacementStatistics>) {
+        auto& [tangential, normal] = of;
+        return std::tie(tangential, normal);
+    } else if constexpr (Is<Struct, VertexDistance>) {
+        auto& [mean, rms, max, mean_edge] = of;
+        return std::tie(mean, rms, max, mean_edge);
+    } else if constexpr (Is<Struct, StepReport>) {
+        auto& [seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated, distance,
+               reference_seconds] = of;
+        return std::tie(seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated,
+                        distance, reference_seconds);
+    } else if constexpr (Is<Struct, PhaseSeconds>) {
+        auto& [cut, analyse, assemble, factorise, solve, correct, interface, step, total] = of;
+        return std::tie(cut, analyse, assemble, factorise, solve, correct, interface, step, total);
+    } else if constexpr (Is<Struct, DisplacementSums>) {
+        auto& [drift, tangential, normal] = of;
+        return std::tie(drift, tangential, normal);
+    } else if constexpr (Is<Struct, StepMemory>) {
+        auto& [positions, arrays, numbers] = of;
+        return std::tie(positions, arrays, numbers);
+    } else if constexpr (Is<Struct, FlowState>) {
+        auto& [identity, cut, steps, seconds, displacement, flow, reference] = of;
+        return std::tie(identity, cut, steps, seconds, displacement, flow, reference);
+    }
 }
 
 template <class Value>
-concept HasFields = requires(Value& value)
-{
-    fields(value);
-};
+concept HasFields = !std::is_void_v<decltype(fields(std::declval<Value&>()))>;
 
 template <class Value>
 concept IsOptional = requires(Value& value)

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "engine/setup/origin_offset.h"
 #include "engine/state/checksum.h"
 #include "partition/errors.h"
@@ -19,7 +21,7 @@ constexpr std::string_view none = "none";
 
 std::string text_of(std::integral auto value)
 {
-    return std::to_string(value);
+    return fmt::format("{}", value);
 }
 
 /// The fewest digits that tell it from all others.
@@ -46,15 +48,9 @@ std::string named(Enum value, const std::array<std::string_view, N>& names)
     return std::string(names.at(static_cast<std::size_t>(value)));
 }
 
-std::string hexadecimal(std::uint64_t value)
-{
-    std::array<char, 16> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, 16).ptr};
-}
-
 std::string text_of(const std::vector<Index>& indices)
 {
-    return indices.empty() ? std::string(none) : "those with checksum " + hexadecimal(checksum_of(indices));
+    return indices.empty() ? std::string(none) : fmt::format("those with checksum {:x}", checksum_of(indices));
 }
 
 /// Of the mesh near the origin, where it flows: the same whether it has been brought there or not.
@@ -67,8 +63,8 @@ std::string text_of(const PolygonMesh& mesh)
     checksum.add_numbers(std::span<const double>(near.data(), static_cast<std::size_t>(near.size())));
     checksum.add_numbers(std::span<const Index>(mesh.face_offsets));
     checksum.add_numbers(std::span<const Index>(mesh.face_vertices));
-    return std::to_string(mesh.n_vertices()) + " vertices and " + std::to_string(mesh.n_faces()) +
-           " faces with checksum " + hexadecimal(checksum.value());
+    return fmt::format("{} vertices and {} faces with checksum {:x}", mesh.n_vertices(), mesh.n_faces(),
+                       checksum.value());
 }
 
 }  // namespace
@@ -125,8 +121,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 
 void require_same(const FlowIdentity& of_state, const FlowIdentity& of_flow)
 {
-    const auto refused = [](const std::string& what, const std::string& then, const std::string& now) {
-        return "belongs to another flow: " + what + " was " + then + " then and is " + now + " now";
+    const auto refused = [](const std::string& what, const auto& then, const auto& now) {
+        return fmt::format("belongs to another flow: {} was {} then and is {} now", what, then, now);
     };
     for (const FlowIdentity::Entry& now : of_flow.entries) {
         const auto then = std::find_if(of_state.entries.begin(), of_state.entries.end(),
@@ -139,8 +135,7 @@ void require_same(const FlowIdentity& of_state, const FlowIdentity& of_flow)
         throw OptionError(refused(now.name, value, now.value));
     }
     if (of_state.entries.size() != of_flow.entries.size())
-        throw InputError(refused("the number of options", std::to_string(of_state.entries.size()),
-                                 std::to_string(of_flow.entries.size())));
+        throw InputError(refused("the number of options", of_state.entries.size(), of_flow.entries.size()));
 }
 
 std::uint64_t checksum_of(std::span<const Index> indices)

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/options/flow_remarks.h"
+#include "engine/measure/remarks.h"
 
 namespace seamflow {
 
@@ -40,8 +40,8 @@ void Convergence::describe(StepReport& report) const
 
 void Convergence::describe(FlowReport& report, std::string_view advice) const
 {
-    report.steps_short_of_tolerance = n_short_of_tolerance_;
-    report.steps_stagnated = n_stagnated_;
+    report.convergence.steps_short_of_tolerance = n_short_of_tolerance_;
+    report.convergence.steps_stagnated = n_stagnated_;
     remark_on_missed_tolerance(most_iterations_, std::string(advice), report);
 }
 

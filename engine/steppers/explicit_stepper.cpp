@@ -115,12 +115,7 @@ void ExplicitStepper::describe(FlowReport& report) const
 {
     if (mesh_->n_faces() == 0)
         return;
-    report.subdomains = 1;
-    report.colors = 1;
-    report.subdomain_faces = {mesh_->n_faces()};
-    report.subdomain_vertices = {mesh_->n_vertices()};
-    report.subdomain_colors = {0};
-    report.p = {0.0};
+    report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
     if (time_step_ > smallest_limit_)
         report.remarks.push_back("Edges have shrunk so far that the time step is above the square of the shortest one: "
                                  "explicit Euler steps may no longer be stable.");

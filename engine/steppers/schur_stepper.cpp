@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/measure/remarks.h"
 #include "engine/memory/release.h"
-#include "engine/options/flow_remarks.h"
-#include "engine/setup/choose_subdomains.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
@@ -223,17 +223,11 @@ void SchurStepper::describe(StepReport& report) const
 
 void SchurStepper::describe(FlowReport& report) const
 {
-    report.subdomains = static_cast<Index>(systems_.of.size());
-    report.colors = systems_.of.empty() ? 0 : 1;
-    report.interface_vertices = decomposition_.n_interface_vertices;
-    report.subdomain_colors.assign(systems_.of.size(), 0);
-    report.p.assign(systems_.of.size(), 0.0);
-    report.live_factors = factors_.kept.n_live();
-    report.factor_memory_bytes = factors_.kept.bytes + factors_.passing.bytes();
-    for (const SubMesh& sub_mesh : decomposition_.sub_meshes) {
-        report.subdomain_faces.push_back(static_cast<Index>(sub_mesh.faces.size()));
-        report.subdomain_vertices.push_back(sub_mesh.n_vertices);
-    }
+    report.cut.interface_vertices = decomposition_.n_interface_vertices;
+    report.resources.live_factors = factors_.kept.n_live();
+    report.resources.factor_memory_bytes = factors_.kept.bytes + factors_.passing.bytes();
+    for (const SubMesh& sub_mesh : decomposition_.sub_meshes)
+        report.cut.sub_meshes.push_back({static_cast<Index>(sub_mesh.faces.size()), sub_mesh.n_vertices});
     add_seconds(report.seconds);
     convergence_.describe(report, {});
     report.schedule = graph_.schedule();

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/options/flow_remarks.h"
+#include "engine/measure/remarks.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
@@ -157,17 +157,11 @@ void SchwarzGmresStepper::describe(StepReport& report) const
 
 void SchwarzGmresStepper::describe(FlowReport& report) const
 {
-    report.subdomains = static_cast<Index>(blocks_.of.size());
-    report.colors = blocks_.of.empty() ? 0 : 1;
-    report.interface_vertices = parts_.n_interface_vertices;
-    report.subdomain_colors.assign(blocks_.of.size(), 0);
-    report.p.assign(blocks_.of.size(), 0.0);
-    report.live_factors = report.subdomains;
-    report.factor_memory_bytes = factors_.pool.bytes();
-    for (const GrownPart& part : parts_.of) {
-        report.subdomain_faces.push_back(static_cast<Index>(part.sub_mesh.faces.size()));
-        report.subdomain_vertices.push_back(part.sub_mesh.n_vertices);
-    }
+    report.cut.interface_vertices = parts_.n_interface_vertices;
+    report.resources.live_factors = static_cast<Index>(blocks_.of.size());
+    report.resources.factor_memory_bytes = factors_.pool.bytes();
+    for (const GrownPart& part : parts_.of)
+        report.cut.sub_meshes.push_back({static_cast<Index>(part.sub_mesh.faces.size()), part.sub_mesh.n_vertices});
     add_seconds(report.seconds);
     std::vector<Index> n_nearly_singular;
     std::vector<Factorisation> factorisations;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/measure/remarks.h"
 #include "engine/memory/release.h"
-#include "engine/options/flow_remarks.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
@@ -232,18 +232,15 @@ void SweepStepper::describe(StepReport& report) const
 
 void SweepStepper::describe(FlowReport& report) const
 {
-    report.subdomains = static_cast<Index>(states_.size());
-    report.interface_vertices = decomposition_.n_interface_vertices;
-    report.subdomain_colors = plans_.front().rank;
-    report.live_factors = window_.size;
-    report.factor_memory_bytes = factors_.bytes();
-    report.colors = states_.empty() ? 0 : *std::max_element(plans_.front().rank.begin(), plans_.front().rank.end()) + 1;
+    report.cut.interface_vertices = decomposition_.n_interface_vertices;
+    report.resources.live_factors = window_.size;
+    report.resources.factor_memory_bytes = factors_.bytes();
     std::vector<Index> n_nearly_singular;
     std::vector<Factorisation> factorisations;
     for (const SubMeshState& state : states_) {
-        report.subdomain_faces.push_back(static_cast<Index>(state.sub_mesh->faces.size()));
-        report.subdomain_vertices.push_back(state.sub_mesh->n_vertices);
-        report.p.push_back(state.p);
+        const Index color = plans_.front().rank[report.cut.sub_meshes.size()];
+        const auto n_faces = static_cast<Index>(state.sub_mesh->faces.size());
+        report.cut.sub_meshes.push_back({n_faces, state.sub_mesh->n_vertices, color, state.p});
         n_nearly_singular.push_back(state.system->n_nearly_singular());
         factorisations.push_back(state.system->factorisation());
     }

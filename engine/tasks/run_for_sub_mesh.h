@@ -3,7 +3,7 @@
 #include <new>
 #include <string>
 
-#include "engine/tasks/single_threaded_libraries.h"
+#include "engine/tasks/library_threads.h"
 #include "partition/decomposition/sub_mesh.h"
 #include "partition/errors.h"
 

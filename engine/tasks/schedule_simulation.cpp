@@ -4,8 +4,9 @@
 #include <functional>
 #include <queue>
 #include <span>
-#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 
@@ -27,8 +28,8 @@ struct TasksOfStep {
 std::span<const TaskRecord> records_of(const Schedule& schedule, int step)
 {
     if (step < 1 || at(step) > schedule.steps.size())
-        throw OptionError("step " + std::to_string(step) + " is not in the schedule, which has " +
-                          std::to_string(schedule.steps.size()) + " steps");
+        throw OptionError(
+            fmt::format("step {} is not in the schedule, which has {} steps", step, schedule.steps.size()));
     const auto first = std::ranges::lower_bound(schedule.records, step, {}, &TaskRecord::step);
     const auto last = std::ranges::upper_bound(schedule.records, step, {}, &TaskRecord::step);
     return {first, last};
@@ -147,7 +148,7 @@ double Simulation::efficiency() const
 Simulation simulate(const Schedule& schedule, int step, int workers)
 {
     if (workers < 1)
-        throw OptionError("workers is " + std::to_string(workers) + ", but must be at least 1");
+        throw OptionError(fmt::format("workers is {}, but must be at least 1", workers));
     const TasksOfStep graph = graph_of(schedule, step);
     Simulation simulation;
     simulation.workers = workers;

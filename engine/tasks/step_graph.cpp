@@ -2,11 +2,13 @@
 
 #include <utility>
 
+#include <oneapi/tbb/task_arena.h>
+
 namespace seamflow {
 
 StepGraph::StepGraph(bool is_recorded, Progress& progress)
-    : recorder_(is_recorded ? std::make_unique<ScheduleRecorder>() : nullptr)
-    , graph_(recorder_.get(), &progress)
+    : schedule_(is_recorded ? std::optional<Schedule>(std::in_place) : std::nullopt)
+    , graph_(&progress)
 {
 }
 
@@ -18,26 +20,67 @@ StepGraph::Node StepGraph::add_root()
 
 StepGraph::Node StepGraph::add_task(const ScheduledTask& task, std::function<void()> body)
 {
-    const Node node = graph_.add_task(std::move(body), task.priority);
-    if (recorder_)
-        recorder_->add_task(node, task);
+    if (!schedule_)
+        return graph_.add_task(std::move(body), task.priority);
+    const auto number = static_cast<Index>(schedule_->tasks.size());
+    const Node node =
+        graph_.add_task([this, number, run = std::move(body)] { run_recorded(number, run); }, task.priority);
+    task_of_node_.resize(at(node) + 1, -1);
+    task_of_node_[node] = number;
+    schedule_->tasks.push_back(task);
     return node;
+}
+
+Index StepGraph::task_at(Node node) const
+{
+    return at(node) < task_of_node_.size() ? task_of_node_[node] : -1;
+}
+
+void StepGraph::add_dependency(Node before, Node after)
+{
+    graph_.add_dependency(before, after);
+    const Dependency dependency{task_at(before), task_at(after)};
+    if (dependency.before >= 0 && dependency.after >= 0)
+        schedule_->dependencies.push_back(dependency);
+}
+
+void StepGraph::begin_record()
+{
+    running_.assign(schedule_->tasks.size(), {});
+    if (schedule_->steps.empty())
+        clock_ = Stopwatch();
+    schedule_->steps.push_back({.start = clock_.seconds()});
+}
+
+void StepGraph::end_record()
+{
+    schedule_->steps.back().end = clock_.seconds();
+    for (const TaskRecord& record : running_)
+        if (record.step > 0)
+            schedule_->records.push_back(record);
+}
+
+/// Notes when the body ran; not if it throws. Different tasks may run at the same time.
+void StepGraph::run_recorded(Index task, const std::function<void()>& body)
+{
+    const double start = clock_.seconds();
+    body();
+    running_[task] = {.step = static_cast<int>(schedule_->steps.size()),
+                      .task = task,
+                      .thread = oneapi::tbb::this_task_arena::current_thread_index(),
+                      .start = start,
+                      .end = clock_.seconds()};
 }
 
 void StepGraph::run(std::size_t root, double further_parts, const std::function<void()>& join)
 {
-    if (recorder_)
-        recorder_->begin_step();
+    if (schedule_)
+        begin_record();
     graph_.run(roots_[root], further_parts);
     if (join)
         join();
-    if (recorder_)
-        recorder_->end_step();
-}
-
-std::optional<Schedule> StepGraph::schedule() const
-{
-    return recorder_ ? std::optional(recorder_->schedule()) : std::nullopt;
+    if (schedule_)
+        end_record();
 }
 
 }  // namespace seamflow

@@ -1,18 +1,17 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/options/schedule.h"
-#include "engine/tasks/schedule_recorder.h"
+#include "engine/tasks/stopwatch.h"
 #include "engine/tasks/task_graph.h"
 
 namespace seamflow {
 
 /// The task graph of a step, in which every task has a name: what it does, and for which sub-mesh. It is built once and
-/// run once for each step. Where asked to, it records what ran when.
+/// run once for each step. Where asked to, it records what ran when; that allocates between steps alone.
 class StepGraph {
   public:
     using Node = TaskGraph::Node;
@@ -28,7 +27,7 @@ class StepGraph {
     Node add_task(const ScheduledTask& task, std::function<void()> body);
 
     /// Makes `after` wait for `before`.
-    void add_dependency(Node before, Node after) { graph_.add_dependency(before, after); }
+    void add_dependency(Node before, Node after);
 
     /// Takes a step: runs all tasks of a root and waits for them, then calls `join` in this thread.
     /// @param root its number, from 0.
@@ -39,10 +38,21 @@ class StepGraph {
     [[nodiscard]] std::size_t n_roots() const { return roots_.size(); }
 
     /// What ran when; empty where nothing is recorded.
-    [[nodiscard]] std::optional<Schedule> schedule() const;
+    [[nodiscard]] const std::optional<Schedule>& schedule() const { return schedule_; }
 
   private:
-    std::unique_ptr<ScheduleRecorder> recorder_;
+    void begin_record();
+    void end_record();
+    void run_recorded(Index task, const std::function<void()>& body);
+    [[nodiscard]] Index task_at(Node node) const;
+
+    std::optional<Schedule> schedule_;
+    Stopwatch clock_;
+    /// Number of the task at each node; -1, or nothing: none.
+    std::vector<Index> task_of_node_;
+    /// #tasks, for the step that runs; step 0: has not run.
+    std::vector<TaskRecord> running_;
+    /// Last, as its tasks refer to the others.
     TaskGraph graph_;
     std::vector<Node> roots_;
 };

@@ -10,8 +10,7 @@
 #include <oneapi/tbb/flow_graph.h>
 
 #include "engine/tasks/progress.h"
-#include "engine/tasks/schedule_recorder.h"
-#include "engine/tasks/thread_order.h"
+#include "engine/tasks/thread_sanitizer.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -69,7 +68,6 @@ class TaskGraph::Nodes {
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     TaskOrder order;
-    ScheduleRecorder* recorder = nullptr;
     Progress* progress = nullptr;
     FirstFailure failure;
     /// Set where a task was not run because the flow is to stop. oneTBB's own cancellation would also make the loops
@@ -89,7 +87,7 @@ void TaskGraph::Nodes::perform(const Task& task)
         return;
     }
     try {
-        recorder != nullptr ? recorder->timed(task.node, task.body) : task.body();
+        task.body();
         if (progress != nullptr)
             progress->count();
     } catch (...) {
@@ -111,10 +109,9 @@ struct TaskGraph::OrderedTask {
     const Nodes::Task* task;
 };
 
-TaskGraph::TaskGraph(ScheduleRecorder* recorder, Progress* progress)
+TaskGraph::TaskGraph(Progress* progress)
     : nodes_(std::make_unique<Nodes>())
 {
-    nodes_->recorder = recorder;
     nodes_->progress = progress;
 }
 
@@ -140,8 +137,6 @@ void TaskGraph::add_dependency(Node before, Node after)
 {
     flow::make_edge(nodes_->nodes[before], nodes_->nodes[after]);
     nodes_->order.add_dependency(at(before), at(after));
-    if (nodes_->recorder != nullptr)
-        nodes_->recorder->add_dependency(before, after);
 }
 
 void TaskGraph::run(Node root, double further_parts)

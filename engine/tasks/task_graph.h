@@ -9,7 +9,6 @@
 namespace seamflow {
 
 class Progress;
-class ScheduleRecorder;
 
 /// A graph of tasks with fixed dependencies, built once and run as often as wanted (a oneTBB flow graph of continue
 /// nodes). Belongs to the arena in which it is constructed.
@@ -22,9 +21,8 @@ class TaskGraph {
     /// Number of a task or of a root.
     using Node = Index;
 
-    /// @param recorder hears of dependencies and times the tasks; must outlive the graph. nullptr: none.
     /// @param progress counts the tasks and says whether to stop; must outlive the graph. nullptr: none.
-    explicit TaskGraph(ScheduleRecorder* recorder = nullptr, Progress* progress = nullptr);
+    explicit TaskGraph(Progress* progress = nullptr);
     ~TaskGraph();
     TaskGraph(const TaskGraph&) = delete;
     TaskGraph& operator=(const TaskGraph&) = delete;

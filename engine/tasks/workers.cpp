@@ -8,10 +8,10 @@
 #include <latch>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
@@ -19,8 +19,8 @@
 #include <pthread.h>
 #include <sys/resource.h>
 
-#include "engine/tasks/single_threaded_libraries.h"
-#include "engine/tasks/thread_order.h"
+#include "engine/tasks/library_threads.h"
+#include "engine/tasks/thread_sanitizer.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -117,8 +117,9 @@ void require_room_for_threads(tbb::task_arena& arena)
             return;
         if (!can_make_threads(n))
             throw ComputationError(
-                "there is no memory for " + std::to_string(n) +
-                " more threads: use fewer (--threads), or raise the limit of this program (ulimit -v)");
+                fmt::format("there is no memory for {} more threads: use fewer (--threads), or raise "
+                            "the limit of this program (ulimit -v)",
+                            n));
         most_made = n;
     }
     bring_up_threads(arena);

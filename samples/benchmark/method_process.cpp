@@ -19,7 +19,7 @@
 #include "partition/errors.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
-#include "solvers/direct/blas_turn.h"
+#include "solvers/direct/blas_work_area.h"
 
 namespace seamflow {
 

@@ -29,7 +29,7 @@ MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
     for (const int threads : task.simulated_threads)
         result.simulations.push_back(
             simulate(*report.schedule, static_cast<int>(median_step(result.steps)) + 1, threads));
-    result.subdomains = report.subdomains;
+    result.subdomains = report.cut.n_sub_meshes();
     result.remarks = report.remarks;
     result.positions = std::move(mesh.vertices);
     return result;

@@ -12,7 +12,7 @@
 #include "samples/benchmark/case_text.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/common/meshes.h"
-#include "samples/common/simulation_text.h"
+#include "samples/common/report_text.h"
 #include "solvers/laplacian/degenerate.h"
 
 namespace seamflow {

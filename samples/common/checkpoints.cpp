@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "engine/state/checkpoint.h"
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
@@ -18,7 +20,7 @@ constexpr const char* file_name = "smooth.checkpoint";
 
 /// Failures of `body` come out with the name of the file, and what to do.
 template <class Body>
-void run_for_sub_mesh(const std::filesystem::path& file, Body&& body)
+void name_file_in_errors(const std::filesystem::path& file, Body&& body)
 {
     const auto message = [&](const std::exception& error) {
         return file.string() + ": " + error.what() +
@@ -68,11 +70,10 @@ std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, cons
     if (!std::filesystem::exists(file_))
         return nullptr;
     auto state = std::make_shared<const FlowState>(read_checkpoint(file_));
-    run_for_sub_mesh(file_, [&] {
+    name_file_in_errors(file_, [&] {
         require_same(state->identity, identify(mesh, options));
         if (state->n_steps() > options.steps)
-            throw OptionError("is after step " + std::to_string(state->n_steps()) + ", but steps is " +
-                              std::to_string(options.steps));
+            throw OptionError(fmt::format("is after step {}, but steps is {}", state->n_steps(), options.steps));
     });
     return state;
 }

@@ -3,7 +3,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
+
+#include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/version.h"
@@ -14,13 +15,12 @@ namespace {
 
 std::string described(const RealLimits& limits)
 {
-    std::ostringstream text;
-    text << "a finite number";
+    std::string text = "a finite number";
     if (std::isfinite(limits.least))
-        text << (limits.above_least ? " above " : " from ") << limits.least;
+        text += fmt::format(" {} {:.6g}", limits.above_least ? "above" : "from", limits.least);
     if (limits.most < std::numeric_limits<double>::max())
-        text << (std::isfinite(limits.least) ? " to " : " up to ") << limits.most;
-    return text.str();
+        text += fmt::format(" {} {:.6g}", std::isfinite(limits.least) ? "to" : "up to", limits.most);
+    return text;
 }
 
 /// What a suffix multiplies by; nothing for one that is none.
@@ -51,7 +51,7 @@ double parse_real(std::string_view text, const RealLimits& limits)
     const bool number = error == std::errc() && rest == end && std::isfinite(value);
     if (number && value <= limits.most && (limits.above_least ? value > limits.least : value >= limits.least))
         return value;
-    throw OptionError("\"" + std::string(text) + "\" is not " + described(limits));
+    throw OptionError(fmt::format("\"{}\" is not {}", text, described(limits)));
 }
 
 long long parse_integer(std::string_view text, long long least, long long most)
@@ -61,8 +61,7 @@ long long parse_integer(std::string_view text, long long least, long long most)
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc() && rest == end && value >= least && value <= most)
         return value;
-    throw OptionError("\"" + std::string(text) + "\" is not a whole number from " + std::to_string(least) + " to " +
-                      std::to_string(most));
+    throw OptionError(fmt::format("\"{}\" is not a whole number from {} to {}", text, least, most));
 }
 
 std::size_t parse_bytes(std::string_view text)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "partition/metrics/surface_distance.h"
 
@@ -11,7 +13,7 @@ namespace {
 
 std::string difference(const char* what, Index reference, Index candidate)
 {
-    return "REFERENCE has " + std::to_string(reference) + " " + what + ", CANDIDATE " + std::to_string(candidate);
+    return fmt::format("REFERENCE has {} {}, CANDIDATE {}", reference, what, candidate);
 }
 
 void measure_surfaces(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison)
@@ -66,8 +68,7 @@ std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMes
         return difference("faces", reference.n_faces(), candidate.n_faces());
     for (Index f = 0; f < reference.n_faces(); ++f)
         if (!std::ranges::equal(reference.face(f), candidate.face(f)))
-            return "face " + std::to_string(f) +
-                   " (counted from 0) has different vertices, or the same in another order";
+            return fmt::format("face {} (counted from 0) has different vertices, or the same in another order", f);
     return {};
 }
 

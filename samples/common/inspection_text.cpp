@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <ostream>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace seamflow {
 
@@ -13,19 +14,17 @@ namespace {
 
 std::string digits_of(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    return fmt::format("{:.6g}", value);
 }
 
 std::string text_of(Index element)
 {
-    return std::to_string(element);
+    return fmt::to_string(element);
 }
 
 std::string text_of(const Edge& edge)
 {
-    return std::to_string(edge[0]) + "-" + std::to_string(edge[1]);
+    return fmt::format("{}-{}", edge[0], edge[1]);
 }
 
 /// Prints what was found wrong, one kind a paragraph.

@@ -7,7 +7,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include "engine/tasks/single_threaded_libraries.h"
+#include "engine/tasks/library_threads.h"
 
 namespace seamflow {
 

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "samples/common/mesh_results.h"
 
@@ -77,15 +79,15 @@ ExitStatus LongRun::end_early()
     if (step_ == 0) {
         message = "interrupted before a step was complete; no mesh was written";
     } else {
-        message = "interrupted; " + write_last_step().string() + " has the mesh after step " + std::to_string(step_) +
-                  " of " + std::to_string(command_->options.steps);
+        message = fmt::format("interrupted; {} has the mesh after step {} of {}", write_last_step().string(), step_,
+                              command_->options.steps);
     }
     const int kept = !checkpoints_              ? 0
                      : checkpoints_->step() > 0 ? checkpoints_->step()
                      : resume_                  ? resume_->n_steps()
                                                 : 0;
     if (kept > 0)
-        message += "; the same command goes on after step " + std::to_string(kept);
+        message += fmt::format("; the same command goes on after step {}", kept);
     std::cerr << "smooth: " << message << '\n';
     return interruption_->status();
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "partition/errors.h"
@@ -70,9 +71,8 @@ void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileK
         return;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (mesh.face(f).size() > 3)
-            refuse(path, "for STL holds triangles only, and face " + std::to_string(f) + " has " +
-                             std::to_string(mesh.face(f).size()) + " sides; choose " +
-                             extensions_of(FormatGroup::Polygons));
+            refuse(path, fmt::format("for STL holds triangles only, and face {} has {} sides; choose {}", f,
+                                     mesh.face(f).size(), extensions_of(FormatGroup::Polygons)));
     if (has_isolated_vertices(mesh))
         refuse(path, "for STL cannot hold vertices without faces; choose " + extensions_of(FormatGroup::Polygons));
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -41,7 +42,7 @@ std::string what_is_done(const FlowProgress& progress)
     case FlowPhase::Reference:
         break;
     }
-    std::string step = "step " + std::to_string(progress.step) + " of " + std::to_string(progress.steps);
+    std::string step = fmt::format("step {} of {}", progress.step, progress.steps);
     return progress.phase == FlowPhase::Step ? step : step.append(", undecomposed");
 }
 
@@ -49,12 +50,9 @@ std::string what_is_done(const FlowProgress& progress)
 std::string clock_time(double seconds)
 {
     const auto all = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
-    char text[48];
     if (all < 3600)
-        std::snprintf(text, sizeof text, "%lld:%02lld", all / 60, all % 60);
-    else
-        std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", all / 3600, all / 60 % 60, all % 60);
-    return text;
+        return fmt::format("{}:{:02}", all / 60, all % 60);
+    return fmt::format("{}:{:02}:{:02}", all / 3600, all / 60 % 60, all % 60);
 }
 
 }  // namespace
@@ -64,9 +62,7 @@ std::string progress_line(const FlowProgress& progress, std::optional<double> se
     constexpr std::size_t least_bar = 8;
     constexpr std::size_t most_bar = 60;
     const std::string begin = what_is_done(progress).append("  ");
-    char percent[16];
-    std::snprintf(percent, sizeof percent, "%3d %%", static_cast<int>(100.0 * progress.fraction));
-    std::string end = percent;
+    std::string end = fmt::format("{:3} %", static_cast<int>(100.0 * progress.fraction));
     if (seconds_left)
         end.append("  ").append(clock_time(*seconds_left)).append(" left");
     const auto room = static_cast<std::size_t>(std::max(width, 0));

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
-#include "engine/setup/smoothing_amount.h"
 #include "samples/common/peak_memory.h"
+#include "samples/common/smoothing_request.h"
 
 namespace seamflow {
 
@@ -19,11 +20,17 @@ Json number(double value)
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json numbers(const std::vector<double>& values)
+/// One member of every sub-mesh.
+template <class Value>
+Json of_sub_meshes(const CutReport& cut, Value SubMeshReport::*member)
 {
     Json list = Json::array();
-    for (const double value : values)
-        list.push_back(number(value));
+    for (const SubMeshReport& sub_mesh : cut.sub_meshes) {
+        if constexpr (std::is_same_v<Value, double>)
+            list.push_back(number(sub_mesh.*member));
+        else
+            list.push_back(sub_mesh.*member);
+    }
     return list;
 }
 
@@ -118,33 +125,33 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["input"] = run.input;
     json["output"] = run.output;
     json["arguments"] = run.arguments;
-    json["vertices"] = report.vertices;
-    json["faces"] = report.faces;
+    json["vertices"] = report.mesh.vertices;
+    json["faces"] = report.mesh.faces;
     json["mean_edge"] = number(run.scale.mean_edge);
     json["diagonal"] = number(run.scale.diagonal);
-    json["subdomains"] = report.subdomains;
-    json["subdomain_vertices"] = report.subdomain_vertices;
-    json["subdomain_faces"] = report.subdomain_faces;
-    json["subdomain_colors"] = report.subdomain_colors;
-    json["colors"] = report.colors;
-    json["interface_vertices"] = report.interface_vertices;
-    json["repaired_faces"] = report.repaired_faces;
-    json["non_manifold_vertices"] = report.non_manifold_vertices;
-    json["fixed_vertices"] = report.fixed_vertices;
+    json["subdomains"] = report.cut.n_sub_meshes();
+    json["subdomain_vertices"] = of_sub_meshes(report.cut, &SubMeshReport::vertices);
+    json["subdomain_faces"] = of_sub_meshes(report.cut, &SubMeshReport::faces);
+    json["subdomain_colors"] = of_sub_meshes(report.cut, &SubMeshReport::color);
+    json["colors"] = report.cut.n_colors();
+    json["interface_vertices"] = report.cut.interface_vertices;
+    json["repaired_faces"] = report.cut.repaired_faces;
+    json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
+    json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;
     json["time_step"] = number(report.time_step);
     json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
     json["radius"] =
         number(smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1))));
-    if (report.tolerance) {
-        json["tolerance"] = number(*report.tolerance);
-        json["steps_short_of_tolerance"] = report.steps_short_of_tolerance;
-        json["steps_stagnated"] = report.steps_stagnated;
+    if (report.convergence.tolerance) {
+        json["tolerance"] = number(*report.convergence.tolerance);
+        json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;
+        json["steps_stagnated"] = report.convergence.steps_stagnated;
     }
-    json["threads"] = report.threads;
-    json["p"] = numbers(report.p);
-    json["live_factors"] = report.live_factors;
-    json["factor_memory_bytes"] = report.factor_memory_bytes;
+    json["threads"] = report.resources.threads;
+    json["p"] = of_sub_meshes(report.cut, &SubMeshReport::p);
+    json["live_factors"] = report.resources.live_factors;
+    json["factor_memory_bytes"] = report.resources.factor_memory_bytes;
     json["seconds"] = seconds_json(run, report.seconds);
     json["steps"] = steps_json(report.steps, run.scale.mean_edge);
     json["displacement"] = total_json(report.displacement, run.scale.mean_edge);
@@ -172,6 +179,41 @@ std::string compare_report_json(const Comparison& comparison)
         add_displacement(json, *comparison.displacement, comparison.mean_edge);
     json["remarks"] = comparison.remarks;
     return text_of(json);
+}
+
+std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found)
+{
+    using Json = nlohmann::ordered_json;
+    const auto& sides = found.counts.faces_by_sides;
+    const MeshDefects& defects = found.defects;
+    const Json json{
+        {"file", file},
+        {"vertices", found.counts.vertices},
+        {"edges", found.counts.edges},
+        {"faces", found.counts.faces},
+        {"faces_by_sides", {{"3", sides[0]}, {"4", sides[1]}, {"5", sides[2]}, {"6", sides[3]}, {"more", sides[4]}}},
+        {"components", found.counts.components},
+        {"boundary_edges", found.counts.boundary_edges},
+        {"shortest_edge", found.edge_lengths.shortest},
+        {"mean_edge", found.edge_lengths.mean},
+        {"longest_edge", found.edge_lengths.longest},
+        {"middle", found.box.middle},
+        {"diagonal", found.box.diagonal},
+        {"bits_for_detail", found.bits_for_detail},
+        {"orientable", found.orientable},
+        {"faults", faults.count},
+        {"fault_messages", faults.messages},
+        {"vertices_not_finite", defects.vertices_not_finite},
+        {"non_manifold_edges", defects.non_manifold_edges},
+        {"non_manifold_vertices", defects.non_manifold_vertices},
+        {"inconsistent_edges", defects.inconsistent_edges},
+        {"duplicate_faces", defects.duplicate_faces},
+        {"faces_without_area", defects.faces_without_area},
+        {"edges_without_length", defects.edges_without_length},
+        {"coincident_vertices", defects.coincident_vertices},
+        {"isolated_vertices", defects.isolated_vertices},
+    };
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace seamflow

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "engine/options/flow_report.h"
+#include "partition/inspection/mesh_inspection.h"
+#include "partition/io/fault_log.h"
 #include "samples/common/comparison.h"
 #include "samples/common/run_record.h"
 
@@ -15,5 +17,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
 
 /// REPORT.json of `compare`; the same units. What was not measured has no keys.
 std::string compare_report_json(const Comparison& comparison);
+
+/// What `inspect` found, whole, as it prints it with --json.
+std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found);
 
 }  // namespace seamflow

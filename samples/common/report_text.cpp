@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 #include <string>
 
-#include "engine/setup/smoothing_amount.h"
+#include <fmt/format.h>
+
 #include "samples/common/peak_memory.h"
+#include "samples/common/smoothing_request.h"
 
 namespace seamflow {
 
@@ -15,53 +16,46 @@ namespace {
 
 std::string digits(double value, int significant = 6)
 {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*g", significant, value);
-    return text;
-}
-
-std::string seconds(double value)
-{
-    char text[64];
-    std::snprintf(text, sizeof text, "%.3f s", value);
-    return text;
+    return fmt::format("{:.{}g}", value, significant);
 }
 
 std::string counted(Index count, const std::string& singular, const std::string& plural)
 {
-    return std::to_string(count) + " " + (count == 1 ? singular : plural);
+    return fmt::format("{} {}", count, count == 1 ? singular : plural);
 }
 
 void print_cut(std::ostream& out, const FlowReport& report)
 {
-    out << "cut        " << counted(report.subdomains, "sub-mesh", "sub-meshes") << " in "
-        << counted(report.colors, "colour", "colours") << ", "
-        << counted(report.interface_vertices, "interface vertex", "interface vertices") << '\n';
-    std::vector<Index> sizes = report.subdomain_vertices;
+    out << fmt::format("cut        {} in {}, {}\n", counted(report.cut.n_sub_meshes(), "sub-mesh", "sub-meshes"),
+                       counted(report.cut.n_colors(), "colour", "colours"),
+                       counted(report.cut.interface_vertices, "interface vertex", "interface vertices"));
+    std::vector<Index> sizes;
+    for (const SubMeshReport& sub_mesh : report.cut.sub_meshes)
+        sizes.push_back(sub_mesh.vertices);
     if (sizes.empty())
         return;
     std::sort(sizes.begin(), sizes.end());
-    out << "sizes      " << sizes.front() << " / " << sizes[sizes.size() / 2] << " / " << sizes.back()
-        << " vertices (smallest / median / largest)\n";
+    out << fmt::format("sizes      {} / {} / {} vertices (smallest / median / largest)\n", sizes.front(),
+                       sizes[sizes.size() / 2], sizes.back());
 }
 
 void print_times(std::ostream& out, const RunRecord& run, const PhaseSeconds& phases)
 {
-    out << "time       read " << seconds(run.read_seconds) << ", cut " << seconds(phases.cut) << ", analyse "
-        << seconds(phases.analyse) << ", all steps " << seconds(phases.step) << ", write " << seconds(run.write_seconds)
-        << '\n';
-    out << "in tasks   assemble " << seconds(phases.assemble) << ", factorise " << seconds(phases.factorise)
-        << ", solve " << seconds(phases.solve) << ", correct " << seconds(phases.correct) << " (summed over threads)\n";
+    out << fmt::format("time       read {:.3f} s, cut {:.3f} s, analyse {:.3f} s, all steps {:.3f} s, write {:.3f} s\n",
+                       run.read_seconds, phases.cut, phases.analyse, phases.step, run.write_seconds);
+    out << fmt::format(
+        "in tasks   assemble {:.3f} s, factorise {:.3f} s, solve {:.3f} s, correct {:.3f} s (summed over threads)\n",
+        phases.assemble, phases.factorise, phases.solve, phases.correct);
 }
 
 /// Explicit Euler steps factorise nothing. Only Cholesky's method has its memory set aside.
 void print_factors(std::ostream& out, const FlowReport& report)
 {
-    if (report.live_factors == 0)
+    if (report.resources.live_factors == 0)
         return;
-    out << "factors    at most " << report.live_factors << " at once";
-    if (report.factor_memory_bytes > 0)
-        out << ", " << digits(static_cast<double>(report.factor_memory_bytes) / 1e6, 4) << " MB";
+    out << "factors    at most " << report.resources.live_factors << " at once";
+    if (report.resources.factor_memory_bytes > 0)
+        out << ", " << digits(static_cast<double>(report.resources.factor_memory_bytes) / 1e6, 4) << " MB";
     out << '\n';
 }
 
@@ -70,24 +64,24 @@ void print_lengths(std::ostream& out, const char* name, const LengthStatistics& 
 {
     const bool relative = unit > 0.0;
     const double divisor = relative ? unit : 1.0;
-    out << name << "mean " << digits(lengths.mean / divisor) << ", RMS " << digits(lengths.rms / divisor)
-        << ", largest " << digits(lengths.max / divisor) << (relative ? " mean edge lengths" : "") << '\n';
+    out << fmt::format("{}mean {:.6g}, RMS {:.6g}, largest {:.6g}{}\n", name, lengths.mean / divisor,
+                       lengths.rms / divisor, lengths.max / divisor, relative ? " mean edge lengths" : "");
 }
 
 void print_total(std::ostream& out, const TotalDisplacement& total, double mean_edge)
 {
     const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
-    out << "moved      tangentially " << digits(total.path.tangential.mean / unit, 4) << " (largest "
-        << digits(total.path.tangential.max / unit, 4) << ", net " << digits(total.drift.mean / unit, 4)
-        << "), normally " << digits(total.path.normal.mean / unit, 4) << " (largest "
-        << digits(total.path.normal.max / unit, 4) << ") mean edge lengths on average\n";
+    out << fmt::format("moved      tangentially {:.4g} (largest {:.4g}, net {:.4g}), normally {:.4g} (largest {:.4g}) "
+                       "mean edge lengths on average\n",
+                       total.path.tangential.mean / unit, total.path.tangential.max / unit, total.drift.mean / unit,
+                       total.path.normal.mean / unit, total.path.normal.max / unit);
 }
 
 void print_distance(std::ostream& out, const char* name, double absolute, double mean_edge)
 {
-    out << name << "  " << digits(absolute, 10);
+    out << fmt::format("{}  {:.10g}", name, absolute);
     if (mean_edge > 0.0)
-        out << "  =  " << digits(absolute / mean_edge) << " mean edge lengths";
+        out << fmt::format("  =  {:.6g} mean edge lengths", absolute / mean_edge);
     out << '\n';
 }
 
@@ -95,43 +89,46 @@ void print_distance(std::ostream& out, const char* name, double absolute, double
 
 void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh)
 {
-    out << "input      " << run.input << ": " << counted(mesh.n_vertices(), "vertex", "vertices") << ", "
-        << counted(mesh.n_faces(), "face", "faces") << ", mean edge " << digits(run.scale.mean_edge) << std::endl;
+    out << fmt::format("input      {}: {}, {}, mean edge {:.6g}", run.input,
+                       counted(mesh.n_vertices(), "vertex", "vertices"), counted(mesh.n_faces(), "face", "faces"),
+                       run.scale.mean_edge)
+        << std::endl;
 }
 
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
     const int steps = std::max(options.steps, 1);
     const double radius = options.steps == 0 ? 0.0 : smoothed_radius(options.time_step, steps);
-    out << "amount     dt " << digits(options.time_step) << " = "
-        << digits(options.time_step / (scale.mean_edge * scale.mean_edge)) << " squared mean edge lengths, √dt "
-        << digits(std::sqrt(options.time_step)) << "; "
-        << (options.steps == 1 ? "one step smooths" : std::to_string(options.steps) + " steps smooth")
-        << " bumps of radius " << digits(radius) << " = " << digits(100.0 * radius / scale.diagonal, 3)
-        << "% of the diagonal" << std::endl;
+    out << fmt::format(
+               "amount     dt {:.6g} = {:.6g} squared mean edge lengths, √dt {:.6g}; {} bumps of radius {:.6g} = "
+               "{:.3g}% of the diagonal",
+               options.time_step, options.time_step / (scale.mean_edge * scale.mean_edge), std::sqrt(options.time_step),
+               options.steps == 1 ? "one step smooths" : fmt::format("{} steps smooth", options.steps), radius,
+               100.0 * radius / scale.diagonal)
+        << std::endl;
 }
 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
 {
-    out << "step " << step << " of " << steps << "  " << seconds(report.seconds) << "  largest mean curvature "
-        << digits(report.max_mean_curvature_before) << " -> " << digits(report.max_mean_curvature_after);
+    out << fmt::format("step {} of {}  {:.3f} s  largest mean curvature {:.6g} -> {:.6g}", step, steps, report.seconds,
+                       report.max_mean_curvature_before, report.max_mean_curvature_after);
     if (report.iterations)
-        out << "  iterations " << *report.iterations << ", residual " << digits(report.residual.value_or(0.0), 2);
+        out << fmt::format("  iterations {}, residual {:.2g}", *report.iterations, report.residual.value_or(0.0));
     if (report.gap) {
         const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
-        out << "  gap mean " << digits(report.gap->mean / unit) << ", largest " << digits(report.gap->max / unit);
+        out << fmt::format("  gap mean {:.6g}, largest {:.6g}", report.gap->mean / unit, report.gap->max / unit);
     }
     if (report.estimated_v_max)
-        out << "  estimated distance to the undecomposed flow " << digits(*report.estimated_v_max, 2)
-            << " mean edge lengths";
+        out << fmt::format("  estimated distance to the undecomposed flow {:.2g} mean edge lengths",
+                           *report.estimated_v_max);
     if (report.distance) {
         const VertexDistance& distance = *report.distance;
         const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;
-        out << "  V_mean " << digits(distance.mean / unit) << "  V_RMS " << digits(distance.rms / unit) << "  V_max "
-            << digits(distance.max / unit);
+        out << fmt::format("  V_mean {:.6g}  V_RMS {:.6g}  V_max {:.6g}", distance.mean / unit, distance.rms / unit,
+                           distance.max / unit);
     }
     if (report.reference_seconds)
-        out << "  (undecomposed " << seconds(*report.reference_seconds) << ")";
+        out << fmt::format("  (undecomposed {:.3f} s)", *report.reference_seconds);
     out << std::endl;
 }
 
@@ -142,7 +139,7 @@ void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& re
     print_factors(out, report);
     print_times(out, run, report.seconds);
     print_total(out, report.displacement, run.scale.mean_edge);
-    out << "threads    " << report.threads << '\n';
+    out << "threads    " << report.resources.threads << '\n';
     out << "memory     " << digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4) << " MB at most\n";
     for (const std::string& remark : report.remarks)
         out << "remark     " << remark << '\n';
@@ -180,6 +177,15 @@ void print_error_map(std::ostream& out, const std::string& file, const ErrorRang
 {
     out << "error map  " << file << ", from " << digits(range.first) << " (blue) to " << digits(range.last) << " (red)"
         << std::endl;
+}
+
+void print_simulations(std::ostream& out, const std::vector<Simulation>& simulations)
+{
+    out << "workers      makespan  efficiency  speed-up            critical path\n";
+    for (const Simulation& simulation : simulations)
+        out << fmt::format("{:7}  {:9.3f} ms  {:10.3f}  {:8.2f}  {:9.3f} ms, {:3} tasks\n", simulation.workers,
+                           1e3 * simulation.makespan, simulation.efficiency(), simulation.speed_up(),
+                           1e3 * simulation.critical_path_seconds, simulation.critical_path.size());
 }
 
 }  // namespace seamflow

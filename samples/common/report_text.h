@@ -2,9 +2,11 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "engine/options/flow_options.h"
 #include "engine/options/flow_report.h"
+#include "engine/tasks/schedule_simulation.h"
 #include "samples/common/comparison.h"
 #include "samples/common/error_map.h"
 #include "samples/common/run_record.h"
@@ -30,5 +32,9 @@ void print_comparison(std::ostream& out, const Comparison& comparison);
 
 /// Where an error map is, and what its colours mean.
 void print_error_map(std::ostream& out, const std::string& file, const ErrorRange& range);
+
+/// A table with one line per simulation: workers, makespan, efficiency, speed-up and critical path, times in
+/// milliseconds.
+void print_simulations(std::ostream& out, const std::vector<Simulation>& simulations);
 
 }  // namespace seamflow

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "partition/io/output_file.h"
@@ -28,10 +29,8 @@ double microseconds(std::int64_t nanoseconds)
 
 std::string name_of(const ScheduledTask& task)
 {
-    std::string name(name_of(task.kind));
-    if (task.sub_mesh >= 0)
-        name.append(" ").append(std::to_string(task.sub_mesh));
-    return name;
+    const std::string_view kind = name_of(task.kind);
+    return task.sub_mesh >= 0 ? fmt::format("{} {}", kind, task.sub_mesh) : std::string(kind);
 }
 
 /// One event after the other, a line each.
@@ -114,13 +113,13 @@ void write_steps(TraceFile& file, const Schedule& schedule, int row)
     }
 }
 
-void write_tasks(TraceFile& file, const Schedule& schedule, const std::vector<Index>& vertices)
+void write_tasks(TraceFile& file, const Schedule& schedule, const std::vector<SubMeshReport>& sub_meshes)
 {
     for (const TaskRecord& record : schedule.records) {
         const ScheduledTask& task = schedule.tasks[record.task];
         TraceFile::Event arguments = {{"step", record.step}};
         if (task.sub_mesh >= 0)
-            arguments.update({{"sub-mesh", task.sub_mesh}, {"vertices", vertices[task.sub_mesh]}});
+            arguments.update({{"sub-mesh", task.sub_mesh}, {"vertices", sub_meshes[task.sub_mesh].vertices}});
         file.add_slice(row_of(record), record.start, record.end, name_of(task), "task", arguments);
     }
 }
@@ -164,7 +163,7 @@ void write_schedule_trace(const std::filesystem::path& path, const FlowReport& r
     TraceFile file(path);
     write_rows(file, schedule, row_of_steps);
     write_steps(file, schedule, row_of_steps);
-    write_tasks(file, schedule, report.subdomain_vertices);
+    write_tasks(file, schedule, report.cut.sub_meshes);
     write_arrows(file, schedule);
     file.commit();
 }
@@ -175,9 +174,9 @@ void write_task_graph(const std::filesystem::path& path, const FlowReport& repor
     OutputFile file(path);
     file.text("digraph step {\n    node [shape=box]\n");
     for (std::size_t i = 0; i < schedule.tasks.size(); ++i)
-        file.text("    " + std::to_string(i) + " [label=\"" + name_of(schedule.tasks[i]) + "\"]\n");
+        file.text(fmt::format("    {} [label=\"{}\"]\n", i, name_of(schedule.tasks[i])));
     for (const auto& [before, after] : schedule.dependencies)
-        file.text("    " + std::to_string(before) + " -> " + std::to_string(after) + "\n");
+        file.text(fmt::format("    {} -> {}\n", before, after));
     file.text("}\n");
     file.commit();
 }

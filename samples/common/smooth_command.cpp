@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/common/command_line.h"
@@ -237,8 +239,8 @@ constexpr int most_files = 100'000;
 void require_usable_files(const SmoothCommand& command)
 {
     if (command.every_step && command.options.steps > most_files)
-        throw OptionError("--every-step would write " + std::to_string(command.options.steps) + " files; " +
-                          std::to_string(most_files) + " are the most");
+        throw OptionError(
+            fmt::format("--every-step would write {} files; {} are the most", command.options.steps, most_files));
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
@@ -282,6 +284,13 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     require_consistent(app, command);
     require_usable_files(command);
     return std::nullopt;
+}
+
+int steps_failed(const SmoothCommand& command, const FlowReport& report)
+{
+    if (!command.options.accuracy.tolerance)
+        return 0;
+    return command.limits_iterations ? report.convergence.steps_stagnated : report.convergence.steps_short_of_tolerance;
 }
 
 }  // namespace seamflow

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
 #include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"
@@ -47,5 +48,9 @@ struct SmoothCommand {
 /// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
 /// @throws OptionError, OutputError (see output_files.h).
 std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command);
+
+/// How many steps have failed because they missed the tolerance: all that missed it, or, where the user has limited the
+/// iterations, those that stagnated. 0 where the user has asked for no tolerance.
+int steps_failed(const SmoothCommand& command, const FlowReport& report);
 
 }  // namespace seamflow

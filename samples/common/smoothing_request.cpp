@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
-#include "engine/setup/smoothing_amount.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/command_line.h"
@@ -12,6 +12,12 @@
 namespace seamflow {
 
 namespace {
+
+/// dt / R²: what (1 + dt π²/(2R²))^steps = 2 leaves.
+double step_per_squared_radius(int steps)
+{
+    return 2.0 * std::expm1(std::numbers::ln2 / steps) / (std::numbers::pi * std::numbers::pi);
+}
 
 double require_step(double time_step, const char* option)
 {
@@ -21,6 +27,16 @@ double require_step(double time_step, const char* option)
 }
 
 }  // namespace
+
+double smoothed_radius(double time_step, int steps)
+{
+    return std::sqrt(time_step / step_per_squared_radius(steps));
+}
+
+double time_step_for_radius(double radius, int steps)
+{
+    return radius * radius * step_per_squared_radius(steps);
+}
 
 LengthOnMesh parse_length(std::string_view text)
 {

@@ -136,20 +136,20 @@ class Run {
     void complete(const Variant& variant, const FlowReport& report, std::size_t first)
     {
         std::vector<double> p;
-        for (std::size_t part = 0; part < report.p.size(); ++part)
-            if (report.p[part] > 0.0 && (variant.cut == CutKind::Metis || report.subdomain_colors[part] == 0))
-                p.push_back(report.p[part]);
+        for (const SubMeshReport& part : report.cut.sub_meshes)
+            if (part.p > 0.0 && (variant.cut == CutKind::Metis || part.color == 0))
+                p.push_back(part.p);
         std::string range;
         if (!p.empty()) {
             const auto [low, high] = std::minmax_element(p.begin(), p.end());
             range = csv_number(*low) + (p.size() > 1 ? " to " + csv_number(*high) : "");
         }
         for (std::size_t row = first; row < table_.rows.size(); ++row) {
-            table_.rows[row].subdomains = report.subdomains;
+            table_.rows[row].subdomains = report.cut.n_sub_meshes();
             table_.rows[row].p = range;
         }
-        if (variant.cut == CutKind::Halves && report.subdomains == 2)
-            leading_ = report.subdomain_colors[0] == 0 ? 0 : 1;
+        if (variant.cut == CutKind::Halves && report.cut.n_sub_meshes() == 2)
+            leading_ = report.cut.sub_meshes[0].color == 0 ? 0 : 1;
     }
 
     /// What is known of a state before the flow has come to its end.

@@ -15,7 +15,7 @@ namespace {
 seamflow::Points flow(seamflow::PolygonMesh mesh, const seamflow::FlowOptions& options, const char* name)
 {
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(mesh, options);
-    std::cout << name << ": " << report.subdomains << " sub-meshes, " << report.seconds.step / options.steps
+    std::cout << name << ": " << report.cut.n_sub_meshes() << " sub-meshes, " << report.seconds.step / options.steps
               << " s a step";
     return mesh.vertices;
 }

@@ -24,7 +24,7 @@ try {
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(file.mesh, options);
 
     seamflow::write_mesh_like(*file.source, argv[2], file.mesh);
-    std::cout << report.vertices << " vertices in " << report.subdomains << " sub-meshes, "
+    std::cout << report.mesh.vertices << " vertices in " << report.cut.n_sub_meshes() << " sub-meshes, "
               << report.seconds.step / options.steps << " s a step\n";
 } catch (const std::exception& error) {
     std::cerr << "library_call: " << error.what() << '\n';

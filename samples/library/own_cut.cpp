@@ -42,9 +42,9 @@ try {
     options.cut.labels = slabs(file.mesh, std::atoi(argv[3]));
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(file.mesh, options);
     // The parts as they were used: what was not connected, or pinched at a vertex, has been repaired.
-    seamflow::write_labelled_ply(argv[2], file.mesh, report.labels);
-    std::cout << report.subdomains << " sub-meshes, " << report.interface_vertices << " vertices between them, "
-              << report.repaired_faces << " faces moved to another one\n";
+    seamflow::write_labelled_ply(argv[2], file.mesh, report.cut.labels);
+    std::cout << report.cut.n_sub_meshes() << " sub-meshes, " << report.cut.interface_vertices
+              << " vertices between them, " << report.cut.repaired_faces << " faces moved to another one\n";
 } catch (const std::exception& error) {
     std::cerr << "own_cut: " << error.what() << '\n';
     return 1;

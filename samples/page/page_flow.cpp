@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/measure/surface_curvature.h"
+#include "engine/measure/surface_measures.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/page/shown_steps.h"
@@ -68,7 +68,7 @@ void PageFlow::add_step(int step, const Points& positions, const Points* undecom
 
 void PageFlow::finish(const FlowReport& report, std::string report_json)
 {
-    labels_ = report.labels;
+    labels_ = report.cut.labels;
     report_json_ = std::move(report_json);
 }
 

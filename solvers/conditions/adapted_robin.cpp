@@ -82,9 +82,4 @@ bool AdaptedRobin::is_well_defined(Index i, const Points& positions) const
            is_in_proportion(interface.complement_faces[i], interface.halo_faces, other, edge);
 }
 
-std::unique_ptr<TransmissionCondition> make_adapted_robin(const SubMesh& sub_mesh)
-{
-    return std::make_unique<AdaptedRobin>(sub_mesh);
-}
-
 }  // namespace seamflow

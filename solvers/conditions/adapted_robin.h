@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -45,8 +44,5 @@ class AdaptedRobin final : public TransmissionCondition {
     /// Per vertex of Γ; nothing where one of them does not exist.
     std::vector<std::optional<Conormals>> conormals_;
 };
-
-/// See AdaptedRobin.
-std::unique_ptr<TransmissionCondition> make_adapted_robin(const SubMesh& sub_mesh);
 
 }  // namespace seamflow

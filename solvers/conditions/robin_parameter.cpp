@@ -11,6 +11,8 @@
 #include <queue>
 #include <utility>
 
+#include "partition/decomposition/sub_mesh.h"
+
 namespace seamflow {
 
 namespace {

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "partition/decomposition/sub_mesh.h"
-#include "solvers/laplacian/geometry.h"
+#include "partition/polygon_mesh.h"
 
 namespace seamflow {
+
+struct SubMesh;
 
 /// Which edge of a sub-mesh stands for ‖e‖ in k_max = π / ‖e‖.
 enum class PEdge {

@@ -7,7 +7,7 @@
 #include <cholmod.h>
 
 #include "partition/errors.h"
-#include "solvers/direct/blas_turn.h"
+#include "solvers/direct/blas_work_area.h"
 
 namespace seamflow {
 
@@ -170,7 +170,7 @@ void solve_by(cholmod_factor* factor, cholmod_dense& right_hand_side, CholmodWor
 {
     CholmodWorkspace::State& kept = workspace.state();
     cholmod_common& common = Interface::common(workspace);
-    const BlasTurn turn;
+    const BlasWorkArea turn;
     Interface::solve(CHOLMOD_A, factor, &right_hand_side, nullptr, &kept.solution, nullptr, &kept.first, &kept.second,
                      &common);
     require_ok(common, "solution");
@@ -209,7 +209,7 @@ class BlockFactor final : public CholmodSolver::Factor {
     {
         cholmod_common& common = Interface::common(workspace);
         cholmod_sparse matrix = matrix_.with(values);
-        const BlasTurn turn;
+        const BlasWorkArea turn;
         Interface::factorize(&matrix, factor_, &common);
         require_ok(common, "factorisation");
         if (common.status == CHOLMOD_OK)

@@ -18,19 +18,7 @@ constexpr Index tile_size = group * n_lanes;
 /// So many tiles before they are used, they are asked for: most factors come from outside the caches.
 constexpr Index tiles_ahead = 96;
 
-// By name, because compilers do not find sums in loops.
-using Lanes [[gnu::vector_size(32)]] = float;
-static_assert(sizeof(Lanes) == sizeof(float) * at(n_lanes));
-
-inline void load(const float* from, Lanes& lanes)
-{
-    std::memcpy(&lanes, from, sizeof lanes);
-}
-
-inline void store(const Lanes& lanes, float* to)
-{
-    std::memcpy(to, &lanes, sizeof lanes);
-}
+using Lanes = SimdVector<float, n_lanes>;
 
 /// Compilers leave out calls of functions that do nothing but this.
 [[gnu::always_inline]] inline void prefetch_after(const float* tile)

@@ -25,7 +25,7 @@ template <Index Rows, class Vector, class Use>
     Vector sums[Rows];
     for (Index c = 0; c < n; ++c) {
         Vector factor;
-        factor.load(factors + c * Vector::lanes);
+        factor.load_from(factors + c * Vector::lanes);
         for (Index r = 0; r < Rows; ++r)
             sums[r].add_product(rows[at(r) * width + at(c)], factor);
     }
@@ -35,7 +35,7 @@ template <Index Rows, class Vector, class Use>
 
 /// Their sums fill eight registers at most.
 template <class Vector>
-constexpr Index rows_at_once = Vector::lanes / Vector::lanes_of_part > 2 ? 2 : 4;
+constexpr Index rows_at_once = Vector::n_parts > 2 ? 2 : 4;
 
 /// Rows of a panel that are the targets of others', each in a lane of its own; what is in other lanes remains.
 struct Targets {
@@ -184,36 +184,35 @@ template <Index Columns>
 }
 
 struct SubtractUpdate {
-    template <class Machine>
-    void operator()(Machine, const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
+    template <Index Width>
+    void operator()(SimdWidth<Width>, const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
                     const LdlPanel& later) const
     {
         for (Index t = 0, n = 0; t < n_columns; t += n) {
             const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
-            if constexpr (Machine::width == 8)
+            if constexpr (Width == 8)
                 if (n_columns - t > 8 && (n = among(16)) > 8) {
-                    update_columns<typename Machine::template Neighbours<16>>(earlier, place + t, n, target_rows + t,
-                                                                              later);
+                    update_columns<SimdBlock<Width, 16>>(earlier, place + t, n, target_rows + t, later);
                     continue;
                 }
             if (n = among(8); n > 4)
-                update_columns<typename Machine::template Neighbours<8>>(earlier, place + t, n, target_rows + t, later);
+                update_columns<SimdBlock<Width, 8>>(earlier, place + t, n, target_rows + t, later);
             else if (n = among(4); n > 2)
-                update_columns<typename Machine::template Neighbours<4>>(earlier, place + t, n, target_rows + t, later);
+                update_columns<SimdBlock<Width, 4>>(earlier, place + t, n, target_rows + t, later);
             else {
                 n = among(2);
-                update_columns<typename Machine::template Neighbours<2>>(earlier, place + t, n, target_rows + t, later);
+                update_columns<SimdBlock<Width, 2>>(earlier, place + t, n, target_rows + t, later);
             }
         }
     }
 };
 
 struct FactorisePanel {
-    template <class Machine>
-    bool operator()(Machine, const LdlPanel& panel) const
+    template <Index Width>
+    bool operator()(SimdWidth<Width>, const LdlPanel& panel) const
     {
-        using Four = typename Machine::template Neighbours<4>;
-        using Eight = typename Machine::template Neighbours<8>;
+        using Four = SimdBlock<Width, 4>;
+        using Eight = SimdBlock<Width, 8>;
         for (Index first = 0; first < panel.width; first += group) {
             const Index n = std::min(group, panel.width - first);
             const Index half = std::min(group / 2, n);
@@ -236,12 +235,12 @@ struct FactorisePanel {
 void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
                      const LdlPanel& later, Index width)
 {
-    on_machine(width, SubtractUpdate(), earlier, place, n_columns, target_rows, later);
+    with_simd_width(width, SubtractUpdate(), earlier, place, n_columns, target_rows, later);
 }
 
 bool factorise_panel(const LdlPanel& panel, Index width)
 {
-    return on_machine(width, FactorisePanel(), panel);
+    return with_simd_width(width, FactorisePanel(), panel);
 }
 
 }  // namespace seamflow

@@ -21,12 +21,12 @@ struct LdlPanel {
 /// Takes what an earlier block contributes away from a block.
 /// @param place the first of the earlier block's rows that belong to columns of the later one; `n_columns` do.
 /// @param target_rows per unknown from rows[place] on of the earlier block: its row of the later one.
-/// @param width see on_machine: the result is the same with any.
+/// @param width see with_simd_width: the result is the same with any.
 void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
                      const LdlPanel& later, Index width = register_width());
 
 /// Factorises a block from which all that earlier blocks contribute has been taken away.
-/// @param width see on_machine: the result is the same with any.
+/// @param width see with_simd_width: the result is the same with any.
 /// @returns whether all of D is positive and finite.
 bool factorise_panel(const LdlPanel& panel, Index width = register_width());
 

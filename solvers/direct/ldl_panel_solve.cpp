@@ -7,14 +7,12 @@ namespace seamflow {
 
 namespace {
 
-using Two = double __attribute__((vector_size(16)));
-
 /// Columns that are solved for at once.
 constexpr Index columns_at_once = 4;
 
 /// One row of three right-hand sides.
 struct Row {
-    Two xy{};
+    SimdVector<double, 2> xy{};
     double z = 0.0;
 
     Row() = default;

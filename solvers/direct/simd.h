@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "partition/index.h"
+
+// SIMD of our own, because the choice of registers is inside of kernels that call each other: libraries (xsimd,
+// highway) choose between whole files or functions that are compiled several times, which would take the kernels apart.
 
 /// Before a function whose loops pay in wider registers: compiled once more for machines that have them. The operations
 /// are the same, and so are the results. Nothing in such a function may throw: GCC 12 lets no exception out of it.
@@ -18,33 +22,67 @@
 
 namespace seamflow {
 
-/// Neighbouring numbers in so many registers. Arrays of vectors that are wider than a register do not do as well: GCC
-/// keeps them in memory all the time, which takes ten times as long.
-template <class Vector, Index Parts>
-struct Registers {
-    static constexpr Index lanes_of_part = static_cast<Index>(sizeof(Vector) / sizeof(double));
-    static constexpr Index lanes = Parts * lanes_of_part;
+namespace detail {
 
-    Vector part[Parts] = {};
+template <class Number, Index Lanes>
+struct SimdVectorOf {
+    using Type [[gnu::vector_size(Lanes * sizeof(Number))]] = Number;
+};
 
-    [[gnu::always_inline]] void load(const double* from)
+}  // namespace detail
+
+/// So many neighbouring numbers, in a register if there are such wide ones. By name, because compilers do not find sums
+/// in loops. Loaded into and not returned: between functions they have no registers of their own.
+/// @param Lanes a power of two.
+template <class Number, Index Lanes>
+using SimdVector = typename detail::SimdVectorOf<Number, Lanes>::Type;
+
+/// Converts numbers of another type.
+template <class Number, class Vector>
+[[gnu::always_inline]] inline void load(const Number* from, Vector& vector)
+{
+    using Own = std::remove_cvref_t<decltype(vector[0])>;
+    SimdVector<Number, sizeof(Vector) / sizeof(Own)> numbers;
+    std::memcpy(&numbers, from, sizeof numbers);
+    vector = __builtin_convertvector(numbers, Vector);
+}
+
+template <class Number, class Vector>
+[[gnu::always_inline]] inline void store(const Vector& vector, Number* to)
+{
+    std::memcpy(to, &vector, sizeof vector);
+}
+
+/// So many neighbouring numbers in registers of `Width`, as many as that takes. Arrays of vectors that are wider than a
+/// register do not do as well: GCC keeps them in memory all the time, which takes ten times as long.
+/// @param Lanes a power of two.
+template <Index Width, Index Lanes>
+struct SimdBlock {
+    static constexpr Index lanes = Lanes;
+    static constexpr Index lanes_of_part = std::min(Lanes, Width);
+    static constexpr Index n_parts = Lanes / lanes_of_part;
+    using Vector = SimdVector<double, lanes_of_part>;
+
+    Vector part[n_parts] = {};
+
+    [[gnu::always_inline]] void load_from(const double* from)
     {
-        for (Index p = 0; p < Parts; ++p)
-            std::memcpy(&part[p], from + p * lanes_of_part, sizeof part[p]);
+        for (Index p = 0; p < n_parts; ++p)
+            load(from + p * lanes_of_part, part[p]);
     }
-    [[gnu::always_inline]] void add_product(double factor, const Registers& numbers)
+    [[gnu::always_inline]] void add_product(double factor, const SimdBlock& numbers)
     {
-        for (Index p = 0; p < Parts; ++p)
+        for (Index p = 0; p < n_parts; ++p)
             part[p] += factor * numbers.part[p];
     }
     /// Takes all of them away from neighbouring entries.
     [[gnu::always_inline]] void subtract_from(double* target) const
     {
-        for (Index p = 0; p < Parts; ++p) {
+        for (Index p = 0; p < n_parts; ++p) {
             Vector entries;
-            std::memcpy(&entries, target + p * lanes_of_part, sizeof entries);
+            load(target + p * lanes_of_part, entries);
             entries -= part[p];
-            std::memcpy(target + p * lanes_of_part, &entries, sizeof entries);
+            store(entries, target + p * lanes_of_part);
         }
     }
     /// The same with the first n.
@@ -55,90 +93,57 @@ struct Registers {
     }
 };
 
-namespace detail {
-
-template <Index N>
-struct Vector;
-template <>
-struct Vector<2> {
-    using Type = double __attribute__((vector_size(16)));
-};
-template <>
-struct Vector<4> {
-    using Type = double __attribute__((vector_size(32)));
-};
-template <>
-struct Vector<8> {
-    using Type = double __attribute__((vector_size(64)));
-};
-
-}  // namespace detail
-
-/// A machine whose registers hold so many numbers.
-/// @param Width 2, 4 or 8.
+/// How many double-precision numbers a register holds; known to the compiler.
 template <Index Width>
-struct Machine {
-    static constexpr Index width = Width;
-    /// So many neighbouring numbers, in as many registers as that takes.
-    /// @param Lanes a power of two.
-    template <Index Lanes>
-    using Neighbours = Registers<typename detail::Vector<std::min(Lanes, Width)>::Type, Lanes / std::min(Lanes, Width)>;
-};
+using SimdWidth = std::integral_constant<Index, Width>;
+
+/// How many double-precision numbers the widest registers hold that are of use here.
+inline Index register_width()
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512vl"))
+        return 8;
+    if (__builtin_cpu_supports("avx2"))
+        return 4;
+#endif
+    return 2;
+}
 
 #if defined(__x86_64__)
 
 namespace detail {
 
 template <class Kernel, class... Arguments>
-[[gnu::target("avx2"), gnu::flatten]] auto run_wide(const Kernel& kernel, Arguments&&... arguments)
+[[gnu::target("avx2"), gnu::flatten]] auto run_with_avx2(const Kernel& kernel, Arguments&&... arguments)
 {
-    return kernel(Machine<4>(), std::forward<Arguments>(arguments)...);
+    return kernel(SimdWidth<4>(), std::forward<Arguments>(arguments)...);
 }
 
 template <class Kernel, class... Arguments>
-[[gnu::target("avx512f,avx512vl"), gnu::flatten]] auto run_widest(const Kernel& kernel, Arguments&&... arguments)
+[[gnu::target("avx512f,avx512vl"), gnu::flatten]] auto run_with_avx512(const Kernel& kernel, Arguments&&... arguments)
 {
-    return kernel(Machine<8>(), std::forward<Arguments>(arguments)...);
+    return kernel(SimdWidth<8>(), std::forward<Arguments>(arguments)...);
 }
 
 }  // namespace detail
 
-/// How many numbers the widest registers hold that are of use here.
-inline Index register_width()
-{
-    if (__builtin_cpu_supports("avx512vl"))
-        return 8;
-    return __builtin_cpu_supports("avx2") ? 4 : 2;
-}
+#endif
 
-/// kernel(machine, arguments…), compiled for a machine with registers of that width. The operations on each number are
-/// the same on all of them, and so are the results.
+/// kernel(SimdWidth<width>(), arguments…), compiled for registers of that width. The operations on each number are the
+/// same with all of them, and so are the results.
 /// @param kernel what it calls is to be inlined always: clang compiles the rest for any machine.
 /// @param width 2, 4 or 8, register_width() at most.
 template <class Kernel, class... Arguments>
-auto on_machine(Index width, const Kernel& kernel, Arguments&&... arguments)
+auto with_simd_width([[maybe_unused]] Index width, const Kernel& kernel, Arguments&&... arguments)
 {
     assert(width <= register_width() && "the machine lacks such registers");
+#if defined(__x86_64__)
     if (width == 8)
-        return detail::run_widest(kernel, std::forward<Arguments>(arguments)...);
+        return detail::run_with_avx512(kernel, std::forward<Arguments>(arguments)...);
     if (width == 4)
-        return detail::run_wide(kernel, std::forward<Arguments>(arguments)...);
-    return kernel(Machine<2>(), std::forward<Arguments>(arguments)...);
-}
-
-#else
-
-inline Index register_width()
-{
-    return 2;
-}
-
-template <class Kernel, class... Arguments>
-auto on_machine(Index, const Kernel& kernel, Arguments&&... arguments)
-{
-    return kernel(Machine<2>(), std::forward<Arguments>(arguments)...);
-}
-
+        return detail::run_with_avx2(kernel, std::forward<Arguments>(arguments)...);
 #endif
+    return kernel(SimdWidth<2>(), std::forward<Arguments>(arguments)...);
+}
 
 }  // namespace seamflow

@@ -8,7 +8,7 @@
 #include <umfpack.h>
 
 #include "partition/errors.h"
-#include "solvers/direct/blas_turn.h"
+#include "solvers/direct/blas_work_area.h"
 
 namespace seamflow {
 
@@ -153,7 +153,7 @@ class UmfpackSolver::BackendFor final : public Backend {
     {
         free_factor();
         is_nearly_singular_ = false;
-        const BlasTurn turn;
+        const BlasWorkArea turn;
         status_ = Interface::numeric(offsets_.data(), rows_.data(), values.data(), way_->symbolic, &numeric_,
                                      way_->control.data(), info_.data());
         if (status_ != UMFPACK_WARNING_singular_matrix)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <numeric>
 
@@ -37,27 +36,14 @@ std::ptrdiff_t place_in(std::span<const Index> ascending, Index value)
     return std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin();
 }
 
-// By name, because compilers do not find sums in loops. Rows are used eight at a time.
-using FourDoubles [[gnu::vector_size(32)]] = double;
-using FourFloats [[gnu::vector_size(16)]] = float;
+// Rows are used eight at a time.
+using FourDoubles = SimdVector<double, 4>;
 static_assert(DenseFactor::lanes == 8);
 
 inline double sum_of(const FourDoubles& low, const FourDoubles& high)
 {
     const FourDoubles sums = low + high;
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-inline void load(const double* from, FourDoubles& numbers)
-{
-    std::memcpy(&numbers, from, sizeof numbers);
-}
-
-inline void load(const float* from, FourDoubles& numbers)
-{
-    FourFloats narrow;
-    std::memcpy(&narrow, from, sizeof narrow);
-    numbers = __builtin_convertvector(narrow, FourDoubles);
 }
 
 /// The next numbers of two vectors, multiplied and added to eight sums, which are single numbers: GCC keeps arrays of

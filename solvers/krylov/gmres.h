@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solvers/krylov/hessenberg.h"
-#include "solvers/krylov/krylov_basis.h"
+#include "solvers/krylov/arnoldi.h"
 #include "solvers/krylov/stopping_criterion.h"
 #include "solvers/krylov/sums.h"
 

@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "partition/decomposition/sub_mesh.h"
-#include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -41,29 +39,6 @@ inline Point corner_bisector(std::span<const Index> corners, std::size_t k, cons
 {
     const std::size_t p = corners.size();
     return 0.5 * (positions.row(corners[k + 1 == p ? 0 : k + 1]) - positions.row(corners[k == 0 ? p - 1 : k - 1]));
-}
-
-/// The faces that a Laplacian is assembled from: those of a sub-mesh or of a whole mesh.
-struct FaceView {
-    std::span<const Index> offsets;
-    std::span<const Index> vertices;
-    /// As SubMesh::twin and Topology::twin.
-    std::span<const Index> twin;
-    Index n_vertices = 0;
-
-    [[nodiscard]] Index n_faces() const { return static_cast<Index>(offsets.size()) - 1; }
-
-    /// The vertices of face f.
-    [[nodiscard]] std::span<const Index> face(Index f) const
-    {
-        return vertices.subspan(offsets[f], offsets[f + 1] - offsets[f]);
-    }
-};
-
-/// The faces of a sub-mesh, which must outlive the view.
-inline FaceView faces_of(const SubMesh& sub_mesh)
-{
-    return {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, sub_mesh.twin, sub_mesh.n_vertices};
 }
 
 }  // namespace seamflow

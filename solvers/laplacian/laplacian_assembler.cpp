@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "solvers/laplacian/kernels.h"
-#include "solvers/laplacian/two_ring_assembler.h"
 
 namespace seamflow {
 

@@ -5,11 +5,35 @@
 #include <span>
 #include <vector>
 
-#include "solvers/laplacian/geometry.h"
+#include "partition/decomposition/sub_mesh.h"
+#include "partition/polygon_mesh.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/sparse/sparse_pattern.h"
 
 namespace seamflow {
+
+/// The faces that a Laplacian is assembled from: those of a sub-mesh or of a whole mesh.
+struct FaceView {
+    std::span<const Index> offsets;
+    std::span<const Index> vertices;
+    /// As SubMesh::twin and Topology::twin.
+    std::span<const Index> twin;
+    Index n_vertices = 0;
+
+    [[nodiscard]] Index n_faces() const { return static_cast<Index>(offsets.size()) - 1; }
+
+    /// The vertices of face f.
+    [[nodiscard]] std::span<const Index> face(Index f) const
+    {
+        return vertices.subspan(offsets[f], offsets[f + 1] - offsets[f]);
+    }
+};
+
+/// The faces of a sub-mesh, which must outlive the view.
+inline FaceView faces_of(const SubMesh& sub_mesh)
+{
+    return {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, sub_mesh.twin, sub_mesh.n_vertices};
+}
 
 /// Adds one Laplacian to the values of a matrix, again and again as the mesh moves. Which entries it touches, and in
 /// which order, depends on the faces alone: `entries` lists them once, and `add` then finds each value's place in a
@@ -33,5 +57,8 @@ class LaplacianAssembler {
 
 /// The assembler of one Laplacian on the given faces, which must outlive it.
 std::unique_ptr<LaplacianAssembler> make_assembler(Laplacian laplacian, const FaceView& faces);
+
+/// The assembler of Δ_P (see PtackovaVelho).
+std::unique_ptr<LaplacianAssembler> make_two_ring_assembler(const FaceView& faces);
 
 }  // namespace seamflow

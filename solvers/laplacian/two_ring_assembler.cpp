@@ -1,8 +1,7 @@
-#include "solvers/laplacian/two_ring_assembler.h"
-
 #include <algorithm>
 
 #include "partition/index_lists.h"
+#include "solvers/laplacian/laplacian_assembler.h"
 #include "solvers/laplacian/ptackova_velho.h"
 
 namespace seamflow {

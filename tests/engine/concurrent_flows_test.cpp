@@ -102,7 +102,7 @@ void check_one_thread(const std::vector<Case>& cases, int threads)
         c.options.resources.threads = threads;
         c.options.report.record_schedule = true;
         const FlowReport report = mean_curvature_flow(c.mesh, c.options);
-        CHECK(report.threads == 1);
+        CHECK(report.resources.threads == 1);
         CHECK(c.mesh.vertices == c.expected);
         std::set<int> slots;
         if (report.schedule)
@@ -167,7 +167,7 @@ TEST_CASE("no more threads work than the caller's arena has")
     c.options.resources.threads = 0;
     c.options.report.record_schedule = true;
     const FlowReport report = arena.execute([&] { return mean_curvature_flow(c.mesh, c.options); });
-    CHECK(report.threads <= 2);
+    CHECK(report.resources.threads <= 2);
     for (const TaskRecord& record : report.schedule->records)
         CHECK(record.thread < 2);
 }

@@ -90,16 +90,25 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
     return ascending(std::move(waits));
 }
 
+std::vector<Index> colors_of(const FlowReport& report)
+{
+    std::vector<Index> colors;
+    for (const SubMeshReport& sub_mesh : report.cut.sub_meshes)
+        colors.push_back(sub_mesh.color);
+    return colors;
+}
+
 /// The sub-meshes of a flow, cut out again.
 Decomposition decomposed(const PolygonMesh& mesh, const FlowOptions& options, const FlowReport& report)
 {
     const Topology topology = make_topology(mesh);
     if (options.interface.conditions != Conditions::Schwarz)
-        return decompose(mesh, topology, report.labels, report.subdomains);
-    const Overlap overlap{report.labels, report.subdomain_colors, options.interface.overlap};
-    auto faces = faces_by_label(report.labels, report.subdomains);
+        return decompose(mesh, topology, report.cut.labels, report.cut.n_sub_meshes());
+    const std::vector<Index> colors = colors_of(report);
+    const Overlap overlap{report.cut.labels, colors, options.interface.overlap};
+    auto faces = faces_by_label(report.cut.labels, report.cut.n_sub_meshes());
     std::vector<SubMesh> sub_meshes;
-    for (Index s = 0; s < report.subdomains; ++s)
+    for (Index s = 0; s < report.cut.n_sub_meshes(); ++s)
         sub_meshes.push_back(make_overlapping_sub_mesh(mesh, topology, overlap, s, std::move(faces[s])));
     return connect_overlapping(std::move(sub_meshes), topology, overlap);
 }
@@ -168,10 +177,10 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     PolygonMesh moved = mesh;
     const FlowReport report = mean_curvature_flow(moved, options);
     const Decomposition decomposition = decomposed(mesh, options, report);
-    std::vector<std::vector<Index>> ranks{report.subdomain_colors};
-    if (alternates(options, at(report.subdomains)))
-        ranks.push_back(reversed(report.subdomain_colors));
-    const FactorWindow window{reverse_cuthill_mckee(decomposition.adjacency), report.live_factors};
+    std::vector<std::vector<Index>> ranks{colors_of(report)};
+    if (alternates(options, at(report.cut.n_sub_meshes())))
+        ranks.push_back(reversed(colors_of(report)));
+    const FactorWindow window{reverse_cuthill_mckee(decomposition.adjacency), report.resources.live_factors};
     const Schedule& schedule = report.schedule.value();
     std::size_t first = 0;
     for (const std::vector<Index>& rank : ranks) {
@@ -183,7 +192,7 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
         first += tasks.size();
     }
     CHECK(first == schedule.tasks.size());
-    return report.live_factors;
+    return report.resources.live_factors;
 }
 
 /// The lowest limit of memory with which the flow runs: the refusal of a lower one says it.
@@ -262,7 +271,7 @@ TEST_CASE("in converged steps the interface waits for all sub-meshes, and they f
         PolygonMesh moved = mesh;
         const FlowReport report = mean_curvature_flow(moved, options);
         Waits expected;
-        for (Index s = 0; s < report.subdomains; ++s) {
+        for (Index s = 0; s < report.cut.n_sub_meshes(); ++s) {
             const bool is_condensed = is_symmetric(laplacian);
             expected.push_back({{is_condensed ? TaskKind::Condense : TaskKind::AssembleAndFactorise, s},
                                 {TaskKind::SolveInterface, -1}});
@@ -281,9 +290,9 @@ TEST_CASE("converged steps whose factors do not all fit take turns, in both halv
     options.accuracy.tolerance = 1e-2;
     options.resources.threads = 2;
     PolygonMesh moved = mesh;
-    options.resources.memory_limit = mean_curvature_flow(moved, options).factor_memory_bytes * 6 / 10;
+    options.resources.memory_limit = mean_curvature_flow(moved, options).resources.factor_memory_bytes * 6 / 10;
     const FlowReport report = mean_curvature_flow(moved, options);
-    REQUIRE(report.live_factors < report.subdomains);
+    REQUIRE(report.resources.live_factors < report.cut.n_sub_meshes());
     const Schedule& schedule = report.schedule.value();
     std::vector<std::pair<Index, Index>> eliminated;
     std::vector<std::pair<Index, Index>> filled_in;
@@ -292,7 +301,7 @@ TEST_CASE("converged steps whose factors do not all fit take turns, in both halv
             (before.first == TaskKind::Condense ? eliminated : filled_in).emplace_back(before.second, after.second);
     CHECK(eliminated == filled_in);
     // One less for each place, which somebody has first.
-    CHECK(static_cast<Index>(eliminated.size()) == report.subdomains - report.live_factors);
+    CHECK(static_cast<Index>(eliminated.size()) == report.cut.n_sub_meshes() - report.resources.live_factors);
     // Nobody waits for two, nor lets two go.
     for (std::size_t i = 1; i < eliminated.size(); ++i) {
         CHECK(eliminated[i - 1].first < eliminated[i].first);

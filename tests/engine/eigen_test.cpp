@@ -43,7 +43,7 @@ TEST_CASE_TEMPLATE("matrices flow as the same polygon mesh does, bit for bit", M
         const FlowReport report =
             mean_curvature_flow(by_matrix, faces_of(mesh), two_steps(), [&](const StepState&) { ++n_observed; });
         CHECK(Points(by_matrix) == expected);
-        CHECK(report.subdomains == 4);
+        CHECK(report.cut.n_sub_meshes() == 4);
         CHECK(n_observed == 2);
         Matrix by_arrays = mesh.vertices;
         mean_curvature_flow(by_arrays, mesh.face_offsets, mesh.face_vertices, two_steps());

@@ -11,7 +11,6 @@
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/separated_sub_meshes.h"
 #include "samples/common/meshes.h"
-#include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "tests/support/flows.h"
 
@@ -107,7 +106,7 @@ class Machines {
         if (options.interface.conditions == Conditions::Schwarz)
             return make_following_system(sub_mesh, options.laplacian, workspace_);
         if (options.interface.conditions == Conditions::Robin)
-            return make_system(sub_mesh, options.laplacian, make_robin(sub_mesh), workspace_);
+            return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh), workspace_);
         if (options.interface.conditions == Conditions::Ventcell)
             return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh, options.interface.q.value()),
                                workspace_);

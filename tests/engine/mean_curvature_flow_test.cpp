@@ -1,11 +1,11 @@
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <set>
 
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/measure/surface_curvature.h"
+#include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
@@ -39,16 +39,20 @@ TEST_CASE("the report tells what was done")
         CHECK(distance.max == state.report.distance->max);
     });
     CHECK(calls == 2);
-    CHECK(report.vertices == mesh.n_vertices());
-    CHECK(report.faces == mesh.n_faces());
-    CHECK(report.subdomains == 6);
-    CHECK(report.p.size() == 6);
-    CHECK(*std::min_element(report.p.begin(), report.p.end()) > 1.0);
-    CHECK(report.subdomain_faces.size() == 6);
-    CHECK(std::accumulate(report.subdomain_faces.begin(), report.subdomain_faces.end(), 0) == mesh.n_faces());
-    CHECK(report.labels.size() == at(mesh.n_faces()));
-    CHECK(*std::max_element(report.subdomain_colors.begin(), report.subdomain_colors.end()) + 1 == report.colors);
-    CHECK(report.interface_vertices > 50);
+    CHECK(report.mesh.vertices == mesh.n_vertices());
+    CHECK(report.mesh.faces == mesh.n_faces());
+    CHECK(report.cut.n_sub_meshes() == 6);
+    Index n_faces = 0;
+    std::set<Index> colors;
+    for (const SubMeshReport& sub_mesh : report.cut.sub_meshes) {
+        CHECK(sub_mesh.p > 1.0);
+        n_faces += sub_mesh.faces;
+        colors.insert(sub_mesh.color);
+    }
+    CHECK(n_faces == mesh.n_faces());
+    CHECK(report.cut.labels.size() == at(mesh.n_faces()));
+    CHECK(static_cast<Index>(colors.size()) == report.cut.n_colors());
+    CHECK(report.cut.interface_vertices > 50);
     CHECK(report.time_step == 0.001);
     REQUIRE(report.steps.size() == 2);
     const auto curvature_of = [&](const PolygonMesh& surface) {
@@ -77,7 +81,7 @@ TEST_CASE("one sub-mesh is the undecomposed flow to the bit")
         options.report.reference = true;
         PolygonMesh flowing = mesh;
         const FlowReport report = mean_curvature_flow(flowing, options);
-        CHECK(report.colors == 1);
+        CHECK(report.cut.n_colors() == 1);
         CHECK(report.steps.back().distance->max == 0.0);
     }
 }
@@ -114,7 +118,7 @@ TEST_CASE("zero steps leave the mesh as it is")
 TEST_CASE("meshes with nothing to move come out as they went in")
 {
     PolygonMesh nothing;
-    CHECK(mean_curvature_flow(nothing, two_step_options(4)).subdomains == 0);
+    CHECK(mean_curvature_flow(nothing, two_step_options(4)).cut.n_sub_meshes() == 0);
 
     PolygonMesh points;
     points.vertices = Points::Random(5, 3);
@@ -137,7 +141,7 @@ TEST_CASE("non-manifold meshes flow, with their non-manifold vertices fixed, and
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (topology.kind[v] == VertexKind::NonManifold)
                 CHECK(mesh.vertices.row(v) == before.row(v));
-        CHECK((report.non_manifold_vertices > 0) ==
+        CHECK((report.mesh.non_manifold_vertices > 0) ==
               (report.remarks.size() > 0 && report.remarks.back().find("manifold") != std::string::npos));
     }
 }
@@ -270,7 +274,7 @@ TEST_CASE("a converged step of a mesh at rest asks for no more than rounding lea
         options.accuracy.tolerance = 1e-8;
         options.time_step = 0.02;
         const FlowReport report = mean_curvature_flow(mesh, options);
-        CHECK(report.steps_short_of_tolerance == 0);
-        CHECK(report.steps_stagnated == 0);
+        CHECK(report.convergence.steps_short_of_tolerance == 0);
+        CHECK(report.convergence.steps_stagnated == 0);
     }
 }

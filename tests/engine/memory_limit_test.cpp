@@ -87,16 +87,17 @@ TEST_CASE("factors keep to the limit, and there are as many at once as it lets b
             PolygonMesh narrow = mesh;
             options.resources.memory_limit = least;
             const FlowReport at_least = mean_curvature_flow(narrow, options);
-            CHECK(at_least.live_factors < at_least.subdomains);
-            CHECK(at_least.factor_memory_bytes <= least);
+            CHECK(at_least.resources.live_factors < at_least.cut.n_sub_meshes());
+            CHECK(at_least.resources.factor_memory_bytes <= least);
             PolygonMesh wide = mesh;
             options.resources.memory_limit = 2 * least;
             const FlowReport twice = mean_curvature_flow(wide, options);
-            CHECK(twice.live_factors == std::min(2 * at_least.live_factors, twice.subdomains));
-            CHECK(twice.factor_memory_bytes <= 2 * least);
+            CHECK(twice.resources.live_factors ==
+                  std::min(2 * at_least.resources.live_factors, twice.cut.n_sub_meshes()));
+            CHECK(twice.resources.factor_memory_bytes <= 2 * least);
             PolygonMesh boundless = mesh;
             options.resources.memory_limit = std::numeric_limits<std::size_t>::max();
-            CHECK(mean_curvature_flow(boundless, options).live_factors == twice.subdomains);
+            CHECK(mean_curvature_flow(boundless, options).resources.live_factors == twice.cut.n_sub_meshes());
         }
 }
 
@@ -104,9 +105,9 @@ TEST_CASE("the report knows the memory that factors by Cholesky's method had")
 {
     PolygonMesh mesh = make_mixed_polygons(3000);
     const FlowReport report = mean_curvature_flow(mesh, limited_options(Conditions::AdaptedRobin));
-    CHECK(report.factor_memory_bytes > 0);
-    CHECK(report.live_factors >= 1);
-    CHECK(report.live_factors <= report.subdomains);
+    CHECK(report.resources.factor_memory_bytes > 0);
+    CHECK(report.resources.live_factors >= 1);
+    CHECK(report.resources.live_factors <= report.cut.n_sub_meshes());
 }
 
 TEST_CASE("a limit below what a step needs at once is refused with both numbers")
@@ -139,9 +140,9 @@ TEST_CASE("converged steps keep to the limit, and what they make twice changes n
         CAPTURE(name_of(laplacian));
         PolygonMesh boundless = mesh;
         const FlowReport expected = mean_curvature_flow(boundless, limited_converged(laplacian));
-        const std::size_t all = expected.factor_memory_bytes;
+        const std::size_t all = expected.resources.factor_memory_bytes;
         const std::size_t least = least_limit(mesh, limited_converged(laplacian));
-        CHECK(expected.live_factors == expected.subdomains);
+        CHECK(expected.resources.live_factors == expected.cut.n_sub_meshes());
         CHECK(2 * least < all);
         for (const int threads : {1, 4})
             for (const std::size_t limit : {least, 2 * least, (least + all) / 2, all - 1, all}) {
@@ -151,11 +152,11 @@ TEST_CASE("converged steps keep to the limit, and what they make twice changes n
                 PolygonMesh limited = mesh;
                 const FlowReport report = mean_curvature_flow(limited, options);
                 CHECK(same_bits(limited.vertices, boundless.vertices));
-                CHECK(report.factor_memory_bytes <= limit);
+                CHECK(report.resources.factor_memory_bytes <= limit);
                 // Nothing stays but what has to.
                 if (limit == least)
-                    CHECK(report.factor_memory_bytes == least);
-                CHECK((report.live_factors < report.subdomains) == (limit < all));
+                    CHECK(report.resources.factor_memory_bytes == least);
+                CHECK((report.resources.live_factors < report.cut.n_sub_meshes()) == (limit < all));
                 CHECK(report.steps.back().residual == expected.steps.back().residual);
             }
     }

@@ -32,7 +32,7 @@ TEST_CASE_TEMPLATE("the points of an OpenMesh mesh flow as those of the same pol
     int n_observed = 0;
     const FlowReport report = mean_curvature_flow(mesh, two_steps(), [&](const StepState&) { ++n_observed; });
     CHECK(n_observed == 2);
-    CHECK(report.subdomains == 4);
+    CHECK(report.cut.n_sub_meshes() == 4);
     const PolygonMesh after = to_polygon_mesh(mesh);
     CHECK(after.face_vertices == before.face_vertices);
     const Points expected = flowed(before, two_steps());

@@ -41,7 +41,7 @@ TEST_CASE("every number of threads from 1 to 8, and every repetition, gives the 
 TEST_CASE("the report says how many threads there were")
 {
     PolygonMesh mesh = make_quads(400);
-    CHECK(mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 3)).threads == 3);
+    CHECK(mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 3)).resources.threads == 3);
 }
 
 TEST_CASE("without a number of its own the flow keeps to the caller's arena")
@@ -50,7 +50,7 @@ TEST_CASE("without a number of its own the flow keeps to the caller's arena")
     oneapi::tbb::task_arena arena(1);
     const FlowReport report =
         arena.execute([&] { return mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, 0)); });
-    CHECK(report.threads == 1);
+    CHECK(report.resources.threads == 1);
 }
 
 TEST_CASE("the observer is called in the thread that called the flow")

@@ -6,7 +6,7 @@
 
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
-#include "samples/common/missed_tolerance.h"
+#include "samples/common/smooth_command.h"
 
 using namespace seamflow;
 
@@ -42,15 +42,15 @@ TEST_CASE(
     "steps fail that miss the tolerance asked for, unless they were to have few iterations and only these ran out")
 {
     FlowReport report;
-    report.steps_short_of_tolerance = 3;
-    report.steps_stagnated = 1;
+    report.convergence.steps_short_of_tolerance = 3;
+    report.convergence.steps_stagnated = 1;
     SmoothCommand command;
     CHECK(steps_failed(command, report) == 0);
     command.options.accuracy.tolerance = 1e-8;
     CHECK(steps_failed(command, report) == 3);
     command.limits_iterations = true;
     CHECK(steps_failed(command, report) == 1);
-    report.steps_stagnated = 0;
+    report.convergence.steps_stagnated = 0;
     CHECK(steps_failed(command, report) == 0);
     command.limits_iterations = false;
     CHECK(steps_failed(command, report) == 3);

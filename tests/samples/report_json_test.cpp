@@ -12,14 +12,14 @@ TEST_CASE("the numbers of a report read back to the same double")
 {
     FlowReport report;
     report.time_step = 0.1 + 0.2;
-    report.p = {1.0 / 3.0, 6.2993055940947205};
+    report.cut.sub_meshes = {{.p = 1.0 / 3.0}, {.p = 6.2993055940947205}};
     StepReport step;
     step.max_mean_curvature_after = 1e-300;
     step.distance = VertexDistance{0.1, 0.2, 0.3, 0.7};
     report.steps = {step, StepReport{}};
     const Json json = Json::parse(smooth_report_json(RunRecord{}, report));
     CHECK(json["time_step"].get<double>() == report.time_step);
-    CHECK(json["p"].get<std::vector<double>>() == report.p);
+    CHECK(json["p"].get<std::vector<double>>() == std::vector<double>{1.0 / 3.0, 6.2993055940947205});
     CHECK(json["steps"][0]["max_mean_curvature_after"].get<double>() == 1e-300);
     CHECK(json["steps"][0]["v_mean"].get<double>() == 0.1 / 0.7);
     CHECK(json["steps"][0]["v_max_absolute"].get<double>() == 0.3);
@@ -33,13 +33,13 @@ TEST_CASE("a report tells how many converged steps missed their tolerance, and w
     const Json of_sweeps = Json::parse(smooth_report_json(RunRecord{}, report));
     for (const char* key : {"tolerance", "steps_short_of_tolerance", "steps_stagnated"})
         CHECK_FALSE(of_sweeps.contains(key));
-    report.tolerance = 1e-9;
+    report.convergence.tolerance = 1e-9;
     const Json all_reached = Json::parse(smooth_report_json(RunRecord{}, report));
     CHECK(all_reached["tolerance"] == 1e-9);
     CHECK(all_reached["steps_short_of_tolerance"] == 0);
     CHECK(all_reached["steps_stagnated"] == 0);
-    report.steps_short_of_tolerance = 5;
-    report.steps_stagnated = 3;
+    report.convergence.steps_short_of_tolerance = 5;
+    report.convergence.steps_stagnated = 3;
     const Json missed = Json::parse(smooth_report_json(RunRecord{}, report));
     CHECK(missed["steps_short_of_tolerance"] == 5);
     CHECK(missed["steps_stagnated"] == 3);
@@ -49,7 +49,7 @@ TEST_CASE("a report is valid JSON whatever happened")
 {
     FlowReport report;
     report.time_step = std::numeric_limits<double>::quiet_NaN();
-    report.p = {std::numeric_limits<double>::infinity()};
+    report.cut.sub_meshes = {{.p = std::numeric_limits<double>::infinity()}};
     RunRecord run;
     run.input = "\xff.obj";
     report.remarks = {"a \"remark\"\n"};

@@ -18,7 +18,7 @@ namespace {
 FlowReport two_tasks()
 {
     FlowReport report;
-    report.subdomain_vertices = {70, 80};
+    report.cut.sub_meshes = {{.vertices = 70}, {.vertices = 80}};
     Schedule& schedule = report.schedule.emplace();
     schedule.tasks = {{TaskKind::AssembleAndFactorise, 0}, {TaskKind::Solve, 1}, {TaskKind::Solve, 0}};
     schedule.dependencies = {{0, 1}, {0, 2}};

@@ -74,7 +74,8 @@ void check_same(Case& c, const Outcome& outcome, const std::string& what)
 bool is_exact(const FlowReport& report, const FlowOptions& options)
 {
     // Rows of Δ_P depend on the faces across edges that join two boundary vertices, too.
-    return options.laplacian == Laplacian::PtackovaVelho ? report.subdomains <= 1 : report.interface_vertices == 0;
+    return options.laplacian == Laplacian::PtackovaVelho ? report.cut.n_sub_meshes() <= 1
+                                                         : report.cut.interface_vertices == 0;
 }
 
 /// Every step against the same one of the whole mesh, by elimination.
@@ -143,8 +144,8 @@ void check_result(Case& c)
     }
     const FlowReport& report = c.expected.report;
     c.expect(static_cast<int>(report.steps.size()) == options.steps, "the report has not all steps");
-    c.expect(static_cast<Index>(report.labels.size()) == c.mesh().n_faces(), "the report has not all labels");
-    c.expect(report.faces == c.mesh().n_faces() && report.vertices == c.mesh().n_vertices(),
+    c.expect(static_cast<Index>(report.cut.labels.size()) == c.mesh().n_faces(), "the report has not all labels");
+    c.expect(report.mesh.faces == c.mesh().n_faces() && report.mesh.vertices == c.mesh().n_vertices(),
              "the report is of another");
 }
 
@@ -174,7 +175,8 @@ void check_memory_limit(Case& c)
     options.resources.memory_limit = *least + (c.random.unit() < 0.5 ? 0 : 1 + at(c.random.below(100'000)));
     const Outcome limited = outcome_of(c.mesh(), options);
     check_same(c, limited, "memory limit " + std::to_string(*options.resources.memory_limit));
-    c.expect(limited.report.factor_memory_bytes <= *options.resources.memory_limit, "more memory than the limit");
+    c.expect(limited.report.resources.factor_memory_bytes <= *options.resources.memory_limit,
+             "more memory than the limit");
 }
 
 void check_resume(Case& c)
@@ -228,13 +230,13 @@ void check_undecomposed(Case& c)
         return;
     if (is_exact(c.expected.report, options))
         compare_with_undecomposed(c, c.expected, 0.0, "undecomposed");
-    if (!c.expected.report.tolerance)
+    if (!c.expected.report.convergence.tolerance)
         return;
     FlowOptions converged = options;
     converged.accuracy.tolerance = 1e-10;
     converged.accuracy.converge_iterations = 300;
     const Outcome outcome = outcome_of(c.mesh(), converged);
-    if (outcome.report.steps_short_of_tolerance == 0 && outcome.refusal.empty())
+    if (outcome.report.convergence.steps_short_of_tolerance == 0 && outcome.refusal.empty())
         compare_with_undecomposed(c, outcome, 1e-10, "converged");
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/options/flow_remarks.h"
+#include "engine/measure/surface_measures.h"
 #include "tests/support/outcome.h"
 #include "tests/support/random_flows.h"
 

@@ -26,10 +26,10 @@ bool has_unit(const FlowOptions& options)
 bool is_cut_alike(const Case& c)
 {
     const FlowReport& report = c.expected.report;
-    if (c.flow.options.scheme == Scheme::ExplicitEuler || report.subdomains <= 1)
+    if (c.flow.options.scheme == Scheme::ExplicitEuler || report.cut.n_sub_meshes() <= 1)
         return true;
     return !c.flow.options.cut.labels.empty() && c.flow.options.interface.coloring == Coloring::Label &&
-           report.repaired_faces == 0 && !report.tolerance;
+           report.cut.repaired_faces == 0 && !report.convergence.tolerance;
 }
 
 FlowOptions renumbered(FlowOptions options, const std::vector<Index>& new_vertex, const std::vector<Index>& old_face)

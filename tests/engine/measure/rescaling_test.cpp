@@ -4,7 +4,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/rescaling.h"
-#include "engine/options/flow_remarks.h"
+#include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"

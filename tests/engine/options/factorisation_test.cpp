@@ -110,7 +110,7 @@ TEST_CASE(
         options.steps = 1;
         options.accuracy.approach = Approach::Automatic;
         options.time_step = 20.0 * std::pow(mean_edge_length(mesh), 2);
-        CHECK(run(options).tolerance.has_value() == !is_foreign);
+        CHECK(run(options).convergence.tolerance.has_value() == !is_foreign);
         options.accuracy.tolerance = 1e-3;
         if (is_foreign)
             CHECK_THROWS_WITH_AS(run(options), doctest::Contains("Schur complements"), OptionError);

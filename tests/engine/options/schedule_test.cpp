@@ -55,10 +55,10 @@ TEST_CASE("every sub-mesh has each of its tasks once in each step")
             const ScheduledTask& task = flow.schedule().tasks[record.task];
             CHECK(ran.emplace(record.step, record.task).second);
             CHECK(done.emplace(record.step, task.kind, task.sub_mesh).second);
-            CHECK(task.sub_mesh < flow.report.subdomains);
+            CHECK(task.sub_mesh < flow.report.cut.n_sub_meshes());
             ++count[task.kind];
         }
-        const Index all = 4 * flow.report.subdomains;
+        const Index all = 4 * flow.report.cut.n_sub_meshes();
         CHECK(count[TaskKind::AssembleAndFactorise] == all);
         CHECK(count[TaskKind::Solve] == all);
         CHECK(count[TaskKind::Accept] == all);
@@ -122,7 +122,7 @@ TEST_CASE("solve waits for factorise, and accept for solve")
         if (first.sub_mesh == second.sub_mesh && first.kind == TaskKind::Solve && second.kind == TaskKind::Accept)
             waits.emplace(first.sub_mesh, 1);
     }
-    CHECK(waits.size() == 2 * at(flow.report.subdomains));
+    CHECK(waits.size() == 2 * at(flow.report.cut.n_sub_meshes()));
 }
 
 TEST_CASE("recording changes no position by a bit")

@@ -57,8 +57,8 @@ TEST_CASE("with a free boundary the converged flow in many sub-meshes is the und
             options.motion.boundary = Boundary::Free;
             PolygonMesh undecomposed = mesh;
             const FlowReport report = mean_curvature_flow(undecomposed, options);
-            CHECK_FALSE(report.tolerance);
-            CHECK(report.fixed_vertices == 0);
+            CHECK_FALSE(report.convergence.tolerance);
+            CHECK(report.mesh.fixed_vertices == 0);
             const Topology topology = make_topology(mesh);
             for (Index v = 0; v < mesh.n_vertices(); ++v)
                 CHECK_FALSE(same_bits(undecomposed.vertices, mesh.vertices, v));
@@ -68,7 +68,7 @@ TEST_CASE("with a free boundary the converged flow in many sub-meshes is the und
                 options.cut.subdomains = subdomains;
                 PolygonMesh moved = mesh;
                 const FlowReport cut = mean_curvature_flow(moved, options);
-                CHECK(cut.steps_short_of_tolerance == 0);
+                CHECK(cut.convergence.steps_short_of_tolerance == 0);
                 CHECK(largest_difference(moved.vertices, undecomposed.vertices) < 1e-9);
             }
         }
@@ -99,17 +99,17 @@ TEST_CASE("sub-meshes that share a free boundary are converged unless sweeps are
     options.motion.boundary = Boundary::Free;
     PolygonMesh open = make_triangles(900);
     const FlowReport report = mean_curvature_flow(open, options);
-    CHECK(report.tolerance.has_value());
+    CHECK(report.convergence.tolerance.has_value());
     CHECK(report.remarks.front().find("free boundary") != std::string::npos);
     options.accuracy.approach = Approach::Sweep;
     CHECK_THROWS_AS(mean_curvature_flow(open, options), OptionError);
     // Sub-meshes that share no boundary may sweep.
     PolygonMesh closed = make_noisy_sphere(900);
-    CHECK_FALSE(mean_curvature_flow(closed, options).tolerance);
+    CHECK_FALSE(mean_curvature_flow(closed, options).convergence.tolerance);
     PolygonMesh two = side_by_side({make_triangles(400), make_quads(400)});
     options.cut.labels.assign(two.n_faces(), 1);
     std::fill_n(options.cut.labels.begin(), make_triangles(400).n_faces(), 0);
-    CHECK_FALSE(mean_curvature_flow(two, options).tolerance);
+    CHECK_FALSE(mean_curvature_flow(two, options).convergence.tolerance);
     options.cut.labels.clear();
     options.laplacian = Laplacian::PtackovaVelho;
     CHECK_THROWS_AS(mean_curvature_flow(two, options), OptionError);
@@ -142,7 +142,7 @@ TEST_CASE("held vertices do not move by a bit, and the rest flows as if they wer
             options.motion.fixed_vertices = held;
             PolygonMesh undecomposed = mesh;
             const FlowReport report = mean_curvature_flow(undecomposed, options);
-            CHECK(report.fixed_vertices >= static_cast<Index>(held.size()));
+            CHECK(report.mesh.fixed_vertices >= static_cast<Index>(held.size()));
             Index n_moved = 0;
             for (Index v = 0; v < mesh.n_vertices(); ++v) {
                 const bool same = same_bits(undecomposed.vertices, mesh.vertices, v);
@@ -150,7 +150,7 @@ TEST_CASE("held vertices do not move by a bit, and the rest flows as if they wer
                 if (v % 7 == 0)
                     CHECK(same);
             }
-            CHECK(n_moved == mesh.n_vertices() - report.fixed_vertices);
+            CHECK(n_moved == mesh.n_vertices() - report.mesh.fixed_vertices);
             for (const Index subdomains : {2, 9}) {
                 options.cut.subdomains = subdomains;
                 const Points swept = flowed(mesh, options);

@@ -47,11 +47,11 @@ TEST_CASE("a surface whose faces are there twice flows like the single one, and 
                 CHECK(moved.face_offsets == both.face_offsets);
                 CHECK(moved.face_vertices == both.face_vertices);
                 CHECK(moved.vertices == flowed(single, repeated_faces_options(laplacian, subdomains)));
-                CHECK(report.faces == both.n_faces());
-                REQUIRE(report.labels.size() == at(both.n_faces()));
+                CHECK(report.mesh.faces == both.n_faces());
+                REQUIRE(report.cut.labels.size() == at(both.n_faces()));
                 for (Index f = 0; f < single.n_faces(); ++f)
-                    CHECK(report.labels[f] == report.labels[f + single.n_faces()]);
-                CHECK(report.non_manifold_vertices == 0);
+                    CHECK(report.cut.labels[f] == report.cut.labels[f + single.n_faces()]);
+                CHECK(report.mesh.non_manifold_vertices == 0);
             }
 }
 
@@ -65,8 +65,8 @@ TEST_CASE("labels of one's own, failures and what the report says")
         options.cut.labels[f] = f % single.n_faces() < single.n_faces() / 2 ? 0 : 1;
     PolygonMesh moved = both;
     const FlowReport report = mean_curvature_flow(moved, options);
-    CHECK(report.subdomains == 2);
-    CHECK(report.labels == options.cut.labels);
+    CHECK(report.cut.n_sub_meshes() == 2);
+    CHECK(report.cut.labels == options.cut.labels);
     CHECK(report.remarks.back().find("took no part") != std::string::npos);
 
     options.cut.labels.pop_back();

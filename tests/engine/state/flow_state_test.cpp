@@ -85,7 +85,8 @@ TEST_CASE("a flow that goes on after any step ends with the same bits and the sa
                 check_same(resumed.report.displacement.path.tangential, whole.report.displacement.path.tangential);
                 check_same(resumed.report.displacement.drift, whole.report.displacement.drift);
                 CHECK(resumed.report.remarks == whole.report.remarks);
-                CHECK(resumed.report.steps_short_of_tolerance == whole.report.steps_short_of_tolerance);
+                CHECK(resumed.report.convergence.steps_short_of_tolerance ==
+                      whole.report.convergence.steps_short_of_tolerance);
                 CHECK(resumed.report.seconds.step >= state->seconds.step);
                 CHECK(resumed.report.seconds.factorise >= state->seconds.factorise);
                 REQUIRE(resumed.report.separated.has_value() == options.report.keep_gaps);

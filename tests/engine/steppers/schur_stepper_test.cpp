@@ -132,12 +132,12 @@ TEST_CASE("the tighter the tolerance the nearer, and iterations that run out are
     CHECK(report.steps.back().residual > 1e-9);
     REQUIRE_FALSE(report.remarks.empty());
     CHECK(report.remarks.back().find("not reached in 3 steps") != std::string::npos);
-    CHECK(report.steps_short_of_tolerance == 3);
-    CHECK(report.steps_stagnated == 0);
+    CHECK(report.convergence.steps_short_of_tolerance == 3);
+    CHECK(report.convergence.steps_stagnated == 0);
     few.accuracy.converge_iterations = 1000;
     few.accuracy.tolerance = 1e-100;
     const FlowReport stagnant = mean_curvature_flow(moved, few);
-    CHECK(stagnant.steps_stagnated == 3);
+    CHECK(stagnant.convergence.steps_stagnated == 3);
     CHECK(stagnant.steps.back().iterations < 500);
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("the unit of length changes no bit of the result")
                 scaled.vertices *= unit;
                 options.time_step = time_step * unit * unit;
                 const FlowReport report = mean_curvature_flow(scaled, options);
-                CHECK(report.steps_short_of_tolerance == 0);
+                CHECK(report.convergence.steps_short_of_tolerance == 0);
                 CHECK(scaled.vertices == unit * expected);
             }
         }

@@ -84,8 +84,8 @@ TEST_CASE("iterations that run out are said")
         CHECK(step.iterations == 2);
         CHECK(step.residual > 1e-11);
     }
-    CHECK(report.steps_short_of_tolerance == 2);
-    CHECK(report.steps_stagnated == 0);
+    CHECK(report.convergence.steps_short_of_tolerance == 2);
+    CHECK(report.convergence.steps_stagnated == 0);
     REQUIRE_FALSE(report.remarks.empty());
     CHECK(report.remarks.back() == "The tolerance was not reached in 2 steps with 2 iterations at most: use fewer "
                                    "sub-meshes or a smaller time step.");
@@ -104,8 +104,8 @@ TEST_CASE("steps that iterations no longer bring closer to the tolerance are sai
     CHECK(mesh.vertices.allFinite());
     CHECK(report.steps.front().residual > 1e-14);
     CHECK(report.steps.front().iterations < 5000);
-    CHECK(report.steps_short_of_tolerance == 1);
-    CHECK(report.steps_stagnated == 1);
+    CHECK(report.convergence.steps_short_of_tolerance == 1);
+    CHECK(report.convergence.steps_stagnated == 1);
     REQUIRE_FALSE(report.remarks.empty());
     const auto speaks_of_it = [](const std::string& remark) {
         return remark.find("in 1 of them more would not have helped") != std::string::npos;

@@ -11,16 +11,16 @@ using namespace seamflow;
 
 namespace {
 
-using Edge = std::pair<Index, Index>;
+using DrawnEdge = std::pair<Index, Index>;
 
-Edge edge(std::uint32_t a, std::uint32_t b)
+DrawnEdge edge(std::uint32_t a, std::uint32_t b)
 {
     return {static_cast<Index>(std::min(a, b)), static_cast<Index>(std::max(a, b))};
 }
 
-std::multiset<Edge> drawn_edges(const PageTriangles& triangles)
+std::multiset<DrawnEdge> drawn_edges(const PageTriangles& triangles)
 {
-    std::multiset<Edge> edges;
+    std::multiset<DrawnEdge> edges;
     for (std::size_t t = 0; t < triangles.edges.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             if ((triangles.edges[t] >> k & 1U) != 0)
@@ -28,9 +28,9 @@ std::multiset<Edge> drawn_edges(const PageTriangles& triangles)
     return edges;
 }
 
-std::set<Edge> edges_of(const PolygonMesh& mesh)
+std::set<DrawnEdge> edges_of(const PolygonMesh& mesh)
 {
-    std::set<Edge> edges;
+    std::set<DrawnEdge> edges;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         const auto face = mesh.face(f);
         for (std::size_t k = 0; k < face.size(); ++k)
@@ -69,9 +69,9 @@ TEST_CASE("the edges of the mesh are drawn, all of them and nothing else")
         CAPTURE(named.name);
         const PolygonMesh& mesh = named.mesh;
         const Topology& topology = named.topology;
-        const std::multiset<Edge> drawn = drawn_edges(page_triangles(mesh, topology));
-        const std::set<Edge> expected = edges_of(mesh);
-        CHECK(std::set<Edge>(drawn.begin(), drawn.end()) == expected);
+        const std::multiset<DrawnEdge> drawn = drawn_edges(page_triangles(mesh, topology));
+        const std::set<DrawnEdge> expected = edges_of(mesh);
+        CHECK(std::set<DrawnEdge>(drawn.begin(), drawn.end()) == expected);
         if (std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold) == 0)
             CHECK(drawn.size() == expected.size());
     }

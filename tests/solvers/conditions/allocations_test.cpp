@@ -1,9 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "solvers/conditions/adapted_robin.h"
-#include "solvers/conditions/adapted_ventcell.h"
 #include "solvers/conditions/predicted_side.h"
-#include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "tests/support/allocations.h"
 #include "tests/support/cut_meshes.h"
@@ -37,9 +34,9 @@ TEST_CASE("from the second step on no condition allocates memory")
             const Points positions = localised(sub_mesh, cut.mesh.vertices);
             const long before = n_allocations();
             std::vector<std::unique_ptr<TransmissionCondition>> conditions;
-            conditions.push_back(make_adapted_robin(sub_mesh));
+            conditions.push_back(make_adapted_ventcell(sub_mesh));
             conditions.push_back(make_adapted_ventcell(sub_mesh, 0.4));
-            conditions.push_back(make_robin(sub_mesh));
+            conditions.push_back(make_ventcell(sub_mesh));
             conditions.push_back(make_ventcell(sub_mesh, 0.4));
             for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho})
                 conditions.push_back(make_predicted_side(sub_mesh, laplacian));

@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/derivatives.h"
-#include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
@@ -28,6 +28,34 @@ Points other_copy(const Points& positions)
 
 }  // namespace
 
+TEST_CASE("the adapted Ventcell row is the Robin row and dt q ∂t")
+{
+    const double time_step = 0.02;
+    const double p = 5.0;
+    for (const double q : {0.0, 0.5})
+        for (const CutMesh& cut : cut_meshes()) {
+            CAPTURE(cut.name);
+            const Decomposition decomposition = test::decompose(cut);
+            for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
+                const Points positions = localised(sub_mesh, cut.mesh.vertices);
+                AdaptedRobin robin(sub_mesh);
+                const auto ventcell = make_adapted_ventcell(sub_mesh, q);
+                robin.begin_step(positions, positions, time_step, p);
+                ventcell->begin_step(positions, positions, time_step, p);
+                for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
+                    std::vector<double> robin_row;
+                    std::vector<double> row;
+                    CHECK(row_of(*ventcell, i, positions, row) == row_of(robin, i, positions, robin_row));
+                    std::vector<double> tangential(row.size());
+                    add_tangential_derivative(robin.stencils(), i, tangential_weights(sub_mesh, i, positions), 1.0,
+                                              tangential);
+                    for (std::size_t k = 0; k < row.size(); ++k)
+                        CHECK(row[k] == doctest::Approx(robin_row[k] + time_step * q * tangential[k]).epsilon(1e-14));
+                }
+            }
+        }
+}
+
 TEST_CASE("the classical right-hand side is the row of the other side, made of the other side's copy alone")
 {
     for (const double q : {0.0, 0.5})
@@ -38,7 +66,7 @@ TEST_CASE("the classical right-hand side is the row of the other side, made of t
                 const Points positions = localised(sub_mesh, cut.mesh.vertices);
                 const Points other = other_copy(positions);
                 const Points later = other_copy(other);
-                const auto condition = q == 0.0 ? make_robin(sub_mesh) : make_ventcell(sub_mesh, q);
+                const auto condition = make_ventcell(sub_mesh, q);
                 condition->begin_step(positions, other, ventcell_time_step, ventcell_p);
                 for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
                     const auto conormal = complement_conormal(sub_mesh, i, other);
@@ -64,7 +92,7 @@ TEST_CASE("the classical left-hand side is I + dt (p ∂n + q ∂t) of the sub-m
         const Decomposition decomposition = test::decompose(cut);
         for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
             const Points positions = localised(sub_mesh, cut.mesh.vertices);
-            const auto robin = make_robin(sub_mesh);
+            const auto robin = make_ventcell(sub_mesh);
             const auto ventcell = make_ventcell(sub_mesh, q);
             robin->begin_step(positions, other_copy(positions), ventcell_time_step, ventcell_p);
             ventcell->begin_step(positions, other_copy(positions), ventcell_time_step, ventcell_p);
@@ -94,7 +122,7 @@ TEST_CASE("without a conormal the other side's copy is taken over")
         cut_by_place("", quad_grid(8, 6), [](const Point& c) { return c.x() > 4.0 ? Index{1} : Index{0}; });
     const Decomposition decomposition = test::decompose(cut);
     const SubMesh& sub_mesh = decomposition.sub_meshes.front();
-    const auto robin = make_robin(sub_mesh);
+    const auto robin = make_ventcell(sub_mesh);
     Points positions = localised(sub_mesh, cut.mesh.vertices);
     const Points other = other_copy(positions);
     positions.topRows(sub_mesh.n_vertices).col(0).setConstant(4.0);

@@ -5,12 +5,9 @@
 
 #include "partition/errors.h"
 #include "samples/common/meshes/random_numbers.h"
-#include "solvers/conditions/adapted_robin.h"
-#include "solvers/conditions/adapted_ventcell.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
 #include "solvers/conditions/remainder.h"
-#include "solvers/conditions/robin.h"
 #include "solvers/conditions/ventcell.h"
 #include "solvers/systems/general_system.h"
 #include "solvers/systems/sub_mesh_system.h"
@@ -67,9 +64,9 @@ struct NamedCondition {
 
 /// All that may stand on Γ.
 const NamedCondition conditions[] = {
-    {"adapted Robin", [](const SubMesh& sub_mesh, Laplacian) { return make_adapted_robin(sub_mesh); }},
+    {"adapted Robin", [](const SubMesh& sub_mesh, Laplacian) { return make_adapted_ventcell(sub_mesh); }},
     {"adapted Ventcell", [](const SubMesh& sub_mesh, Laplacian) { return make_adapted_ventcell(sub_mesh, 0.4); }},
-    {"Robin", [](const SubMesh& sub_mesh, Laplacian) { return make_robin(sub_mesh); }},
+    {"Robin", [](const SubMesh& sub_mesh, Laplacian) { return make_ventcell(sub_mesh); }},
     {"Ventcell", [](const SubMesh& sub_mesh, Laplacian) { return make_ventcell(sub_mesh, 0.4); }},
     {"predicted side",
      [](const SubMesh& sub_mesh, Laplacian laplacian) { return make_predicted_side(sub_mesh, laplacian); }},
@@ -127,7 +124,7 @@ TEST_CASE("the system of the only sub-mesh is backward Euler on the whole mesh")
             const Decomposition whole =
                 seamflow::decompose(m.mesh, m.topology, std::vector<Index>(m.mesh.n_faces(), 0), 1);
             const auto system = make_system(whole.sub_meshes.front(), laplacian,
-                                            make_adapted_robin(whole.sub_meshes.front()), workspace);
+                                            make_adapted_ventcell(whole.sub_meshes.front()), workspace);
             system->assemble(m.mesh.vertices, m.mesh.vertices, system_time_step, system_p, {}, workspace);
             system->factorise(workspace);
             Points solution = Points::Zero(m.mesh.n_vertices(), 3);
@@ -180,7 +177,7 @@ TEST_CASE("equations that are not finite are refused, and the system goes on wit
     SolverWorkspace workspace;
     workspace.factors = &memory;
     const auto system = make_system(whole.sub_meshes.front(), Laplacian::Fujiwara,
-                                    make_adapted_robin(whole.sub_meshes.front()), workspace);
+                                    make_adapted_ventcell(whole.sub_meshes.front()), workspace);
     Points positions = mesh.vertices;
     positions.row(16) = positions.row(17);
     system->assemble(positions, positions, system_time_step, system_p, {}, workspace);

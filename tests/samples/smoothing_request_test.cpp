@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/setup/smoothing_amount.h"
 #include "samples/common/meshes.h"
+#include "samples/common/smoothing_request.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;

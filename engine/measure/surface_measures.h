@@ -1,8 +1,13 @@
 #pragma once
 
-#include "partition/polygon_mesh.h"
-#include "partition/vector_area.h"
+#include <vector>
 
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "partition/vector_area.h"
+#include "solvers/laplacian/laplacian.h"
+
+/// What is measured of a surface: its size and its mean curvature.
 namespace seamflow {
 
 /// The sizes by which sub-meshes and time steps are measured.
@@ -29,5 +34,20 @@ double total_area(const PolygonMesh& mesh);
 
 /// @pre the mesh is valid (see require_valid).
 MeshSize size_of(const PolygonMesh& mesh);
+
+/// The diagonal of the bounding box, in units of length; 0 for no positions.
+double extent_of(const Points& positions);
+
+/// ‖ΔV‖ at every interior vertex that may move, 0 at the others, in 1/length; #V. On a free boundary ΔV is not the mean
+/// curvature. Runs in parallel.
+std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                      Laplacian laplacian);
+
+/// The largest finite one of them.
+double largest_curvature(const std::vector<double>& curvature);
+
+/// The same without a list of them.
+double measure_largest_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                                 Laplacian laplacian);
 
 }  // namespace seamflow

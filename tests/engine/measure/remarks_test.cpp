@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/options/flow_remarks.h"
+#include "engine/measure/remarks.h"
 #include "samples/common/meshes.h"
 
 using namespace seamflow;
@@ -60,27 +60,19 @@ TEST_CASE("an estimate is remarked on from one mean edge length on")
     CHECK(speaks_of(report, "up to 2.5 mean edge lengths"));
 }
 
-TEST_CASE("the extent is the diagonal of the box")
-{
-    CHECK(extent_of(Points(0, 3)) == 0.0);
-    Points positions(3, 3);
-    positions << 1, 1, 1, 4, 5, 1, 2, 2, 1;
-    CHECK(extent_of(positions) == 5.0);
-}
-
 TEST_CASE("a tolerance that was missed is remarked on, with what helps and what does not")
 {
     FlowReport report;
     remark_on_missed_tolerance(1000, "do something", report);
     CHECK(report.remarks.empty());
-    report.steps_short_of_tolerance = 1;
+    report.convergence.steps_short_of_tolerance = 1;
     remark_on_missed_tolerance(1000, "do something", report);
     CHECK(report.remarks.back() ==
           "The tolerance was not reached in 1 step with 1000 iterations at most: do something.");
-    report.steps_short_of_tolerance = 3;
+    report.convergence.steps_short_of_tolerance = 3;
     remark_on_missed_tolerance(5, "", report);
     CHECK(report.remarks.back() == "The tolerance was not reached in 3 steps with 5 iterations at most.");
-    report.steps_stagnated = 2;
+    report.convergence.steps_stagnated = 2;
     remark_on_missed_tolerance(1000, "do something", report);
     CHECK(report.remarks.back() ==
           "The tolerance was not reached in 3 steps with 1000 iterations at most; in 2 of them "

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/tasks/single_threaded_libraries.h"
+#include "engine/tasks/library_threads.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 

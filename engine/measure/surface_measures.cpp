@@ -1,9 +1,11 @@
-#include "engine/measure/surface_curvature.h"
+#include "engine/measure/surface_measures.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/tasks/parallel_loop.h"
+#include "partition/metrics/vertex_distance.h"
+#include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/mean_curvature.h"
 
 namespace seamflow {
@@ -19,6 +21,35 @@ double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Poi
 }
 
 }  // namespace
+
+BoundingBox box_of_faces(const PolygonMesh& mesh)
+{
+    if (mesh.face_vertices.empty())
+        return {};
+    const Point first = mesh.vertices.row(mesh.face_vertices.front());
+    BoundingBox box{first, first};
+    for (const Index v : mesh.face_vertices) {
+        const Point position = mesh.vertices.row(v);
+        box.low = box.low.cwiseMin(position);
+        box.high = box.high.cwiseMax(position);
+    }
+    return box;
+}
+
+double total_area(const PolygonMesh& mesh)
+{
+    return sum(run_in_parallel, mesh.n_faces(), [&](Index f) { return area(mesh.face(f), mesh.vertices); });
+}
+
+MeshSize size_of(const PolygonMesh& mesh)
+{
+    return {mesh.n_vertices(), total_area(mesh), mean_edge_length(mesh, mesh.vertices, run_in_parallel)};
+}
+
+double extent_of(const Points& positions)
+{
+    return positions.rows() == 0 ? 0.0 : (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+}
 
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                       Laplacian laplacian)

@@ -11,13 +11,13 @@ void take_blas_work_areas();
 /// address space is limited (ulimit -v) and full it asks for one again and again, for ever. So where there is a limit,
 /// callers wait until there is plenty of room for one more, or none is left; the first one goes on only if its area
 /// fits. Without a limit nobody waits.
-class BlasTurn {
+class BlasWorkArea {
   public:
     /// @throws ComputationError if there is no room.
-    BlasTurn();
-    ~BlasTurn();
-    BlasTurn(const BlasTurn&) = delete;
-    BlasTurn& operator=(const BlasTurn&) = delete;
+    BlasWorkArea();
+    ~BlasWorkArea();
+    BlasWorkArea(const BlasWorkArea&) = delete;
+    BlasWorkArea& operator=(const BlasWorkArea&) = delete;
 
   private:
     bool is_counted_ = false;

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "engine/measure/mesh_size.h"
+#include "engine/measure/surface_measures.h"
 #include "samples/common/meshes.h"
 
 using namespace seamflow;
@@ -39,4 +39,12 @@ TEST_CASE("the box around a surface is that of the vertices that have faces")
     CHECK(box.low == Eigen::RowVector3d(before.colwise().minCoeff()));
     CHECK(box.high == Eigen::RowVector3d(before.colwise().maxCoeff()));
     CHECK(box_of_faces(PolygonMesh{}).high == box_of_faces(PolygonMesh{}).low);
+}
+
+TEST_CASE("the extent is the diagonal of the box")
+{
+    CHECK(extent_of(Points(0, 3)) == 0.0);
+    Points positions(3, 3);
+    positions << 1, 1, 1, 4, 5, 1, 2, 2, 1;
+    CHECK(extent_of(positions) == 5.0);
 }

@@ -1,4 +1,4 @@
-#include "engine/tasks/single_threaded_libraries.h"
+#include "engine/tasks/library_threads.h"
 
 #include <mutex>
 #include <optional>

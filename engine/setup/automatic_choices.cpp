@@ -1,11 +1,34 @@
-#include "engine/setup/choose_tolerance.h"
+#include "engine/setup/automatic_choices.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "engine/setup/choose_subdomains.h"
+#include <fmt/format.h>
+
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
+
+SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs)
+{
+    const double width = needs.width * std::sqrt(time_step);
+    const double most_by_width = std::floor(size.area / (width * width));
+    const double most_by_cost = std::floor(size.vertices / static_cast<double>(needs.vertices));
+    SubdomainChoice choice;
+    choice.count = static_cast<Index>(std::max(1.0, std::min(most_by_width, most_by_cost)));
+    choice.reason = fmt::format("{} {} chosen: ", choice.count, choice.count == 1 ? "sub-mesh" : "sub-meshes");
+    if (most_by_width < most_by_cost)
+        choice.reason += fmt::format("more would be narrower than {:.0f} √dt", needs.width);
+    else
+        choice.reason +=
+            fmt::format("blocks of about {} vertices are cheap, and wide enough against √dt", needs.vertices);
+    return choice;
+}
+
+double width_in_diffusion_lengths(double area, Index k, double time_step)
+{
+    return std::sqrt(area / k / time_step);
+}
 
 namespace {
 

@@ -9,9 +9,6 @@
 
 namespace seamflow {
 
-/// The diagonal of the bounding box, in units of length; 0 for no positions.
-double extent_of(const Points& positions);
-
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);
 

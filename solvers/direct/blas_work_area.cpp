@@ -1,4 +1,4 @@
-#include "solvers/direct/blas_turn.h"
+#include "solvers/direct/blas_work_area.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -87,7 +87,7 @@ void take_blas_work_areas()
     gemm("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
 }
 
-BlasTurn::BlasTurn()
+BlasWorkArea::BlasWorkArea()
 {
     const auto limit = limit_of_address_space();
     if (!limit)
@@ -102,7 +102,7 @@ BlasTurn::BlasTurn()
     is_counted_ = true;
 }
 
-BlasTurn::~BlasTurn()
+BlasWorkArea::~BlasWorkArea()
 {
     if (!is_counted_)
         return;

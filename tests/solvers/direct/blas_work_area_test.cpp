@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "solvers/direct/blas_turn.h"
+#include "solvers/direct/blas_work_area.h"
 
 using namespace seamflow;
 
@@ -66,7 +66,7 @@ TEST_CASE("who has a turn finds the work area of BLAS there, however full the ad
 {
     alarm(20);
     const AddressSpaceLimit limit(std::size_t{2} << 30);
-    const BlasTurn turn;
+    const BlasWorkArea turn;
     const AddressSpaceLimit hardly_any(std::size_t{16} << 20);
     solve_by_blas();
     alarm(0);

@@ -1,0 +1,71 @@
+#include "engine/measure/remarks.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/measure/surface_measures.h"
+
+namespace seamflow {
+
+void remark_on_drift(const FlowOptions& options, FlowReport& report)
+{
+    if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)
+        return;
+    report.remarks.push_back(
+        fmt::format("The result is, by estimate, up to {:.2g} mean edge lengths away from the undecomposed flow: {}",
+                    *report.steps.back().estimated_v_max,
+                    options.accuracy.tolerance ? "a smaller tolerance brings it closer."
+                                               : "fewer sub-meshes bring it closer; --converge "
+                                                 "(AccuracyOptions::tolerance) gives the undecomposed step itself."));
+}
+
+void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report)
+{
+    const auto first = std::ranges::find_if(n_nearly_singular, [](Index n) { return n > 0; });
+    if (first == n_nearly_singular.end())
+        return;
+    const Index total = std::accumulate(first, n_nearly_singular.end(), Index{0});
+    report.remarks.push_back(fmt::format("The equations of sub-meshes were nearly singular {} {}, first among them "
+                                         "sub-mesh {}: the result may be wrong there; use a smaller time step, or "
+                                         "another Laplacian.",
+                                         total, total == 1 ? "time" : "times", first - n_nearly_singular.begin()));
+}
+
+void remark_on_factorisation(Factorisation asked, std::span<const Factorisation> used, FlowReport& report)
+{
+    const auto n = std::ranges::count_if(used, [&](Factorisation kind) { return kind != asked; });
+    if (asked == Factorisation::Automatic || n == 0)
+        return;
+    report.remarks.push_back(fmt::format("{} of {} sub-meshes were factorised by UMFPACK, {}.", n, used.size(),
+                                         asked == Factorisation::Cholmod
+                                             ? "not by CHOLMOD, because their equations are not symmetric"
+                                             : "because pivots from the diagonal were too small"));
+}
+
+void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report)
+{
+    const auto& [tolerance, n_short, n_stagnated] = report.convergence;
+    if (n_short == 0)
+        return;
+    std::string remark = fmt::format("The tolerance was not reached in {} {} with {} iterations at most", n_short,
+                                     n_short == 1 ? "step" : "steps", iterations);
+    if (n_stagnated > 0)
+        remark += fmt::format("; in {} of them more would not have helped", n_stagnated);
+    report.remarks.push_back(remark + (remedy.empty() ? "" : ": " + remedy) + ".");
+}
+
+void remark_on_collapse(double extent_before, const Points& after, FlowReport& report)
+{
+    constexpr double next_to_nothing = 1e-3;
+    const double extent = extent_of(after);
+    if (extent >= next_to_nothing * extent_before)
+        return;
+    report.remarks.push_back(fmt::format("The surface has shrunk to {:.1g} of its extent: smaller or fewer steps leave "
+                                         "more of it.",
+                                         extent / extent_before));
+}
+
+}  // namespace seamflow
