@@ -11,8 +11,7 @@
 
 namespace seamflow {
 
-/// A mesh cut into sub-meshes, and everything that has to pass between them between two steps. `adjacency` and `halo`
-/// may be emptied when they are no longer used.
+/// A mesh cut into sub-meshes, and everything that has to pass between them between two steps.
 struct Decomposition {
     std::vector<SubMesh> sub_meshes;
     /// For each sub-mesh, those with which it shares a vertex of Γ, in ascending order.
