@@ -16,10 +16,4 @@ SolverWorkspace& Workspaces::local()
     return workspaces_.at(static_cast<std::size_t>(arena::current_thread_index()));
 }
 
-void Workspaces::use(FactorMemory& memory)
-{
-    for (SolverWorkspace& workspace : workspaces_)
-        workspace.factors = &memory;
-}
-
 }  // namespace seamflow

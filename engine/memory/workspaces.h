@@ -16,9 +16,6 @@ class Workspaces {
 
     [[nodiscard]] Index size() const { return static_cast<Index>(workspaces_.size()); }
 
-    /// Factors get their memory from there; it must outlive them.
-    void use(FactorMemory& memory);
-
   private:
     std::vector<SolverWorkspace> workspaces_;
 };

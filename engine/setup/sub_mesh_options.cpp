@@ -1,6 +1,7 @@
 #include "engine/setup/sub_mesh_options.h"
 
 #include <cmath>
+#include <utility>
 
 #include "engine/tasks/parallel_loop.h"
 #include "partition/decomposition/overlap.h"
@@ -16,12 +17,12 @@ bool predicts(const FlowOptions& options)
            options.interface.p_rule == PRule::Paper && options.interface.p_edge == PEdge::Automatic;
 }
 
-std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const FlowOptions& options,
-                                              SolverWorkspace& workspace)
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
+                                              const FlowOptions& options, SolverWorkspace& workspace)
 {
+    SystemParts parts{sub_mesh, std::move(twin), options.laplacian, options.resources.factorisation};
     const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
-        return make_system(sub_mesh, options.laplacian, std::move(condition), workspace,
-                           options.resources.factorisation);
+        return make_system(std::move(parts), std::move(condition), workspace);
     };
     switch (options.interface.conditions) {
     case Conditions::AdaptedRobin:
@@ -33,11 +34,9 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const Flo
     case Conditions::Ventcell:
         return with(make_ventcell(sub_mesh, options.interface.q.value()));
     case Conditions::Schwarz:
-        return make_following_system(sub_mesh, options.laplacian, workspace, options.resources.factorisation);
+        return make_following_system(std::move(parts), workspace);
     }
-    return predicts(options)
-               ? make_predicted_system(sub_mesh, options.laplacian, workspace, options.resources.factorisation)
-               : with(make_adapted_ventcell(sub_mesh));
+    return predicts(options) ? make_predicted_system(std::move(parts), workspace) : with(make_adapted_ventcell(sub_mesh));
 }
 
 namespace {

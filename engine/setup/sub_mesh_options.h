@@ -15,9 +15,11 @@ namespace seamflow {
 bool predicts(const FlowOptions& options);
 
 /// The equations of a sub-mesh.
+/// @param sub_mesh must outlive them.
+/// @param twin of the sub-mesh, for those equations to keep that need it.
 /// @throws ComputationError if their analysis fails.
-std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, const FlowOptions& options,
-                                              SolverWorkspace& workspace);
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
+                                              const FlowOptions& options, SolverWorkspace& workspace);
 
 /// The Robin parameter of a sub-mesh, in 1/length; 0 where there is none.
 /// @param positions #local by 3.

@@ -1,13 +1,20 @@
 #pragma once
 
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/options/flow_options.h"
 #include "engine/options/flow_report.h"
 #include "engine/state/flow_state.h"
-#include "partition/polygon_mesh.h"
+#include "engine/tasks/progress.h"
+#include "partition/cut/cut.h"
+#include "partition/topology.h"
 
 namespace seamflow {
 
 /// Takes the steps of a flow, one after the other: each from Vᵏ to Vᵏ⁺¹. How it does so is its own affair (see
-/// make_stepper for the ways there are). Belongs to the arena in which it is constructed.
+/// make_stepper below for the ways there are). Belongs to the arena in which it is constructed.
 class Stepper {
   public:
     Stepper() = default;
@@ -43,5 +50,33 @@ class Stepper {
     /// Fills in what is known of all steps: sub-meshes, colours, seconds spent in tasks, the schedule, remarks.
     virtual void describe(FlowReport& report) const = 0;
 };
+
+/// The way of taking steps that the options ask for: explicit Euler steps, converged backward Euler steps by the Schur
+/// complement or, of Laplacians without symmetry, by GMRES, or sweeps.
+/// @param mesh, topology, progress must outlive the stepper.
+/// @param options with the tolerance that was chosen, if any.
+/// @param curvature #V: ‖ΔV⁰‖.
+/// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+///         Cancelled.
+std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                      const FlowOptions& options, const std::vector<double>& curvature,
+                                      Progress& progress);
+
+/// Backward Euler steps of the whole mesh as one, whatever the options say of sub-meshes and memory.
+std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
+                                                   const FlowOptions& options, const std::vector<double>& curvature,
+                                                   Progress& progress);
+
+/// Adds the seconds of tasks to `sum`.
+void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum);
+
+/// Adds one sub-mesh to the report.
+/// @param sub_mesh a SubMesh, or what else has `faces` and `n_vertices`.
+/// @param p Robin parameter, in 1/length.
+template <class Part>
+void describe_sub_mesh(const Part& sub_mesh, Index color, double p, FlowReport& report)
+{
+    report.cut.sub_meshes.push_back({static_cast<Index>(sub_mesh.faces.size()), sub_mesh.n_vertices, color, p});
+}
 
 }  // namespace seamflow

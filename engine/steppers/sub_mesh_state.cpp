@@ -46,12 +46,22 @@ void receive_other_side(const std::vector<SubMeshState>& states, const std::vect
 }
 
 void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span<const InterfaceRole> roles,
-                        double time_step, SolverWorkspace& workspace, Stopwatch& watch)
+                        double time_step, const Resources& resources, Stopwatch& watch)
 {
-    state.system->assemble(state.position, other_side, time_step, state.p, roles, workspace);
+    const auto equations =
+        state.system->assemble(state.position, other_side, time_step, state.p, roles, resources.workspace);
     state.seconds.assemble += watch.lap();
-    state.system->factorise(workspace);
+    // After a step that has failed there is one.
+    state.factor.reset();
+    state.factor = state.system->factorise(equations, resources.memory, resources.workspace);
     state.seconds.factorise += watch.lap();
+}
+
+/// Solves for Vᵏ⁺¹, what is known of it being in `solved`.
+void solve_and_free(SubMeshState& state, SolverWorkspace& workspace)
+{
+    state.system->solve(*state.factor, state.position, state.solved, workspace);
+    state.factor.reset();
 }
 
 }  // namespace
@@ -68,30 +78,31 @@ SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> e
 }
 
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            std::span<const InterfaceRole> roles, double time_step, SolverWorkspace& workspace)
+                            std::span<const InterfaceRole> roles, double time_step, const Resources& resources)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
-    fill_and_factorise(state, state.position, roles, time_step, workspace, watch);
+    fill_and_factorise(state, state.position, roles, time_step, resources, watch);
 }
 
 void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                                   const SweepPlan& plan, double time_step, SolverWorkspace& workspace)
+                                   const SweepPlan& plan, double time_step, const Resources& resources)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
     receive(states, halo, &SubMeshState::position, state.position);
+    Points& other_side = resources.workspace.other_side;
     receive_other_side(
-        states, halo, plan.copies[s], [](Index) { return &SubMeshState::position; }, state, workspace.other_side);
-    fill_and_factorise(state, workspace.other_side, plan.roles[s], time_step, workspace, watch);
+        states, halo, plan.copies[s], [](Index) { return &SubMeshState::position; }, state, other_side);
+    fill_and_factorise(state, other_side, plan.roles[s], time_step, resources, watch);
 }
 
 void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
-    state.system->predict(state.position, state.solved, workspace);
+    state.system->predict(*state.factor, state.position, state.solved, workspace);
     state.seconds.solve += watch.lap();
 }
 
@@ -113,7 +124,7 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
     for (const Index v : state.sub_mesh->interface.vertices)
         state.solved.row(v) = state.position.row(v);
     receive(states, traces, &SubMeshState::solved, state.solved);
-    state.system->solve(state.position, state.solved, workspace);
+    solve_and_free(state, workspace);
     state.seconds.solve += watch.lap();
 }
 
@@ -127,7 +138,7 @@ void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<
     };
     receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
     state.system->use_other_side(state.position, workspace.other_side);
-    state.system->solve(state.position, state.solved, workspace);
+    solve_and_free(state, workspace);
     state.seconds.solve += watch.lap();
 }
 

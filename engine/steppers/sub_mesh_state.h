@@ -1,22 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "engine/options/flow_report.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/decomposition/sweep_plan.h"
 #include "solvers/systems/sub_mesh_system.h"
 
 namespace seamflow {
-
-/// Seconds spent on one sub-mesh, summed over all steps.
-struct SubMeshSeconds {
-    double assemble = 0.0;
-    double factorise = 0.0;
-    double solve = 0.0;
-    double correct = 0.0;
-};
 
 /// One sub-mesh on its way through time. It sees nothing of the others but what transfers bring: the tasks below read
 /// the states of the senders that a Transfer names, and write to their own alone.
@@ -25,6 +19,8 @@ struct SubMeshState {
 
     const SubMesh* sub_mesh;
     std::unique_ptr<SubMeshSystem> system;
+    /// From assemble_and_factorise until solved.
+    std::optional<SubMeshSystem::Factor> factor;
     /// Robin parameter, in 1/length.
     double p = 0.0;
     /// #local by 3, own vertices, then halo: Vᵏ at the beginning of a step, Vᵏ⁺¹ at its end.
@@ -33,16 +29,24 @@ struct SubMeshState {
     /// sub-mesh would do with Γ held at Vᵏ. Sub-meshes that read the prediction lead somewhere on this sub-mesh's Γ, so
     /// that it waits for them before it solves.
     Points solved;
-    SubMeshSeconds seconds;
+    /// Of its tasks in all steps.
+    PhaseSeconds seconds;
+};
+
+/// What a task works with.
+struct Resources {
+    /// Must outlive the states.
+    FactorMemory& memory;
+    SolverWorkspace& workspace;
 };
 
 /// Fetches Vᵏ for the halo, fills the equations and factorises them.
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                            std::span<const InterfaceRole> roles, double time_step, SolverWorkspace& workspace);
+                            std::span<const InterfaceRole> roles, double time_step, const Resources& resources);
 
 /// The same in a mutual sweep: also fetches the copies that the others have of Γ.
 void assemble_and_factorise_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
-                                   const SweepPlan& plan, double time_step, SolverWorkspace& workspace);
+                                   const SweepPlan& plan, double time_step, const Resources& resources);
 
 /// Solves with Γ held at Vᵏ.
 void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
@@ -51,7 +55,8 @@ void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& worksp
 void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& predictions,
                      SolverWorkspace& workspace);
 
-/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves.
+/// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves. The
+/// factor is no more.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
 
 /// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of lower rank and

@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/measure/remarks.h"
-#include "engine/memory/release.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
@@ -81,8 +81,7 @@ void SweepStepper::limit_factors(const FlowOptions& options)
     std::size_t largest = 1;
     for (const SubMeshState& state : states_)
         largest = std::max(largest, state.system->factor_bytes());
-    factors_.use_blocks_of(largest);
-    workspaces_.use(factors_);
+    factors_.emplace(largest);
 
     window_.order = reverse_cuthill_mckee(decomposition_.adjacency);
     Index least = 0;
@@ -108,11 +107,9 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
         progress.require_going_on();
         SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         run_for_sub_mesh(sub_mesh, s, [&] {
-            SubMeshState& state =
-                made[s].emplace(sub_mesh, make_equations(sub_mesh, options, workspaces_.local()), mesh.vertices);
+            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, workspaces_.local());
+            SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
-            // The estimate looks at the corners of the faces at Γ.
-            release_faces(std::max(state.system->faces_in_use(), FacesInUse::Corners), sub_mesh);
         });
         progress.count();
     });
@@ -128,17 +125,18 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
         return
             [this, body](Index s) { run_for_sub_mesh(*states_[s].sub_mesh, s, [&] { body(s, workspaces_.local()); }); };
     };
+    const auto resources = [this](SolverWorkspace& workspace) { return Resources{*factors_, workspace}; };
     SweepTasks tasks;
     if (is_classical(options.interface.conditions)) {
-        tasks.assemble_and_factorise = task([this, &plan, time_step](Index s, SolverWorkspace& workspace) {
-            assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan, time_step, workspace);
+        tasks.assemble_and_factorise = task([this, &plan, time_step, resources](Index s, SolverWorkspace& workspace) {
+            assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan, time_step, resources(workspace));
         });
         tasks.solve = task([this, &plan](Index s, SolverWorkspace& workspace) {
             solve_mutual(states_, s, decomposition_.halo[s], plan, workspace);
         });
     } else {
-        tasks.assemble_and_factorise = task([this, &plan, time_step](Index s, SolverWorkspace& workspace) {
-            assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step, workspace);
+        tasks.assemble_and_factorise = task([this, &plan, time_step, resources](Index s, SolverWorkspace& workspace) {
+            assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step, resources(workspace));
         });
         tasks.solve =
             task([this, &plan](Index s, SolverWorkspace& workspace) { solve(states_, s, plan.traces[s], workspace); });
@@ -214,12 +212,8 @@ void SweepStepper::restore(const StepMemory& memory)
 
 void SweepStepper::add_seconds(PhaseSeconds& seconds) const
 {
-    for (const SubMeshState& state : states_) {
-        seconds.assemble += state.seconds.assemble;
-        seconds.factorise += state.seconds.factorise;
-        seconds.solve += state.seconds.solve;
-        seconds.correct += state.seconds.correct;
-    }
+    for (const SubMeshState& state : states_)
+        add_up(std::span(&state.seconds, 1), seconds);
 }
 
 void SweepStepper::describe(StepReport& report) const
@@ -232,17 +226,16 @@ void SweepStepper::describe(StepReport& report) const
 
 void SweepStepper::describe(FlowReport& report) const
 {
+    const std::vector<Index>& rank = plans_.front().rank;
     report.cut.interface_vertices = decomposition_.n_interface_vertices;
     report.resources.live_factors = window_.size;
-    report.resources.factor_memory_bytes = factors_.bytes();
+    report.resources.factor_memory_bytes = factors_->bytes();
     std::vector<Index> n_nearly_singular;
     std::vector<Factorisation> factorisations;
-    for (const SubMeshState& state : states_) {
-        const Index color = plans_.front().rank[report.cut.sub_meshes.size()];
-        const auto n_faces = static_cast<Index>(state.sub_mesh->faces.size());
-        report.cut.sub_meshes.push_back({n_faces, state.sub_mesh->n_vertices, color, state.p});
-        n_nearly_singular.push_back(state.system->n_nearly_singular());
-        factorisations.push_back(state.system->factorisation());
+    for (std::size_t s = 0; s < states_.size(); ++s) {
+        describe_sub_mesh(*states_[s].sub_mesh, rank[s], states_[s].p, report);
+        n_nearly_singular.push_back(states_[s].system->n_nearly_singular());
+        factorisations.push_back(states_[s].system->factorisation());
     }
     remark_on_factorisation(factorisation_, factorisations, report);
     remark_on_near_singularity(n_nearly_singular, report);

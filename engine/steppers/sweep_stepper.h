@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/memory/factor_pool.h"
 #include "engine/memory/factor_window.h"
+#include "engine/memory/shared_factor_pool.h"
 #include "engine/memory/workspaces.h"
 #include "engine/options/flow_options.h"
 #include "engine/options/flow_report.h"
@@ -51,7 +51,8 @@ class SweepStepper final : public Stepper {
     /// Whether sub-meshes differ on what they share: with copies of Γ, and where they overlap.
     [[nodiscard]] bool has_copies() const { return copies_ || !error_; }
 
-    FactorPool factors_;
+    /// Made when it is known what factors take.
+    std::optional<SharedFactorPool> factors_;
     Workspaces workspaces_;
     Decomposition decomposition_;
     std::vector<SubMeshState> states_;

@@ -30,8 +30,7 @@ struct TransferRow {
 /// keep their order.
 std::vector<Transfer> transfers_to(Index to, std::vector<TransferRow> rows);
 
-/// A mesh cut into sub-meshes, and everything that has to pass between them between two steps. `adjacency` and `halo`
-/// may be emptied when they are no longer used.
+/// A mesh cut into sub-meshes, and everything that has to pass between them between two steps.
 struct Decomposition {
     std::vector<SubMesh> sub_meshes;
     /// For each sub-mesh, those with which it shares a vertex of Γ, in ascending order.

@@ -42,7 +42,7 @@ struct SubMeshSeam {
 
 /// One part of a cut mesh with its own copy of the vertices of its faces. Local vertices 0 to n_vertices - 1 are those
 /// vertices; the n_halo next ones, the halo, are the vertices of faces of other sub-meshes that touch Γ.
-/// `face_vertices` and `twin` may be emptied when they are no longer used.
+/// Equations may take `face_vertices` and `twin` over.
 struct SubMesh {
     /// The faces, as indices into the whole mesh, in ascending order.
     std::vector<Index> faces;

@@ -4,10 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "solvers/direct/cholmod_solver.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/lu_solver.h"
-#include "solvers/direct/umfpack_solver.h"
+#include "solvers/direct/suitesparse.h"
 
 namespace seamflow {
 
@@ -28,78 +27,21 @@ class OwnLdl final : public DirectSolver {
 
     [[nodiscard]] Factorisation kind() const override { return Factorisation::Own; }
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_.factor_bytes(); }
-    [[nodiscard]] bool factorise(std::span<const double> values, SolverWorkspace& workspace) override
+
+  private:
+    bool make_factor(std::span<const double> values, FactorMemory& memory, SolverWorkspace& workspace) override
     {
-        return solver_.factorise(values, *workspace.factors, workspace.ldl);
+        factor_ = solver_.factorise(values, memory, workspace.ldl);
+        return factor_.has_value();
     }
     void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) override
     {
-        solver_.solve(right_hand_side, solution, workspace.ldl);
+        factor_->solve(right_hand_side, solution, workspace.ldl);
     }
-    void free_factor(FactorMemory& memory) override { solver_.free_factor(memory); }
+    void free_factor() override { factor_.reset(); }
 
-  private:
     LdlSolver solver_;
-};
-
-class CholmodLlt final : public DirectSolver {
-  public:
-    CholmodLlt(SparsePattern upper, SolverWorkspace& workspace)
-        : upper_(std::move(upper))
-        , solver_(upper_, workspace.cholmod)
-    {
-    }
-
-    [[nodiscard]] Factorisation kind() const override { return Factorisation::Cholmod; }
-    [[nodiscard]] std::size_t factor_bytes() const override { return solver_.factor_bytes(); }
-    [[nodiscard]] bool factorise(std::span<const double> values, SolverWorkspace& workspace) override
-    {
-        // CHOLMOD wants an unknown at least.
-        return upper_.n() == 0 || solver_.factorise(values, workspace.cholmod);
-    }
-    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) override
-    {
-        set_rows(solution, right_hand_side.rows());
-        if (upper_.n() > 0)
-            solution = solver_.solve(right_hand_side, workspace.cholmod);
-    }
-    void free_factor(FactorMemory&) override
-    {
-        if (upper_.n() > 0)
-            solver_.free_factor();
-    }
-
-  private:
-    SparsePattern upper_;
-    CholmodSolver solver_;
-};
-
-class UmfpackLu final : public DirectSolver {
-  public:
-    explicit UmfpackLu(const SparsePattern& pattern)
-        : solver_(pattern)
-    {
-    }
-
-    [[nodiscard]] Factorisation kind() const override { return Factorisation::Umfpack; }
-    [[nodiscard]] std::size_t factor_bytes() const override { return solver_.factor_bytes(); }
-    [[nodiscard]] bool factorise(std::span<const double> values, SolverWorkspace&) override
-    {
-        values_ = values;
-        solver_.factorise(values);
-        return true;
-    }
-    [[nodiscard]] bool is_nearly_singular() const override { return solver_.is_nearly_singular(); }
-    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace&) override
-    {
-        set_rows(solution, right_hand_side.rows());
-        solver_.solve(values_, right_hand_side, solution);
-    }
-    void free_factor(FactorMemory&) override { solver_.free_factor(); }
-
-  private:
-    std::span<const double> values_;
-    UmfpackSolver solver_;
+    std::optional<LdlSolver::Factor> factor_;
 };
 
 /// By an LuSolver where the diagonal will do, by UMFPACK, which looks for better pivots, where it will not. Which of
@@ -114,42 +56,51 @@ class OwnLu final : public DirectSolver {
 
     [[nodiscard]] Factorisation kind() const override { return fallback_ ? fallback_->kind() : Factorisation::Own; }
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_.factor_bytes(); }
-    [[nodiscard]] bool factorise(std::span<const double> values, SolverWorkspace& workspace) override
+
+  private:
+    bool make_factor(std::span<const double> values, FactorMemory& memory, SolverWorkspace& workspace) override
     {
-        is_nearly_singular_ = false;
-        if (solver_.factorise(values, *workspace.factors, workspace.lu))
+        factor_ = solver_.factorise(values, memory, workspace.lu);
+        if (factor_)
             return true;
         if (!fallback_)
-            fallback_.emplace(*pattern_);
-        const bool has_factor = fallback_->factorise(values, workspace);
-        is_nearly_singular_ = fallback_->is_nearly_singular();
-        return has_factor;
+            fallback_ = make_umfpack_lu(*pattern_);
+        fallback_factor_ = fallback_->factorise(values, memory, workspace);
+        return fallback_factor_.has_value();
     }
-    [[nodiscard]] bool is_nearly_singular() const override { return is_nearly_singular_; }
+    [[nodiscard]] bool is_nearly_singular() const override
+    {
+        return fallback_factor_ && fallback_factor_->is_nearly_singular();
+    }
     void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) override
     {
         set_rows(solution, right_hand_side.rows());
-        if (solver_.has_factor())
-            solver_.solve(right_hand_side, solution, workspace.lu);
+        if (factor_)
+            factor_->solve(right_hand_side, solution, workspace.lu);
         else
-            fallback_->solve(right_hand_side, solution, workspace);
+            fallback_factor_->solve(right_hand_side, solution, workspace);
     }
-    void free_factor(FactorMemory& memory) override
+    void free_factor() override
     {
-        solver_.free_factor(memory);
-        if (fallback_)
-            fallback_->free_factor(memory);
+        factor_.reset();
+        fallback_factor_.reset();
     }
 
-  private:
     const SparsePattern* pattern_;
     LuSolver solver_;
+    std::optional<LuSolver::Factor> factor_;
     /// Nothing until it is needed.
-    std::optional<UmfpackLu> fallback_;
-    bool is_nearly_singular_ = false;
+    std::unique_ptr<DirectSolver> fallback_;
+    std::optional<Factor> fallback_factor_;
 };
 
 }  // namespace
+
+std::optional<DirectSolver::Factor> DirectSolver::factorise(std::span<const double> values, FactorMemory& memory,
+                                                            SolverWorkspace& workspace)
+{
+    return make_factor(values, memory, workspace) ? std::optional(Factor(*this)) : std::nullopt;
+}
 
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
                                                     SolverWorkspace& workspace, const EliminationTree& tree)
@@ -158,7 +109,7 @@ std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factori
     if (factorisation == Factorisation::Own ||
         (factorisation == Factorisation::Automatic && upper.n() <= most_unknowns_for_ldl))
         return std::make_unique<OwnLdl>(upper, tree);
-    return std::make_unique<CholmodLlt>(std::move(upper), workspace);
+    return make_cholmod_llt(std::move(upper), workspace.cholmod);
 }
 
 std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, Factorisation factorisation)
@@ -166,7 +117,7 @@ std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, 
     if (factorisation == Factorisation::Own ||
         (factorisation == Factorisation::Automatic && pattern.n() <= most_unknowns_for_lu))
         return std::make_unique<OwnLu>(pattern);
-    return std::make_unique<UmfpackLu>(pattern);
+    return make_umfpack_lu(pattern);
 }
 
 }  // namespace seamflow

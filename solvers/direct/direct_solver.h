@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
+#include "solvers/direct/factor_memory.h"
 #include "solvers/direct/factorisation.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/sparse/factor_pattern.h"
@@ -15,6 +17,8 @@ namespace seamflow {
 /// time, each with a workspace of its own.
 class DirectSolver {
   public:
+    class Factor;
+
     virtual ~DirectSolver() = default;
 
     /// Whose it is, of the factor that there is or of the next one; never Automatic.
@@ -23,22 +27,46 @@ class DirectSolver {
     /// What a factor takes, in bytes; of UMFPACK's an estimate. CHOLMOD's and UMFPACK's are in their own memory.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
 
-    /// @param values one per entry of the pattern; must stay as they are until the last solve.
-    /// @returns whether there is a factor: of symmetric matrices those that are positive definite have one.
+    /// @pre there is no factor: one at a time.
+    /// @param values one per entry of the pattern; must stay as they are as long as the factor is used.
+    /// @param memory must outlive the factor, as must the solver.
+    /// @returns nothing where a symmetric matrix is not positive definite.
     /// @throws ComputationError if a matrix that need not be symmetric is singular, or memory runs out.
-    [[nodiscard]] virtual bool factorise(std::span<const double> values, SolverWorkspace& workspace) = 0;
+    [[nodiscard]] std::optional<Factor> factorise(std::span<const double> values, FactorMemory& memory,
+                                                  SolverWorkspace& workspace);
 
-    /// Whether the matrix that was factorised last leaves a solution three correct digits at most.
+  private:
+    /// @returns whether there is a factor.
+    virtual bool make_factor(std::span<const double> values, FactorMemory& memory, SolverWorkspace& workspace) = 0;
     [[nodiscard]] virtual bool is_nearly_singular() const { return false; }
+    virtual void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) = 0;
+    virtual void free_factor() = 0;
+};
+
+/// What a DirectSolver has made of a matrix. When it dies, its memory goes back to where it was taken from.
+class DirectSolver::Factor {
+  public:
+    /// Whether the matrix leaves a solution three correct digits at most.
+    [[nodiscard]] bool is_nearly_singular() const { return solver_->is_nearly_singular(); }
 
     /// Solves for three right-hand sides.
-    /// @pre there is a factor.
     /// @param solution receives n by 3.
     /// @throws ComputationError if CHOLMOD or UMFPACK fails.
-    virtual void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) = 0;
+    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) const
+    {
+        solver_->solve(right_hand_side, solution, workspace);
+    }
 
-    /// Gives the factor's memory back to where it was taken from.
-    virtual void free_factor(FactorMemory& memory) = 0;
+  private:
+    friend class DirectSolver;
+    explicit Factor(DirectSolver& solver)
+        : solver_(&solver)
+    {
+    }
+    struct Free {
+        void operator()(DirectSolver* solver) const { solver->free_factor(); }
+    };
+    std::unique_ptr<DirectSolver, Free> solver_;
 };
 
 /// For symmetric positive definite matrices, in the order in which the unknowns are.

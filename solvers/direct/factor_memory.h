@@ -1,43 +1,68 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
-#include <span>
+#include <memory_resource>
+#include <vector>
 
 namespace seamflow {
 
-/// Where factors get their memory: it is taken when a factor is made, and given back when that is no longer needed,
-/// maybe by another thread.
-class FactorMemory {
-  public:
-    virtual ~FactorMemory() = default;
+/// Where factors get their memory. Heap: std::pmr::new_delete_resource().
+using FactorMemory = std::pmr::memory_resource;
 
-    /// @returns at least that many bytes, aligned like memory from the heap.
-    virtual std::span<std::byte> take(std::size_t bytes) = 0;
+/// Gives an array back to where it was taken from.
+template <class Number>
+struct GiveBack {
+    FactorMemory* memory = nullptr;
+    std::size_t n = 0;
 
-    virtual void give_back(std::span<std::byte> memory) = 0;
+    void operator()(Number* numbers) const { memory->deallocate(numbers, n * sizeof(Number), alignof(Number)); }
 };
 
-/// The heap: every factor has memory of its own.
-FactorMemory& heap_memory();
+/// The numbers of a factor. When they die, maybe in another thread, their memory goes back to where it was taken from.
+template <class Number>
+using FactorNumbers = std::unique_ptr<Number[], GiveBack<Number>>;
 
-/// Memory for one factor at a time, taken from the heap once and kept.
-class KeptMemory final : public FactorMemory {
+/// Takes n numbers, whose values are not set.
+/// @param memory must outlive them.
+template <class Number>
+FactorNumbers<Number> take_numbers(FactorMemory& memory, std::size_t n)
+{
+    void* const numbers = n > 0 ? memory.allocate(n * sizeof(Number), alignof(Number)) : nullptr;
+    return {static_cast<Number*>(numbers), {&memory, n}};
+}
+
+/// Memory that is taken from the heap once and used again and again, each block by one factor at a time. For one
+/// thread at a time.
+class FactorPool : public FactorMemory {
   public:
-    std::span<std::byte> take(std::size_t bytes) override
+    /// @param least_bytes of a block: what the largest factor takes, so that any block fits any factor; 0: each block
+    ///        fits factors of one size.
+    explicit FactorPool(std::size_t least_bytes = 0)
+        : least_bytes_(least_bytes)
     {
-        if (size_ < bytes) {
-            memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
-            size_ = bytes;
-        }
-        return {memory_.get(), size_};
     }
 
-    void give_back(std::span<std::byte>) override {}
+    /// What has been taken from the heap so far.
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  protected:
+    void* do_allocate(std::size_t bytes, std::size_t alignment) override;
+    void do_deallocate(void* block, std::size_t bytes, std::size_t alignment) override;
 
   private:
-    std::unique_ptr<std::byte[]> memory_;
-    std::size_t size_ = 0;
+    struct Blocks {
+        std::vector<std::unique_ptr<std::byte[]>> all;
+        /// The last one used comes last.
+        std::vector<void*> free;
+    };
+
+    [[nodiscard]] bool do_is_equal(const FactorMemory& other) const noexcept override { return this == &other; }
+
+    std::size_t least_bytes_;
+    std::size_t bytes_ = 0;
+    std::map<std::size_t, Blocks> blocks_of_size_;
 };
 
 }  // namespace seamflow

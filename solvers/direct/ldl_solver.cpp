@@ -76,36 +76,34 @@ void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>
     }
 }
 
-bool LdlSolver::factorise(std::span<const double> values, FactorMemory& memory, LdlWorkspace& workspace)
+std::optional<LdlSolver::Factor> LdlSolver::factorise(std::span<const double> values, FactorMemory& memory,
+                                                      LdlWorkspace& workspace) const
 {
-    if (memory_.empty() && n() > 0)
-        memory_ = memory.take(factor_bytes());
+    auto numbers = take_numbers<double>(memory, at(panels_.back()));
+    double* factor = numbers.get();
     if (workspace.row_of.size() < at(n())) {
         workspace.row_of.resize(n());
         workspace.target_rows.resize(n());
     }
-    double* factor = this->values();
     std::fill_n(factor, panels_.back(), 0.0);
     for (std::size_t k = 0; k < places_.size(); ++k)
         factor[places_[k]] = values[k];
     for (Index b = 0; b < pattern_.n_blocks(); ++b) {
-        subtract_updates(b, workspace);
-        if (!factorise_panel(panel(b))) {
-            free_factor(memory);
-            return false;
-        }
+        subtract_updates(b, factor, workspace);
+        if (!factorise_panel(panel(factor, b)))
+            return std::nullopt;
     }
-    return true;
+    return Factor(*this, std::move(numbers));
 }
 
-void LdlSolver::subtract_updates(Index block, LdlWorkspace& workspace) const
+void LdlSolver::subtract_updates(Index block, double* factor, LdlWorkspace& workspace) const
 {
-    const LdlPanel later = panel(block);
+    const LdlPanel later = panel(factor, block);
     for (std::size_t i = 0; i < later.rows.size(); ++i)
         workspace.row_of[later.rows[i]] = static_cast<Index>(i);
     for (Index u = update_offsets_[block]; u < update_offsets_[block + 1]; ++u) {
         const Update& update = updates_[u];
-        const LdlPanel earlier = panel(update.earlier);
+        const LdlPanel earlier = panel(factor, update.earlier);
         const auto rows = earlier.rows.subspan(update.place);
         for (std::size_t i = 0; i < rows.size(); ++i)
             workspace.target_rows[i] = workspace.row_of[rows[i]];
@@ -113,43 +111,42 @@ void LdlSolver::subtract_updates(Index block, LdlWorkspace& workspace) const
     }
 }
 
-void LdlSolver::free_factor(FactorMemory& memory)
+DenseLdl LdlSolver::Factor::last() const
 {
-    if (!memory_.empty())
-        memory.give_back(std::exchange(memory_, {}));
+    const Index n = solver_->n_last_;
+    return {n > 0 ? numbers_.get() + solver_->panels_[solver_->pattern_.n_blocks() - 1] : nullptr, n, n};
 }
 
-DenseLdl LdlSolver::last() const
+void LdlSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const
 {
-    return {n_last_ > 0 ? values() + panels_[pattern_.n_blocks() - 1] : nullptr, n_last_, n_last_};
-}
-
-void LdlSolver::solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const
-{
-    workspace.solution.resize(3 * at(n()));
-    Eigen::Map<Points> x(workspace.solution.data(), n(), 3);
+    const Index n = solver_->n();
+    workspace.solution.resize(3 * at(n));
+    Eigen::Map<Points> x(workspace.solution.data(), n, 3);
     x = right_hand_side;
-    eliminate(x.data(), n());
-    substitute_back(x.data(), n());
-    set_rows(solution, n());
+    forward_substitute(x.data(), n);
+    back_substitute(x.data(), n);
+    set_rows(solution, n);
     solution = x;
 }
 
-void LdlSolver::eliminate(double* x, Index n) const
+void LdlSolver::Factor::forward_substitute(double* x, Index n) const
 {
-    for (Index b = 0; b < pattern_.n_blocks() && pattern_.first[b] < n; ++b)
-        eliminate_panel(panel(b), x);
+    const FactorPattern& pattern = solver_->pattern_;
+    for (Index b = 0; b < pattern.n_blocks() && pattern.first[b] < n; ++b)
+        eliminate_panel(solver_->panel(numbers_.get(), b), x);
 }
 
-void LdlSolver::substitute_back(double* x, Index n) const
+void LdlSolver::Factor::back_substitute(double* x, Index n) const
 {
-    for (Index b = pattern_.n_blocks(); b-- > 0;)
-        if (pattern_.first[b] < n) {
+    const FactorPattern& pattern = solver_->pattern_;
+    const std::vector<Index>& panels = solver_->panels_;
+    for (Index b = pattern.n_blocks(); b-- > 0;)
+        if (pattern.first[b] < n) {
             // Processors foresee only ways forward. Not in a function of its own: compilers leave out calls of
             // functions that do nothing but this.
-            for (std::ptrdiff_t i = panels_[b]; i < panels_[b + 1]; i += cache_line)
-                __builtin_prefetch(values() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
-            substitute_panel(panel(b), x);
+            for (std::ptrdiff_t i = panels[b]; i < panels[b + 1]; i += cache_line)
+                __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
+            substitute_panel(solver_->panel(numbers_.get(), b), x);
         }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,10 +21,12 @@ namespace seamflow {
 using DenseLdl = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 /// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the order in which the unknowns are. All but the
-/// numbers is known beforehand. Different objects may be used by different threads at the same time, each with a
-/// workspace of its own.
+/// numbers is known beforehand. Different threads may factorise and solve at the same time, each with a workspace of
+/// its own.
 class LdlSolver {
   public:
+    class Factor;
+
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
     /// @param n_last number of unknowns that are kept together at the end.
@@ -36,33 +40,10 @@ class LdlSolver {
     [[nodiscard]] std::size_t factor_bytes() const { return at(panels_.back()) * sizeof(double); }
 
     /// @param values one per entry of the pattern; needed only during the call.
-    /// @param memory must outlive the factor.
-    /// @returns whether the matrix is positive definite. If not, there is no factor.
-    [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, LdlWorkspace& workspace);
-
-    [[nodiscard]] bool has_factor() const { return !memory_.empty(); }
-
-    /// Solves for three right-hand sides.
-    /// @pre there is a factor.
-    /// @param solution n by 3; may be the right-hand side.
-    void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
-
-    /// Eliminates all unknowns but the last: x becomes L⁻¹ x above, and below what remains for the last unknowns.
-    /// @pre there is a factor.
-    /// @param x n by 3.
-    void eliminate(Points& x) const { eliminate(x.data(), n() - n_last_); }
-
-    /// Solves for all unknowns but the last.
-    /// @pre there is a factor.
-    /// @param x n by 3. In: what `eliminate` left, and the last unknowns; out: the solution.
-    void substitute_back(Points& x) const { substitute_back(x.data(), n() - n_last_); }
-
-    /// What remains of the matrix for the last unknowns when all others are eliminated (Schur complement), factorised.
-    /// @pre there is a factor, in whose memory it stands.
-    [[nodiscard]] DenseLdl last() const;
-
-    /// Gives the factor's memory back to where it was taken from.
-    void free_factor(FactorMemory& memory);
+    /// @param memory must outlive the factor, as must the solver.
+    /// @returns nothing where the matrix is not positive definite.
+    [[nodiscard]] std::optional<Factor> factorise(std::span<const double> values, FactorMemory& memory,
+                                                  LdlWorkspace& workspace) const;
 
   private:
     /// What an earlier block takes away from columns of a later one.
@@ -75,25 +56,56 @@ class LdlSolver {
 
     void list_updates(const std::vector<Index>& block_of);
     void find_places(const SparsePattern& upper, const std::vector<Index>& block_of);
-    void subtract_updates(Index block, LdlWorkspace& workspace) const;
-    void eliminate(double* x, Index n) const;
-    void substitute_back(double* x, Index n) const;
-    [[nodiscard]] double* values() const { return reinterpret_cast<double*>(memory_.data()); }
-    [[nodiscard]] LdlPanel panel(Index block) const
+    void subtract_updates(Index block, double* factor, LdlWorkspace& workspace) const;
+    [[nodiscard]] LdlPanel panel(double* factor, Index block) const
     {
-        return {values() + panels_[block], pattern_.width(block), pattern_.rows[block]};
+        return {factor + panels_[block], pattern_.width(block), pattern_.rows[block]};
     }
 
     Index n_last_;
-    /// Per entry of the matrix: where it stands in the factor's memory.
+    /// Per entry of the matrix: where it stands in the factor.
     std::vector<Index> places_;
     FactorPattern pattern_;
-    /// Per block, where it begins in the factor's memory, and where the last one ends.
+    /// Per block, where it begins in the factor, and where the last one ends.
     std::vector<Index> panels_{0};
     /// Per block, and one more.
     std::vector<Index> update_offsets_;
     std::vector<Update> updates_;
-    std::span<std::byte> memory_;
+};
+
+/// L D Lᵀ of one matrix.
+class LdlSolver::Factor {
+  public:
+    /// Solves for three right-hand sides.
+    /// @param solution n by 3; may be the right-hand side.
+    void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
+
+    /// Forward substitution for all unknowns but the last: x becomes L⁻¹ x above, and below what remains for the last
+    /// unknowns.
+    /// @param x n by 3.
+    void forward_substitute(Points& x) const { forward_substitute(x.data(), solver_->n() - solver_->n_last_); }
+
+    /// Solves for all unknowns but the last.
+    /// @param x n by 3. In: what `forward_substitute` left, and the last unknowns; out: the solution.
+    void back_substitute(Points& x) const { back_substitute(x.data(), solver_->n() - solver_->n_last_); }
+
+    /// What remains of the matrix for the last unknowns when all others are eliminated (Schur complement), factorised:
+    /// a view of this factor.
+    [[nodiscard]] DenseLdl last() const;
+
+  private:
+    friend class LdlSolver;
+    Factor(const LdlSolver& solver, FactorNumbers<double> numbers)
+        : solver_(&solver)
+        , numbers_(std::move(numbers))
+    {
+    }
+
+    void forward_substitute(double* x, Index n) const;
+    void back_substitute(double* x, Index n) const;
+
+    const LdlSolver* solver_;
+    FactorNumbers<double> numbers_;
 };
 
 }  // namespace seamflow

@@ -76,28 +76,20 @@ void LuSolver::list_loads(const SparsePattern& pattern)
     });
 }
 
-bool LuSolver::factorise(std::span<const double> values, FactorMemory& memory, LuWorkspace& workspace)
+std::optional<LuSolver::Factor> LuSolver::factorise(std::span<const double> values, FactorMemory& memory,
+                                                    LuWorkspace& workspace) const
 {
     measure_rows(values, workspace);
     workspace.elimination.assign(pattern_.n(), Pair::Zero());
-    if (memory_.empty())
-        memory_ = memory.take(factor_bytes());
+    Factor factor(*this, take_numbers<Pair>(memory, panels_.back()));
     for (Index b = 0; b < pattern_.n_blocks(); ++b)
         for (Index column = 0; column < pattern_.width(b); ++column) {
             load(pattern_.first[b] + column, values, workspace);
-            eliminate(b, column, workspace);
-            if (!store(b, column, workspace)) {
-                free_factor(memory);
-                return false;
-            }
+            eliminate(b, column, factor, workspace);
+            if (!store(b, column, factor, workspace))
+                return std::nullopt;
         }
-    return true;
-}
-
-void LuSolver::free_factor(FactorMemory& memory)
-{
-    if (!memory_.empty())
-        memory.give_back(std::exchange(memory_, {}));
+    return factor;
 }
 
 void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspace) const
@@ -120,26 +112,26 @@ void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& 
 }
 
 /// Takes away what earlier columns contribute, those of the same block last.
-void LuSolver::eliminate(Index block, Index column, LuWorkspace& workspace) const
+void LuSolver::eliminate(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     Pair* elimination = workspace.elimination.data();
     const Index unknown = pattern_.first[block] + column;
     for (Index k = pattern_.update_offsets[unknown]; k < pattern_.update_offsets[unknown + 1]; ++k) {
         const auto [earlier, place] = pattern_.updates[k];
-        subtract(column_of(earlier, 0), pattern_.width(earlier), pattern_.rows[earlier], place, elimination);
+        subtract(factor.column_of(earlier, 0), pattern_.width(earlier), pattern_.rows[earlier], place, elimination);
     }
-    subtract(column_of(block, 0), column, pattern_.rows[block], column, elimination);
+    subtract(factor.column_of(block, 0), column, pattern_.rows[block], column, elimination);
 }
 
 /// Moves a column and a row to the factor.
 /// @returns whether the pivot will do.
-bool LuSolver::store(Index block, Index column, LuWorkspace& workspace)
+bool LuSolver::store(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     constexpr double largest_multiplier = 1000.0;
     constexpr double largest_growth = 1e6;
     constexpr double least_pivot = 1e-12;
     const auto rows = pattern_.rows[block];
-    Pair* result = column_of(block, column);
+    Pair* result = factor.column_of(block, column);
     const double* sizes = workspace.row_sizes.data();
     const double size = sizes[rows[column]];
     const double inverse = 1.0 / workspace.elimination[rows[column]][lower];
@@ -156,31 +148,32 @@ bool LuSolver::store(Index block, Index column, LuWorkspace& workspace)
     return will_do;
 }
 
-void LuSolver::solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const
+void LuSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const
 {
-    workspace.solution.resize(pattern_.n());
+    const FactorPattern& pattern = solver_->pattern_;
+    workspace.solution.resize(pattern.n());
     Eigen::Array4d* x = workspace.solution.data();
-    for (Index v = 0; v < pattern_.n(); ++v)
-        x[pattern_.position[v]] << right_hand_side.row(v).transpose().array(), 0.0;
-    for (Index b = 0; b < pattern_.n_blocks(); ++b)
-        for (Index c = 0; c < pattern_.width(b); ++c) {
-            const auto rows = pattern_.rows[b];
+    for (Index v = 0; v < pattern.n(); ++v)
+        x[pattern.position[v]] << right_hand_side.row(v).transpose().array(), 0.0;
+    for (Index b = 0; b < pattern.n_blocks(); ++b)
+        for (Index c = 0; c < pattern.width(b); ++c) {
+            const auto rows = pattern.rows[b];
             const Pair* column = column_of(b, c);
             const Eigen::Array4d known = x[rows[c]];
             for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
                 x[rows[m]] -= column[m][lower] * known;
         }
-    for (Index b = pattern_.n_blocks(); b-- > 0;)
-        for (Index c = pattern_.width(b); c-- > 0;) {
-            const auto rows = pattern_.rows[b];
+    for (Index b = pattern.n_blocks(); b-- > 0;)
+        for (Index c = pattern.width(b); c-- > 0;) {
+            const auto rows = pattern.rows[b];
             const Pair* row = column_of(b, c);
             Eigen::Array4d sum = x[rows[c]];
             for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
                 sum -= row[m][upper] * x[rows[m]];
             x[rows[c]] = sum * row[c][lower];
         }
-    for (Index v = 0; v < pattern_.n(); ++v)
-        solution.row(v) = x[pattern_.position[v]].head<3>().matrix().transpose();
+    for (Index v = 0; v < pattern.n(); ++v)
+        solution.row(v) = x[pattern.position[v]].head<3>().matrix().transpose();
 }
 
 }  // namespace seamflow

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,10 +18,12 @@ namespace seamflow {
 /// LU factorisation of sparse matrices of one pattern with each pivot taken from the diagonal. All but the numbers is
 /// known beforehand then, and a column of L and the row of U across the diagonal are computed in one go, so that a
 /// factor costs hardly more than that of a symmetric matrix. For matrices that are symmetric but for few rows, or whose
-/// diagonal dominates; others are found out. Different objects may be used by different threads at the same time, each
-/// with a workspace of its own.
+/// diagonal dominates; others are found out. Different threads may factorise and solve at the same time, each with a
+/// workspace of its own.
 class LuSolver {
   public:
+    class Factor;
+
     /// Analyses the pattern, which is needed only during the call.
     /// @throws ComputationError if CHOLMOD, which finds the order of elimination, fails (memory).
     explicit LuSolver(const SparsePattern& pattern);
@@ -28,22 +32,12 @@ class LuSolver {
     [[nodiscard]] std::size_t factor_bytes() const { return panels_.back() * sizeof(Eigen::Array2d); }
 
     /// @param values one per entry of the pattern; needed only during the call.
-    /// @param memory must outlive the factor.
-    /// @returns whether the diagonal will do: with rows divided by their sizes, no pivot is less than a thousandth of
-    ///          an entry below it (the bound that UMFPACK has for symmetric patterns), or next to nothing, and no entry
-    ///          of U has grown to a million times its row. If not, there is no factor.
-    [[nodiscard]] bool factorise(std::span<const double> values, FactorMemory& memory, LuWorkspace& workspace);
-
-    /// Whether there is a factor.
-    [[nodiscard]] bool has_factor() const { return !memory_.empty(); }
-
-    /// Solves for three right-hand sides.
-    /// @pre there is a factor.
-    /// @param solution n by 3.
-    void solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const;
-
-    /// Gives the factor's memory back to where it was taken from.
-    void free_factor(FactorMemory& memory);
+    /// @param memory must outlive the factor, as must the solver.
+    /// @returns nothing where the diagonal will not do: with rows divided by their sizes, a pivot is less than a
+    ///          thousandth of an entry below it (the bound that UMFPACK has for symmetric patterns), or next to
+    ///          nothing, or an entry of U has grown to a million times its row.
+    [[nodiscard]] std::optional<Factor> factorise(std::span<const double> values, FactorMemory& memory,
+                                                  LuWorkspace& workspace) const;
 
   private:
     /// Where a value goes before its column of L or row of U is computed.
@@ -56,14 +50,8 @@ class LuSolver {
     void list_loads(const SparsePattern& pattern);
     void measure_rows(std::span<const double> values, LuWorkspace& workspace) const;
     void load(Index unknown, std::span<const double> values, LuWorkspace& workspace) const;
-    void eliminate(Index block, Index column, LuWorkspace& workspace) const;
-    bool store(Index block, Index column, LuWorkspace& workspace);
-    /// One column of a block, with an entry for each of the block's rows.
-    [[nodiscard]] Eigen::Array2d* column_of(Index block, Index column) const
-    {
-        return reinterpret_cast<Eigen::Array2d*>(memory_.data()) + panels_[block] +
-               at(column) * pattern_.rows[block].size();
-    }
+    void eliminate(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const;
+    bool store(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const;
 
     FactorPattern pattern_;
     /// Number of unknowns + 1, and what is loaded for each.
@@ -71,9 +59,32 @@ class LuSolver {
     std::vector<Load> loads_;
     /// Per block, where its columns begin, and where the last one ends.
     std::vector<std::size_t> panels_{0};
-    /// The factor, block after block, column after column: entries of L and of Uᵀ in pairs. On the diagonal stands the
-    /// pivot's inverse; above it nothing of use.
-    std::span<std::byte> memory_;
+};
+
+/// L U of one matrix, block after block, column after column: entries of L and of Uᵀ in pairs. On the diagonal stands
+/// the pivot's inverse; above it nothing of use.
+class LuSolver::Factor {
+  public:
+    /// Solves for three right-hand sides.
+    /// @param solution n by 3.
+    void solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const;
+
+  private:
+    friend class LuSolver;
+    Factor(const LuSolver& solver, FactorNumbers<Eigen::Array2d> pairs)
+        : solver_(&solver)
+        , pairs_(std::move(pairs))
+    {
+    }
+
+    /// One column of a block, with an entry for each of the block's rows.
+    [[nodiscard]] Eigen::Array2d* column_of(Index block, Index column) const
+    {
+        return pairs_.get() + solver_->panels_[block] + at(column) * solver_->pattern_.rows[block].size();
+    }
+
+    const LuSolver* solver_;
+    FactorNumbers<Eigen::Array2d> pairs_;
 };
 
 }  // namespace seamflow

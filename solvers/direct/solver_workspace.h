@@ -7,7 +7,6 @@
 
 #include "partition/polygon_mesh.h"
 #include "solvers/direct/columns.h"
-#include "solvers/direct/factor_memory.h"
 
 namespace seamflow {
 
@@ -51,8 +50,6 @@ class CholmodWorkspace {
 /// What systems need while they work and not after: one for each thread. Three columns wide they are as long as the
 /// last system needed, the others as the largest.
 struct SolverWorkspace {
-    /// Factors outlive the work: this is not the workspace's own. The same in all workspaces that a system meets.
-    FactorMemory* factors = &heap_memory();
     CholmodWorkspace cholmod;
     LdlWorkspace ldl;
     LuWorkspace lu;

@@ -103,14 +103,12 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
 
 CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
     : copies_(copies)
-    , products_(copies.n_sub_meshes())
-    , scales_(copies.n_sub_meshes())
-    , energies_(copies.n_sub_meshes())
+    , shares_(copies.n_sub_meshes())
 {
     find_functions();
     list_functions();
     analyse();
-    shares_.resize(static_cast<Eigen::Index>(functions_at_.values.size()), 3);
+    products_with_y_.resize(static_cast<Eigen::Index>(functions_at_.values.size()), 3);
     coefficients_.resize(size(), 3);
 }
 
@@ -179,46 +177,47 @@ std::vector<MatrixEntry> CoarseSpace::entries() const
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
         for (const Index f : functions_at_[s])
             for (const Index g : functions_at_[s])
-                if (unknown_of_[f] <= unknown_of_[g])
-                    entries.push_back({unknown_of_[g], unknown_of_[f]});
+                if (energy_.unknown_of[f] <= energy_.unknown_of[g])
+                    entries.push_back({energy_.unknown_of[g], energy_.unknown_of[f]});
     return entries;
 }
 
 void CoarseSpace::analyse()
 {
-    unknown_of_.resize(size());
-    std::iota(unknown_of_.begin(), unknown_of_.end(), 0);
+    energy_.unknown_of.resize(size());
+    std::iota(energy_.unknown_of.begin(), energy_.unknown_of.end(), 0);
     if (size() == 0)
         return;
     const std::vector<Index> order = elimination_order(make_pattern(size(), entries()));
     for (std::size_t i = 0; i < order.size(); ++i)
-        unknown_of_[order[i]] = static_cast<Index>(i);
+        energy_.unknown_of[order[i]] = static_cast<Index>(i);
     const std::vector<MatrixEntry> places = entries();
     const SparsePattern upper = make_pattern(size(), places);
-    solver_.emplace(upper);
-    values_.resize(upper.n_entries());
+    energy_.solver.emplace(upper);
+    energy_.values.resize(upper.n_entries());
     for (const MatrixEntry& entry : places)
-        slots_.push_back(upper.slot(entry));
+        energy_.slots.push_back(upper.slot(entry));
     for (Index u = 0; u < size(); ++u)
-        diagonal_slots_.push_back(upper.slot({u, u}));
+        energy_.diagonal_slots.push_back(upper.slot({u, u}));
 }
 
-void CoarseSpace::prepare(std::span<const NeumannSystem* const> systems, std::span<const double> weights,
+void CoarseSpace::prepare(std::span<const SchurComplement> complements, std::span<const double> weights,
                           const Loop& loop)
 {
-    is_factorised_ = false;
     if (size() == 0)
         return;
     set_functions(weights, loop);
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, systems[s]->schur()); });
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, complements[s].single()); });
     assemble();
-    is_factorised_ = solver_->factorise(values_, memory_, workspace_);
+    energy_.factor.reset();
+    energy_.factor = energy_.solver->factorise(energy_.values, energy_.memory, energy_.workspace);
 }
 
 /// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
 void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
 {
     const auto functions = functions_at_[s];
+    Share& share = shares_[s];
     const std::size_t room = DenseFactor::room(copies_.n_in(s));
     const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
     AlignedFloats columns;
@@ -228,38 +227,40 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
             const auto column = static_cast<std::size_t>(place_in(functions, function_[copy]));
             columns.data()[column * room + at(i)] += static_cast<float>(values_at_[copy]);
         }
-    products_[s].assign(n_columns * room);
+    share.product.assign(n_columns * room);
     for (std::size_t c = 0; c < n_columns; c += 3)
-        schur.multiply(columns_at(columns.data() + c * room, room), columns_at(products_[s].data() + c * room, room));
+        schur.multiply(columns_at(columns.data() + c * room, room), columns_at(share.product.data() + c * room, room));
     const Eigen::MatrixXd roots = Eigen::Map<const Eigen::MatrixXf>(columns.data(), static_cast<Eigen::Index>(room),
                                                                     static_cast<Eigen::Index>(functions.size()))
                                       .cast<double>();
-    energies_[s].resize(roots.cols(), roots.cols());
-    multiply_by_itself(roots, energies_[s]);
-    scales_[s] = schur.scale();
-    energies_[s] *= scales_[s];
+    share.energy.resize(roots.cols(), roots.cols());
+    multiply_by_itself(roots, share.energy);
+    share.scale = schur.scale();
+    share.energy *= share.scale;
 }
 
 /// In the order of `entries`.
 void CoarseSpace::assemble()
 {
-    std::fill(values_.begin(), values_.end(), 0.0);
-    auto slot = slots_.begin();
+    std::fill(energy_.values.begin(), energy_.values.end(), 0.0);
+    auto slot = energy_.slots.begin();
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
         const auto functions = functions_at_[s];
         for (std::size_t f = 0; f < functions.size(); ++f)
             for (std::size_t g = 0; g < functions.size(); ++g)
-                if (unknown_of_[functions[f]] <= unknown_of_[functions[g]])
-                    values_[*slot++] += energies_[s](static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
+                if (energy_.unknown_of[functions[f]] <= energy_.unknown_of[functions[g]])
+                    energy_.values[*slot++] +=
+                        shares_[s].energy(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
     }
     // Where all weights are the same, a function is none.
-    for (const Index diagonal : diagonal_slots_)
-        values_[diagonal] = values_[diagonal] > 0.0 ? (1.0 + regularisation) * values_[diagonal] : 1.0;
+    for (const Index diagonal : energy_.diagonal_slots)
+        energy_.values[diagonal] =
+            energy_.values[diagonal] > 0.0 ? (1.0 + regularisation) * energy_.values[diagonal] : 1.0;
 }
 
 void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
 {
-    if (!is_factorised_)
+    if (!energy_.factor)
         return;
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_transposed(s, y); });
     for_each(loop, size(), [&](Index f) {
@@ -267,13 +268,13 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
         for (const Index copy : copies_in_[f])
             sum += values_at_[copy] * residual.row(copies_.vertex[copy]);
         for (const Index place : places_[f])
-            sum -= shares_.row(place);
-        coefficients_.row(unknown_of_[f]) = sum;
+            sum -= products_with_y_.row(place);
+        coefficients_.row(energy_.unknown_of[f]) = sum;
     });
-    solver_->solve(coefficients_, coefficients_, workspace_);
+    energy_.factor->solve(coefficients_, coefficients_, energy_.workspace);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
-            y.row(v) += values_at_[copy] * coefficients_.row(unknown_of_[function_[copy]]);
+            y.row(v) += values_at_[copy] * coefficients_.row(energy_.unknown_of[function_[copy]]);
     });
 }
 
@@ -283,17 +284,17 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
     const Index n = copies_.n_in(s);
     const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
     if (s + 1 < copies_.n_sub_meshes())
-        for (std::size_t i = 0; i < std::min(products_[s + 1].size(), products_ahead); i += cache_line)
-            __builtin_prefetch(products_[s + 1].data() + i);
+        for (std::size_t i = 0; i < std::min(shares_[s + 1].product.size(), products_ahead); i += cache_line)
+            __builtin_prefetch(shares_[s + 1].product.data() + i);
     Columns local(room, 3);
     local.bottomRows(room - n).setZero();
     for (Index i = 0; i < n; ++i)
         local.row(i) = y.row(copies_.vertex[copies_.first[s] + i]);
-    const float* product = products_[s].data();
+    const float* product = shares_[s].product.data();
     for (Index place = functions_at_.offsets[s]; place < functions_at_.offsets[s + 1]; ++place) {
         Point share;
         multiply_column(product, local, share);
-        shares_.row(place) = scales_[s] * share;
+        products_with_y_.row(place) = shares_[s].scale * share;
         product += room;
     }
 }

@@ -10,7 +10,7 @@
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/interface/interface_copies.h"
-#include "solvers/systems/neumann_system.h"
+#include "solvers/systems/schur_complement.h"
 
 namespace seamflow {
 
@@ -33,15 +33,40 @@ class CoarseSpace {
     [[nodiscard]] Index size() const { return copies_in_.size(); }
 
     /// Makes S Z and factorises E.
-    /// @param systems factorised.
+    /// @param complements one per sub-mesh.
     /// @param weights one per copy, positive, those of a vertex adding up to 1.
-    void prepare(std::span<const NeumannSystem* const> systems, std::span<const double> weights, const Loop& loop);
+    void prepare(std::span<const SchurComplement> complements, std::span<const double> weights, const Loop& loop);
 
     /// y becomes y + Z E⁻¹ Zᵀ (residual - S y).
     /// @param residual, y one row per vertex of Γ.
     void correct(const Points& residual, Points& y, const Loop& loop);
 
   private:
+    /// E in the order of elimination, and its factor.
+    struct Energy {
+        /// Per function: its unknown.
+        std::vector<Index> unknown_of;
+        std::optional<LdlSolver> solver;
+        /// The entries on and above the diagonal; where each of `entries` stands among them, and the diagonal.
+        std::vector<double> values;
+        std::vector<Index> slots;
+        std::vector<Index> diagonal_slots;
+        FactorPool memory;
+        LdlWorkspace workspace;
+        /// None where there are no functions, or E is not definite to rounding.
+        std::optional<LdlSolver::Factor> factor;
+    };
+    /// What a sub-mesh adds.
+    struct Share {
+        /// To S Z: a column with DenseFactor::room for each function there, and zeros to make their number a multiple
+        /// of three.
+        AlignedFloats product;
+        /// By what that has to be multiplied (see DenseFactor).
+        double scale = 1.0;
+        /// To E: functions there by functions there.
+        Eigen::MatrixXd energy;
+    };
+
     void find_functions();
     void list_functions();
     void analyse();
@@ -61,26 +86,12 @@ class CoarseSpace {
     IndexLists functions_at_;
     /// Per function: where it stands among the values of `functions_at_`.
     IndexLists places_;
-    /// Per function: its unknown, in the order of elimination.
-    std::vector<Index> unknown_of_;
-    std::optional<LdlSolver> solver_;
-    LdlWorkspace workspace_;
-    KeptMemory memory_;
-    /// The entries of E, on and above the diagonal; where each of `entries` stands among them, and the diagonal.
-    std::vector<double> values_;
-    std::vector<Index> slots_;
-    std::vector<Index> diagonal_slots_;
-    /// Per sub-mesh, its share of S Z: a column with DenseFactor::room for each function there, and zeros to make their
-    /// number a multiple of three.
-    std::vector<AlignedFloats> products_;
-    /// Per sub-mesh, by what that has to be multiplied (see DenseFactor).
-    std::vector<double> scales_;
-    /// Per sub-mesh, its share of E: functions there by functions there.
-    std::vector<Eigen::MatrixXd> energies_;
+    Energy energy_;
+    /// Per sub-mesh.
+    std::vector<Share> shares_;
     /// Per value of `functions_at_`, the sub-mesh's share of Zᵀ S y.
-    Points shares_;
+    Points products_with_y_;
     Columns coefficients_;
-    bool is_factorised_ = false;
 };
 
 }  // namespace seamflow

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "partition/errors.h"
 #include "solvers/direct/dense_factor.h"
-#include "solvers/systems/messages.h"
+#include "solvers/systems/checks.h"
 
 namespace seamflow {
 
@@ -27,24 +26,23 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
         coarse_.emplace(copies_);
 }
 
-InterfaceResult InterfaceEquation::solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
+InterfaceResult InterfaceEquation::solve(std::span<const SchurComplement> complements, const Points& right_hand_sides,
                                          const Points& guess, const IterationStop& stop, Points& x, const Loop& loop)
 {
     x.setZero(copies_.n_vertices(), 3);
-    weigh_copies(systems, loop);
+    weigh_copies(complements, loop);
     if (coarse_)
-        coarse_->prepare(systems, weights_, loop);
+        coarse_->prepare(complements, weights_, loop);
     sum_copies(right_hand_sides, right_hand_side_, loop);
     const Point unit = measure_right_hand_side();
     vectors_.begin(right_hand_side_, loop);
-    const auto multiply = [&](const Points& p, Points& product) { this->multiply(systems, p, product, loop); };
-    const auto precondition = [&](const Points& r, Points& z) { this->precondition(systems, r, z, loop); };
-    const auto measure = [&](const Points& at_x, Points& r) { measure_residual(systems, at_x, r, loop); };
+    const auto multiply = [&](const Points& p, Points& product) { this->multiply(complements, p, product, loop); };
+    const auto precondition = [&](const Points& r, Points& z) { this->precondition(complements, r, z, loop); };
+    const auto measure = [&](const Points& at_x, Points& r) { measure_residual(complements, at_x, r, loop); };
     if (stop.iterations > 0)
         start(multiply, guess.array().rowwise() / unit.array(), x, loop);
     InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, loop)};
-    if (!std::isfinite(result.residual))
-        throw ComputationError(result_not_finite);
+    require_finite_result(std::isfinite(result.residual));
     precondition(vectors_.r, vectors_.z);
     result.estimated_distance = estimate_distance(unit);
     x.array().rowwise() *= unit.array();
@@ -71,10 +69,10 @@ double InterfaceEquation::estimate_distance(const Point& unit) const
 }
 
 /// By the diagonals of the Schur complements.
-void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop)
+void InterfaceEquation::weigh_copies(std::span<const SchurComplement> complements, const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
-        const std::vector<double>& diagonal = systems[s]->schur().diagonal();
+        const std::vector<double>& diagonal = complements[s].single().diagonal();
         std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[s]);
     });
     for_each(loop, copies_.n_vertices(), [&](Index v) {
@@ -87,7 +85,7 @@ void InterfaceEquation::weigh_copies(std::span<const NeumannSystem* const> syste
 }
 
 /// In double precision. The shares of the right-hand side may cancel each other almost wholly: only their sum is used.
-void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> systems, const Points& x,
+void InterfaceEquation::measure_residual(std::span<const SchurComplement> complements, const Points& x,
                                          Points& residual, const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
@@ -98,7 +96,7 @@ void InterfaceEquation::measure_residual(std::span<const NeumannSystem* const> s
             local.row(i) = x.row(copies_.vertex[first + i]);
         auto change = residual_copies_.middleRows(first, n);
         change.setZero();
-        systems[s]->subtract_schur(local, change);
+        complements[s].subtract_product(local, change);
     });
     sum_copies(residual_copies_, residual, loop);
     residual += right_hand_side_;
@@ -132,20 +130,20 @@ void InterfaceEquation::start(const Multiply& multiply, const Points& guess, Poi
     vectors_.alpha.setOnes();
 }
 
-void InterfaceEquation::multiply(std::span<const NeumannSystem* const> systems, const Points& direction,
-                                 Points& product, const Loop& loop)
+void InterfaceEquation::multiply(std::span<const SchurComplement> complements, const Points& direction, Points& product,
+                                 const Loop& loop)
 {
-    on_each(systems, direction, false, product, loop,
+    on_each(complements, direction, false, product, loop,
             [](const DenseFactor& schur, FloatColumns columns, FloatColumns result) {
                 schur.multiply(columns, result);
                 return std::pair(result, schur.scale());
             });
 }
 
-void InterfaceEquation::precondition(std::span<const NeumannSystem* const> systems, const Points& residual,
+void InterfaceEquation::precondition(std::span<const SchurComplement> complements, const Points& residual,
                                      Points& preconditioned, const Loop& loop)
 {
-    on_each(systems, residual, true, preconditioned, loop,
+    on_each(complements, residual, true, preconditioned, loop,
             [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
                 schur.solve(columns, scratch);
                 return std::pair(columns, 1.0 / schur.scale());
@@ -158,13 +156,13 @@ void InterfaceEquation::precondition(std::span<const NeumannSystem* const> syste
 /// their own, so that single precision has room for lengths of any unit; `apply` returns which columns have its result,
 /// and by what that is to be multiplied.
 template <class Apply>
-void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, const Points& source, bool weighted,
+void InterfaceEquation::on_each(std::span<const SchurComplement> complements, const Points& source, bool weighted,
                                 Points& target, const Loop& loop, Apply&& apply)
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[copy] : 1.0; };
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
         if (s + 1 < copies_.n_sub_meshes())
-            systems[s + 1]->schur().prefetch();
+            complements[s + 1].single().prefetch();
         const Index n = copies_.n_in(s);
         const Index first = copies_.first[s];
         const std::size_t room = DenseFactor::room(n);
@@ -195,7 +193,7 @@ void InterfaceEquation::on_each(std::span<const NeumannSystem* const> systems, c
         // What was not finite may have been in a solution before.
         for (std::size_t c = 0; c < 6; ++c)
             std::fill(columns.x + c * room + at(n), columns.x + (c + 1) * room, 0.0F);
-        const std::pair<FloatColumns, double> applied = apply(systems[s]->schur(), columns, scratch);
+        const std::pair<FloatColumns, double> applied = apply(complements[s].single(), columns, scratch);
         const FloatColumns& result = applied.first;
         const Point factor = applied.second * unit;
         for (Index i = 0; i < n; ++i) {

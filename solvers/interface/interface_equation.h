@@ -8,17 +8,11 @@
 #include "partition/loop.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
+#include "solvers/interface/interface_result.h"
 #include "solvers/krylov/conjugate_gradients.h"
-#include "solvers/systems/neumann_system.h"
+#include "solvers/systems/schur_complement.h"
 
 namespace seamflow {
-
-/// How the iteration for the interface equation ended; the residual is the largest of those of x, y and z.
-struct InterfaceResult : IterationResult {
-    /// Largest row of the preconditioned residual, scaled like the last iteration: an estimate of the largest distance
-    /// to the solution, in units of length.
-    double estimated_distance = 0.0;
-};
 
 /// Whether the preconditioner is balanced by a CoarseSpace. There are fewer iterations then, but each iteration and the
 /// start of each solution cost more. It pays where sub-meshes are narrow against √dt.
@@ -32,8 +26,8 @@ enum class Balancing {
 /// \f[ S\, x = \sum_i S_i\, x = \sum_i g_i , \qquad
 ///     S_i = A_{\Gamma\Gamma} - A_{\Gamma I}\, A_{II}^{-1} A_{I\Gamma} , \f]
 ///
-/// sums over the sub-meshes, each with the Schur complement of its share A = M + dt K (see NeumannSystem) after its
-/// interior I. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
+/// sums over the sub-meshes, each with the Schur complement of its share A = M + dt K (see NeumannSystem), its interior
+/// I condensed. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
 /// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
 /// single precision, in units that leave it room; the residual is renewed in double precision without beginning anew.
 /// Sums are taken in a fixed order: the bits do not depend on how loops are run.
@@ -46,30 +40,32 @@ class InterfaceEquation {
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
     /// Solves.
-    /// @param systems factorised.
+    /// @param complements one per sub-mesh.
     /// @param right_hand_sides one row per copy: each sub-mesh's share g_i.
     /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
     /// @param guess one row per vertex of Γ: a direction in which the solution may be expected, or no rows.
     /// @param x receives the solution, one row per vertex of Γ.
+    /// @returns the largest residual of x, y and z; as distance the largest row of the preconditioned residual, scaled
+    ///          like the last iteration.
     /// @throws ComputationError if the right-hand side or the result is not finite.
-    InterfaceResult solve(std::span<const NeumannSystem* const> systems, const Points& right_hand_sides,
+    InterfaceResult solve(std::span<const SchurComplement> complements, const Points& right_hand_sides,
                           const Points& guess, const IterationStop& stop, Points& x, const Loop& loop);
 
   private:
-    void weigh_copies(std::span<const NeumannSystem* const> systems, const Loop& loop);
+    void weigh_copies(std::span<const SchurComplement> complements, const Loop& loop);
     void sum_copies(const Points& copies, Points& sums, const Loop& loop);
-    void measure_residual(std::span<const NeumannSystem* const> systems, const Points& x, Points& residual,
+    void measure_residual(std::span<const SchurComplement> complements, const Points& x, Points& residual,
                           const Loop& loop);
     template <class Multiply>
     void start(const Multiply& multiply, const Points& guess, Points& x, const Loop& loop);
     Point measure_right_hand_side();
     [[nodiscard]] double estimate_distance(const Point& unit) const;
-    void multiply(std::span<const NeumannSystem* const> systems, const Points& direction, Points& product,
+    void multiply(std::span<const SchurComplement> complements, const Points& direction, Points& product,
                   const Loop& loop);
-    void precondition(std::span<const NeumannSystem* const> systems, const Points& residual, Points& preconditioned,
+    void precondition(std::span<const SchurComplement> complements, const Points& residual, Points& preconditioned,
                       const Loop& loop);
     template <class Apply>
-    void on_each(std::span<const NeumannSystem* const> systems, const Points& source, bool weighted, Points& target,
+    void on_each(std::span<const SchurComplement> complements, const Points& source, bool weighted, Points& target,
                  const Loop& loop, Apply&& apply);
 
     InterfaceCopies copies_;

@@ -33,13 +33,13 @@ double longest_row(const Points& a)
 
 }  // namespace
 
-TraceEquation::TraceEquation(std::span<SchwarzBlock* const> blocks, Index n_vertices)
+TraceEquation::TraceEquation(Blocks blocks, Index n_vertices)
     : ends_(blocks.size())
     , basis_(0)
 {
     constexpr Index unmarked = -1;
     std::vector<Index> number_of(n_vertices, unmarked);
-    for (const SchwarzBlock* block : blocks)
+    for (const auto& block : blocks)
         for (const Index v : block->beyond())
             number_of[block->sub_mesh().local_to_global[v]] = 0;
     Index n = 0;
@@ -63,35 +63,35 @@ TraceEquation::TraceEquation(std::span<SchwarzBlock* const> blocks, Index n_vert
     basis_ = KrylovBasis(n);
 }
 
-TraceResult TraceEquation::solve(std::span<SchwarzBlock* const> blocks, const IterationStop& stop, Points& x,
-                                 const Threads& threads)
+InterfaceResult TraceEquation::solve(const FactorisedBlocks& system, const IterationStop& stop, Points& x,
+                                     const Threads& threads)
 {
-    for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
-        const SchwarzBlock& block = *blocks[s];
+    for_each(threads.loop, static_cast<Index>(ends_.size()), [&](Index s) {
+        const SchwarzBlock& block = *system.blocks[s];
         for (std::size_t i = 0; i < ends_[s].outputs.size(); ++i)
             traces_.row(first_[s] + static_cast<Index>(i)) =
                 x.row(block.sub_mesh().local_to_global[block.unknowns()[ends_[s].outputs[i]]]);
     });
-    renew(blocks, x, threads);
+    renew(system, x, threads);
     const Loop& loop = threads.loop;
     const double unit = std::max(norm(residual_, loop), rounding * norm(traces_, loop) / stop.tolerance);
-    const auto multiply = [&](const Points& p, Points& product) { this->multiply(blocks, p, product, threads); };
-    const auto measure = [&] { renew(blocks, x, threads); };
+    const auto multiply = [&](const Points& p, Points& product) { this->multiply(system, p, product, threads); };
+    const auto measure = [&] { renew(system, x, threads); };
     const GmresResult found = gmres(multiply, measure, {stop.tolerance * unit, stop.iterations},
                                     most_directions(size()), basis_, traces_, residual_, loop);
-    TraceResult result{found};
+    InterfaceResult result{found};
     result.residual = unit > 0.0 ? found.residual / unit : 0.0;
     result.estimated_distance = std::max(1.0, amplified_share * found.amplification) * longest_row(residual_);
     return result;
 }
 
 /// All vertices from the traces, and the traces' residual T g + c - g.
-void TraceEquation::renew(std::span<SchwarzBlock* const> blocks, Points& x, const Threads& threads)
+void TraceEquation::renew(const FactorisedBlocks& system, Points& x, const Threads& threads)
 {
-    for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
-        SchwarzBlock& block = *blocks[s];
+    for_each(threads.loop, static_cast<Index>(ends_.size()), [&](Index s) {
+        const SchwarzBlock& block = *system.blocks[s];
         SolverWorkspace& workspace = threads.workspace();
-        solve_block(block, ends_[s], traces_, SchwarzBlock::RightHandSide::Step, workspace);
+        solve_block(system, s, traces_, SchwarzBlock::RightHandSide::Step, workspace);
         const SubMesh& sub_mesh = block.sub_mesh();
         for (std::size_t u = 0; u < block.unknowns().size(); ++u)
             if (sub_mesh.owned[block.unknowns()[u]] != 0)
@@ -106,12 +106,12 @@ void TraceEquation::renew(std::span<SchwarzBlock* const> blocks, Points& x, cons
 }
 
 /// (I - T) p.
-void TraceEquation::multiply(std::span<SchwarzBlock* const> blocks, const Points& p, Points& product,
+void TraceEquation::multiply(const FactorisedBlocks& system, const Points& p, Points& product,
                              const Threads& threads) const
 {
-    for_each(threads.loop, static_cast<Index>(blocks.size()), [&](Index s) {
+    for_each(threads.loop, static_cast<Index>(ends_.size()), [&](Index s) {
         SolverWorkspace& workspace = threads.workspace();
-        solve_block(*blocks[s], ends_[s], p, SchwarzBlock::RightHandSide::Zero, workspace);
+        solve_block(system, s, p, SchwarzBlock::RightHandSide::Zero, workspace);
         Index trace = first_[s];
         for (const Index u : ends_[s].outputs) {
             product.row(trace) = p.row(trace) - workspace.solution.row(u);
@@ -121,14 +121,15 @@ void TraceEquation::multiply(std::span<SchwarzBlock* const> blocks, const Points
 }
 
 /// The result is in workspace.solution.
-void TraceEquation::solve_block(SchwarzBlock& block, const Ends& ends, const Points& traces,
+void TraceEquation::solve_block(const FactorisedBlocks& system, Index s, const Points& traces,
                                 SchwarzBlock::RightHandSide right_hand_side, SolverWorkspace& workspace) const
 {
+    const Ends& ends = ends_[s];
     Points& given = workspace.positions;
     set_rows(given, static_cast<Eigen::Index>(ends.inputs.size()));
     for (std::size_t i = 0; i < ends.inputs.size(); ++i)
         given.row(static_cast<Eigen::Index>(i)) = traces.row(ends.inputs[i]);
-    block.solve(given, right_hand_side, workspace.solution, workspace);
+    system.blocks[s]->solve(system.factors[s], given, right_hand_side, workspace.solution, workspace);
 }
 
 }  // namespace seamflow

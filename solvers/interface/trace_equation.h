@@ -1,22 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "partition/loop.h"
+#include "solvers/interface/interface_result.h"
 #include "solvers/krylov/gmres.h"
 #include "solvers/systems/schwarz_block.h"
 
 namespace seamflow {
-
-/// How the iteration for the trace equation ended.
-struct TraceResult : IterationResult {
-    /// The longest row of the residual, in length, times the typical amplification of residuals (see GmresCycle). It
-    /// estimates the largest distance to the exact step, rather too high, since the blocks' last solve reduces the
-    /// error further.
-    double estimated_distance = 0.0;
-};
 
 /// The whole backward Euler step as an equation on traces: g are the positions of those vertices that occur in the
 /// equations of a block (see SchwarzBlock) without being among its unknowns. Every block, solved with g given, finds
@@ -32,21 +26,28 @@ class TraceEquation {
         std::function<SolverWorkspace&()> workspace;
     };
 
-    /// @param blocks of parts that share out the mesh; the same, in the same order, wherever blocks are asked for.
+    /// Blocks of parts that share out the mesh.
+    using Blocks = std::span<const std::unique_ptr<SchwarzBlock>>;
+    /// The same blocks, in the same order, each with its factor of a step.
+    struct FactorisedBlocks {
+        Blocks blocks;
+        std::span<const SchwarzBlock::Factor> factors;
+    };
+
     /// @param n_vertices of the whole mesh.
-    TraceEquation(std::span<SchwarzBlock* const> blocks, Index n_vertices);
+    TraceEquation(Blocks blocks, Index n_vertices);
 
     /// Number of vertices in the equation.
     [[nodiscard]] Index size() const { return first_.back(); }
 
     /// Solves.
-    /// @param blocks factorised.
     /// @param stop residual relative to that at the beginning, in the Euclidean norm over x, y and z; or to what
     ///        rounding alone makes of the positions, whatever is larger. The tolerance is positive.
     /// @param x #V by 3. In: Vᵏ, where the iteration starts. Out: Vᵏ⁺¹.
+    /// @returns as distance the longest row of the residual times the typical amplification of residuals (see
+    ///          GmresCycle): rather too high, since the blocks' last solve reduces the error further.
     /// @throws ComputationError if a result is not finite.
-    TraceResult solve(std::span<SchwarzBlock* const> blocks, const IterationStop& stop, Points& x,
-                      const Threads& threads);
+    InterfaceResult solve(const FactorisedBlocks& system, const IterationStop& stop, Points& x, const Threads& threads);
 
   private:
     /// What a block takes from the traces and gives to them.
@@ -57,11 +58,10 @@ class TraceEquation {
         std::vector<Index> outputs;
     };
 
-    void solve_block(SchwarzBlock& block, const Ends& ends, const Points& traces,
+    void solve_block(const FactorisedBlocks& system, Index s, const Points& traces,
                      SchwarzBlock::RightHandSide right_hand_side, SolverWorkspace& workspace) const;
-    void renew(std::span<SchwarzBlock* const> blocks, Points& x, const Threads& threads);
-    void multiply(std::span<SchwarzBlock* const> blocks, const Points& p, Points& product,
-                  const Threads& threads) const;
+    void renew(const FactorisedBlocks& system, Points& x, const Threads& threads);
+    void multiply(const FactorisedBlocks& system, const Points& p, Points& product, const Threads& threads) const;
 
     std::vector<Ends> ends_;
     /// Per block, the number of its first output; then the number of all.

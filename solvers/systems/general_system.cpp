@@ -1,25 +1,26 @@
 #include "solvers/systems/general_system.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <utility>
 
-#include "partition/errors.h"
-#include "solvers/systems/messages.h"
+#include "solvers/systems/checks.h"
 
 namespace seamflow {
 
-GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
-                             std::unique_ptr<TransmissionCondition> condition, Factorisation factorisation)
-    : sub_mesh_(&sub_mesh)
+GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCondition> condition)
+    : sub_mesh_(&parts.sub_mesh)
+    , twin_(std::move(parts.twin))
     , condition_(std::move(condition))
-    , laplacian_(make_assembler(laplacian, faces_of(sub_mesh)))
-    , right_hand_side_(sub_mesh.n_vertices, 3)
-    , solution_(sub_mesh.n_vertices, 3)
+    , right_hand_side_(sub_mesh_->n_vertices, 3)
+    , solution_(sub_mesh_->n_vertices, 3)
 {
+    const SubMesh& sub_mesh = *sub_mesh_;
     make_rows();
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
-    const std::vector<MatrixEntry> laplacian_entries = laplacian_->entries();
+    auto assembler = make_assembler(
+        parts.laplacian, {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, twin_, sub_mesh.n_vertices});
+    const std::vector<MatrixEntry> laplacian_entries = assembler->entries();
 
     std::vector<MatrixEntry> entries;
     entries.reserve(laplacian_entries.size());
@@ -30,19 +31,16 @@ GeneralSystem::GeneralSystem(const SubMesh& sub_mesh, Laplacian laplacian,
     for (Index i = 0; i < interface_columns.size(); ++i)
         for (const Index column : interface_columns[i])
             entries.push_back({column, sub_mesh.interface.vertices[i]});
-    pattern_ = std::make_unique<SparsePattern>(make_pattern(sub_mesh.n_vertices, entries));
+    SparsePattern pattern = make_pattern(sub_mesh.n_vertices, entries);
 
-    const Index unread = pattern_->n_entries();
-    laplacian_slots_.reserve(laplacian_entries.size());
+    std::vector<Index> slots;
+    slots.reserve(laplacian_entries.size());
     for (const MatrixEntry& entry : laplacian_entries)
-        laplacian_slots_.push_back(is_laplacian(entry) ? pattern_->slot(entry) : unread);
-    for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-        diagonal_slots_.push_back(pattern_->slot({v, v}));
+        slots.push_back(is_laplacian(entry) ? pattern.slot(entry) : pattern.n_entries());
     for (Index i = 0; i < interface_columns.size(); ++i)
         for (const Index column : interface_columns[i])
-            interface_slots_.push_back(pattern_->slot({column, sub_mesh.interface.vertices[i]}));
-    values_.resize(at(unread) + 1);
-    solver_ = make_general_solver(*pattern_, factorisation);
+            interface_slots_.push_back(pattern.slot({column, sub_mesh.interface.vertices[i]}));
+    matrix_.emplace(std::move(assembler), std::move(pattern), std::move(slots), 0, parts.factorisation);
 }
 
 void GeneralSystem::make_rows()
@@ -55,19 +53,19 @@ void GeneralSystem::make_rows()
         row_of_[v] = Row::Interface;
 }
 
-void GeneralSystem::assemble(const Points& positions, const Points& other_side, double time_step, double p,
-                             std::span<const InterfaceRole> roles, SolverWorkspace&)
+SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const Points& other_side, double time_step,
+                                                 double p, std::span<const InterfaceRole> roles, SolverWorkspace&)
 {
     roles_.assign(roles.begin(), roles.end());
-    std::fill(values_.begin(), values_.end(), 0.0);
-    laplacian_->add(positions, time_step, laplacian_slots_, values_);
+    const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
-            values_[diagonal_slots_[v]] += 1.0;
+            matrix_->diagonal(v) += 1.0;
         right_hand_side_.row(v) = positions.row(v);
     }
     condition_->begin_step(positions, other_side, time_step, p);
     assemble_interface(positions, other_side);
+    return equations;
 }
 
 void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)
@@ -76,25 +74,21 @@ void GeneralSystem::assemble_interface(const Points& positions, const Points& ot
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i) {
         const auto begin = at(condition_->columns().offsets[i]);
         if (roles_[i] == InterfaceRole::Follows) {
-            values_[diagonal_slots_[vertices[i]]] = 1.0;
+            matrix_->diagonal(vertices[i]) = 1.0;
             continue;
         }
         row_.resize(condition_->columns()[i].size());
         condition_->left_hand_side(i, positions, row_);
         right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side);
         for (std::size_t k = 0; k < row_.size(); ++k)
-            values_[interface_slots_[begin + k]] = row_[k];
+            matrix_->at_slot(interface_slots_[begin + k]) = row_[k];
     }
 }
 
-void GeneralSystem::factorise(SolverWorkspace& workspace)
+SubMeshSystem::Factor GeneralSystem::factorise(const Assembled& equations, FactorMemory& memory,
+                                               SolverWorkspace& workspace)
 {
-    const auto values = std::span<const double>(values_).first(values_.size() - 1);
-    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-        throw ComputationError(equations_not_finite);
-    if (!solver_->factorise(values, workspace))
-        throw ComputationError(system_singular);
-    n_nearly_singular_ += solver_->is_nearly_singular() ? 1 : 0;
+    return *matrix_->factorise(equations.matrix, memory, workspace);
 }
 
 void GeneralSystem::use_other_side(const Points& positions, const Points& other_side)
@@ -105,27 +99,26 @@ void GeneralSystem::use_other_side(const Points& positions, const Points& other_
             right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side);
 }
 
-void GeneralSystem::predict(const Points& positions, Points& prediction, SolverWorkspace& workspace)
+void GeneralSystem::predict(const Factor& factor, const Points& positions, Points& prediction,
+                            SolverWorkspace& workspace)
 {
-    solve_with(positions, prediction, workspace);
+    solve_with(factor, positions, prediction, workspace);
 }
 
-void GeneralSystem::solve(const Points&, Points& solution, SolverWorkspace& workspace)
+void GeneralSystem::solve(const Factor& factor, const Points&, Points& solution, SolverWorkspace& workspace)
 {
-    solve_with(solution, solution, workspace);
-    solver_->free_factor(*workspace.factors);
+    solve_with(factor, solution, solution, workspace);
 }
 
 /// @param given #local by 3: Vᵏ⁺¹, or what stands for it, where the sub-mesh follows; may be the solution itself.
-void GeneralSystem::solve_with(const Points& given, Points& solution, SolverWorkspace& workspace)
+void GeneralSystem::solve_with(const Factor& factor, const Points& given, Points& solution, SolverWorkspace& workspace)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (roles_[i] == InterfaceRole::Follows)
             right_hand_side_.row(vertices[i]) = given.row(vertices[i]);
-    solver_->solve(right_hand_side_, solution_, workspace);
-    if (!solution_.allFinite())
-        throw ComputationError(result_not_finite);
+    factor.solve(right_hand_side_, solution_, workspace);
+    require_finite_result(solution_.allFinite());
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v)
         solution.row(v) = row_of_[v] == Row::Fixed ? right_hand_side_.row(v) : solution_.row(v);
     for (std::size_t i = 0; i < vertices.size(); ++i)

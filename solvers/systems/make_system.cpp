@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
@@ -15,7 +16,7 @@ bool are_triangles(const IndexLists& fans, const IndexLists& faces)
 }
 
 /// Whether the rows on Γ are those of a symmetric matrix: see predicted_side.h.
-bool yields_everywhere(const SubMesh& sub_mesh, Laplacian laplacian)
+bool has_symmetric_rows(const SubMesh& sub_mesh, Laplacian laplacian)
 {
     const auto& interface = sub_mesh.interface;
     const LaplacianTraits& traits = traits_of(laplacian);
@@ -28,30 +29,28 @@ bool yields_everywhere(const SubMesh& sub_mesh, Laplacian laplacian)
 
 }  // namespace
 
-std::unique_ptr<SubMeshSystem> make_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                           std::unique_ptr<TransmissionCondition> condition, SolverWorkspace& workspace,
-                                           Factorisation factorisation)
+std::unique_ptr<SubMeshSystem> make_system(SystemParts parts, std::unique_ptr<TransmissionCondition> condition,
+                                           SolverWorkspace& workspace)
 {
-    if (sub_mesh.interface.vertices.empty())
-        return make_following_system(sub_mesh, laplacian, workspace, factorisation);
-    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, std::move(condition), factorisation);
+    if (parts.sub_mesh.interface.vertices.empty())
+        return make_following_system(std::move(parts), workspace);
+    return std::make_unique<GeneralSystem>(std::move(parts), std::move(condition));
 }
 
-std::unique_ptr<SubMeshSystem> make_predicted_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                                     SolverWorkspace& workspace, Factorisation factorisation)
+std::unique_ptr<SubMeshSystem> make_predicted_system(SystemParts parts, SolverWorkspace& workspace)
 {
-    if (factorisation != Factorisation::Umfpack && yields_everywhere(sub_mesh, laplacian))
-        return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::Yielding, factorisation,
-                                                 workspace);
-    return make_system(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian), workspace, factorisation);
+    if (parts.factorisation != Factorisation::Umfpack && has_symmetric_rows(parts.sub_mesh, parts.laplacian))
+        return std::make_unique<SymmetricSystem>(parts, SymmetricRows::Transmission, workspace);
+    auto condition = make_predicted_side(parts.sub_mesh, parts.laplacian);
+    return make_system(std::move(parts), std::move(condition), workspace);
 }
 
-std::unique_ptr<SubMeshSystem> make_following_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                                     SolverWorkspace& workspace, Factorisation factorisation)
+std::unique_ptr<SubMeshSystem> make_following_system(SystemParts parts, SolverWorkspace& workspace)
 {
-    if (factorisation != Factorisation::Umfpack && is_symmetric(laplacian))
-        return std::make_unique<SymmetricSystem>(sub_mesh, laplacian, SymmetricRows::None, factorisation, workspace);
-    return std::make_unique<GeneralSystem>(sub_mesh, laplacian, make_dirichlet(sub_mesh), factorisation);
+    if (parts.factorisation != Factorisation::Umfpack && is_symmetric(parts.laplacian))
+        return std::make_unique<SymmetricSystem>(parts, SymmetricRows::Dirichlet, workspace);
+    auto condition = make_dirichlet(parts.sub_mesh);
+    return std::make_unique<GeneralSystem>(std::move(parts), std::move(condition));
 }
 
 }  // namespace seamflow

@@ -1,11 +1,9 @@
 #include "solvers/systems/schwarz_block.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "partition/errors.h"
-#include "solvers/direct/columns.h"
-#include "solvers/systems/messages.h"
+#include "solvers/systems/checks.h"
 
 namespace seamflow {
 
@@ -28,34 +26,34 @@ Index place_of(const std::vector<Value>& ascending, const Value& value)
 
 SchwarzBlock::SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation)
     : part_(&part)
-    , laplacian_(make_assembler(laplacian, faces_of(part.sub_mesh)))
-    , unknown_of_(part.sub_mesh.n_vertices, -1)
     , right_hand_side_(static_cast<Eigen::Index>(part.unknowns.size()), 3)
 {
     const auto n = static_cast<Index>(part.unknowns.size());
+    std::vector<Index> unknown_of(part.sub_mesh.n_vertices, -1);
     for (Index u = 0; u < n; ++u)
-        unknown_of_[part.unknowns[u]] = u;
-    const std::vector<MatrixEntry> of_laplacian = laplacian_->entries();
+        unknown_of[part.unknowns[u]] = u;
+    auto assembler = make_assembler(laplacian, faces_of(part.sub_mesh));
+    const std::vector<MatrixEntry> of_laplacian = assembler->entries();
     std::vector<MatrixEntry> entries;
     entries.reserve(of_laplacian.size());
     for (const auto& [column, row] : of_laplacian)
-        if (unknown_of_[row] >= 0 && unknown_of_[column] >= 0)
-            entries.push_back({unknown_of_[column], unknown_of_[row]});
+        if (unknown_of[row] >= 0 && unknown_of[column] >= 0)
+            entries.push_back({unknown_of[column], unknown_of[row]});
     for (Index u = 0; u < n; ++u)
         entries.push_back({u, u});
-    pattern_ = std::make_unique<SparsePattern>(make_pattern(n, entries));
-    list_couplings(of_laplacian);
-    make_slots(of_laplacian);
-    if (n > 0)
-        solver_ = make_general_solver(*pattern_, factorisation);
+    SparsePattern pattern = make_pattern(n, entries);
+    list_couplings(of_laplacian, unknown_of);
+    std::vector<Index> slots = make_slots(of_laplacian, unknown_of, pattern);
+    matrix_.emplace(std::move(assembler), std::move(pattern), std::move(slots),
+                    beyond_couplings_.size() + fixed_couplings_.size(), factorisation);
 }
 
-void SchwarzBlock::list_couplings(const std::vector<MatrixEntry>& entries)
+void SchwarzBlock::list_couplings(const std::vector<MatrixEntry>& entries, const std::vector<Index>& unknown_of)
 {
     const auto& fixed = part_->sub_mesh.fixed;
     for (const auto& [column, row] : entries)
-        if (unknown_of_[row] >= 0 && unknown_of_[column] < 0)
-            (fixed[column] != 0 ? fixed_couplings_ : beyond_couplings_).push_back({unknown_of_[row], column});
+        if (unknown_of[row] >= 0 && unknown_of[column] < 0)
+            (fixed[column] != 0 ? fixed_couplings_ : beyond_couplings_).push_back({unknown_of[row], column});
     keep_one_of_each(fixed_couplings_);
     keep_one_of_each(beyond_couplings_);
     for (const Coupling& coupling : beyond_couplings_)
@@ -63,59 +61,48 @@ void SchwarzBlock::list_couplings(const std::vector<MatrixEntry>& entries)
     keep_one_of_each(beyond_);
 }
 
-void SchwarzBlock::make_slots(const std::vector<MatrixEntry>& entries)
+std::vector<Index> SchwarzBlock::make_slots(const std::vector<MatrixEntry>& entries,
+                                            const std::vector<Index>& unknown_of, const SparsePattern& pattern)
 {
-    const Index first_beyond = pattern_->n_entries();
+    const Index first_beyond = pattern.n_entries();
     const Index first_fixed = first_beyond + static_cast<Index>(beyond_couplings_.size());
     const Index unread = first_fixed + static_cast<Index>(fixed_couplings_.size());
-    slots_.reserve(entries.size());
+    std::vector<Index> slots;
+    slots.reserve(entries.size());
     for (const auto& [column, row] : entries) {
-        const Index unknown = unknown_of_[row];
+        const Index unknown = unknown_of[row];
         if (unknown < 0)
-            slots_.push_back(unread);
-        else if (unknown_of_[column] >= 0)
-            slots_.push_back(pattern_->slot({unknown_of_[column], unknown}));
+            slots.push_back(unread);
+        else if (unknown_of[column] >= 0)
+            slots.push_back(pattern.slot({unknown_of[column], unknown}));
         else if (part_->sub_mesh.fixed[column] != 0)
-            slots_.push_back(first_fixed + place_of(fixed_couplings_, Coupling{unknown, column}));
+            slots.push_back(first_fixed + place_of(fixed_couplings_, Coupling{unknown, column}));
         else
-            slots_.push_back(first_beyond + place_of(beyond_couplings_, Coupling{unknown, column}));
+            slots.push_back(first_beyond + place_of(beyond_couplings_, Coupling{unknown, column}));
     }
-    for (Index u = 0; u < pattern_->n(); ++u)
-        diagonal_slots_.push_back(pattern_->slot({u, u}));
     for (Coupling& coupling : beyond_couplings_)
         coupling.vertex = place_of(beyond_, coupling.vertex);
-    values_.resize(at(unread) + 1);
+    return slots;
 }
 
-void SchwarzBlock::assemble(const Points& positions, double time_step)
+SchwarzBlock::Assembled SchwarzBlock::assemble(const Points& positions, double time_step)
 {
-    std::fill(values_.begin(), values_.end(), 0.0);
-    laplacian_->add(positions, time_step, slots_, values_);
-    for (Index u = 0; u < pattern_->n(); ++u) {
-        values_[diagonal_slots_[u]] += 1.0;
+    const Assembled equations{matrix_->fill(positions, time_step)};
+    for (Index u = 0; u < matrix_->n(); ++u) {
+        matrix_->diagonal(u) += 1.0;
         right_hand_side_.row(u) = positions.row(part_->unknowns[u]);
     }
-    const double* value = values_.data() + pattern_->rows.size() + beyond_couplings_.size();
+    const double* value = matrix_->further() + beyond_couplings_.size();
     for (const auto& [unknown, vertex] : fixed_couplings_)
         right_hand_side_.row(unknown) -= *value++ * positions.row(vertex);
+    return equations;
 }
 
-void SchwarzBlock::factorise(SolverWorkspace& workspace)
-{
-    if (!std::all_of(values_.begin(), values_.end() - 1, [](double value) { return std::isfinite(value); }))
-        throw ComputationError(equations_not_finite);
-    if (!solver_)
-        return;
-    if (!solver_->factorise(std::span<const double>(values_).first(pattern_->rows.size()), workspace))
-        throw ComputationError(system_singular);
-    n_nearly_singular_ += solver_->is_nearly_singular() ? 1 : 0;
-}
-
-void SchwarzBlock::solve(const Points& given, RightHandSide right_hand_side, Columns& solution,
-                         SolverWorkspace& workspace)
+void SchwarzBlock::solve(const Factor& factor, const Points& given, RightHandSide right_hand_side, Columns& solution,
+                         SolverWorkspace& workspace) const
 {
     set_rows(solution, right_hand_side_.rows());
-    if (!solver_)
+    if (!factor)
         return;
     Columns& right = workspace.right_hand_side;
     set_rows(right, right_hand_side_.rows());
@@ -123,12 +110,11 @@ void SchwarzBlock::solve(const Points& given, RightHandSide right_hand_side, Col
         right = right_hand_side_;
     else
         right.setZero();
-    const double* value = values_.data() + pattern_->rows.size();
+    const double* value = matrix_->further();
     for (const auto& [unknown, place] : beyond_couplings_)
         right.row(unknown) -= *value++ * given.row(place);
-    solver_->solve(right, solution, workspace);
-    if (!solution.allFinite())
-        throw ComputationError(result_not_finite);
+    factor->solve(right, solution, workspace);
+    require_finite_result(solution.allFinite());
 }
 
 }  // namespace seamflow

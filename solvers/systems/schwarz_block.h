@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "partition/decomposition/overlap.h"
-#include "solvers/direct/columns.h"
-#include "solvers/direct/direct_solver.h"
-#include "solvers/laplacian/laplacian_assembler.h"
+#include "solvers/systems/lu_matrix.h"
 
 namespace seamflow {
 
@@ -30,23 +28,38 @@ class SchwarzBlock {
 
     [[nodiscard]] const SubMesh& sub_mesh() const { return part_->sub_mesh; }
 
-    /// What the factor takes, in bytes; of UMFPACK's an estimate.
-    [[nodiscard]] std::size_t factor_bytes() const { return solver_ ? solver_->factor_bytes() : 0; }
+    /// What a factor takes, in bytes; of UMFPACK's an estimate.
+    [[nodiscard]] std::size_t factor_bytes() const
+    {
+        return matrix_->solver() != nullptr ? matrix_->solver()->factor_bytes() : 0;
+    }
 
     /// Whose the factorisation is (see DirectSolver::kind); nothing without unknowns.
     [[nodiscard]] std::optional<Factorisation> factorisation() const
     {
-        return solver_ ? std::optional(solver_->kind()) : std::nullopt;
+        return matrix_->solver() != nullptr ? std::optional(matrix_->solver()->kind()) : std::nullopt;
     }
 
-    /// Fills in all that follows from Vᵏ, and factorises.
+    /// The equations of a step, in the block: valid until it assembles again.
+    struct Assembled {
+        std::span<const double> values;
+    };
+    /// Without unknowns there is none.
+    using Factor = std::optional<DirectSolver::Factor>;
+
+    /// Fills in all that follows from Vᵏ.
     /// @param positions #local by 3: Vᵏ.
+    [[nodiscard]] Assembled assemble(const Points& positions, double time_step);
+
+    /// @param memory must outlive the factor, as must the block.
     /// @throws ComputationError if the equations are singular or not finite.
-    void assemble(const Points& positions, double time_step);
-    void factorise(SolverWorkspace& workspace);
+    [[nodiscard]] Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace)
+    {
+        return matrix_->factorise(equations.values, memory, workspace);
+    }
 
     /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
-    [[nodiscard]] Index n_nearly_singular() const { return n_nearly_singular_; }
+    [[nodiscard]] Index n_nearly_singular() const { return matrix_->n_nearly_singular(); }
 
     /// Which right-hand side stands beside what the vertices beyond contribute.
     enum class RightHandSide {
@@ -60,7 +73,8 @@ class SchwarzBlock {
     /// @param given #beyond by 3.
     /// @param solution receives #unknowns by 3.
     /// @throws ComputationError if the result is not finite.
-    void solve(const Points& given, RightHandSide right_hand_side, Columns& solution, SolverWorkspace& workspace);
+    void solve(const Factor& factor, const Points& given, RightHandSide right_hand_side, Columns& solution,
+               SolverWorkspace& workspace) const;
 
   private:
     /// Where a coefficient of an equation stands whose column is none of the unknowns.
@@ -71,27 +85,18 @@ class SchwarzBlock {
         friend auto operator<=>(const Coupling&, const Coupling&) = default;
     };
 
-    void list_couplings(const std::vector<MatrixEntry>& entries);
-    void make_slots(const std::vector<MatrixEntry>& entries);
+    void list_couplings(const std::vector<MatrixEntry>& entries, const std::vector<Index>& unknown_of);
+    std::vector<Index> make_slots(const std::vector<MatrixEntry>& entries, const std::vector<Index>& unknown_of,
+                                  const SparsePattern& pattern);
 
     const GrownPart* part_;
-    std::unique_ptr<LaplacianAssembler> laplacian_;
-    /// Per local vertex, its place among the unknowns, or -1.
-    std::vector<Index> unknown_of_;
     std::vector<Index> beyond_;
-    std::unique_ptr<SparsePattern> pattern_;
     std::vector<Coupling> beyond_couplings_;
     std::vector<Coupling> fixed_couplings_;
-    /// Per entry of the Laplacian: an entry of the pattern, then of `beyond_couplings_`, then of `fixed_couplings_`,
-    /// then one that nobody reads.
-    std::vector<Index> slots_;
-    std::vector<Index> diagonal_slots_;
-    std::vector<double> values_;
+    /// Its further values are those of `beyond_couplings_`, then of `fixed_couplings_`.
+    std::optional<LuMatrix> matrix_;
     /// #unknowns by 3, what fixed vertices contribute included.
     Columns right_hand_side_;
-    /// Nothing without unknowns.
-    std::unique_ptr<DirectSolver> solver_;
-    Index n_nearly_singular_ = 0;
 };
 
 }  // namespace seamflow

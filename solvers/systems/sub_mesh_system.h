@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
 #include "partition/decomposition/sweep_plan.h"
@@ -12,27 +13,23 @@
 
 namespace seamflow {
 
-/// What a system looks at of its sub-mesh's own faces when it has been constructed. The rest may go.
-enum class FacesInUse {
-    None,
-    /// SubMesh::face_vertices.
-    Corners,
-    /// SubMesh::twin as well.
-    All,
-};
-
 /// The equations of one backward Euler step on one sub-mesh, one per own vertex:
 ///   fixed vertices       V^{k+1} = V^k
 ///   Γ, following         V^{k+1} = what the leading sub-mesh found
 ///   Γ, leading           the transmission condition
 ///   all others           (I + dt Δ) V^{k+1} = V^k, Δ from the sub-mesh's own faces
 ///
-/// They are analysed once; each step fills in their values anew. The workspace may be another one in each call, but for
-/// factorise, which takes over what assemble left in it. Different systems may be used by different threads at the same
-/// time, each with a workspace of its own.
+/// They are analysed once; each step fills in their values anew. The workspace may be another one in each call.
+/// Different systems may be used by different threads at the same time, each with a workspace of its own.
 class SubMeshSystem {
   public:
     virtual ~SubMeshSystem() = default;
+
+    /// The matrix of a step, in the system or in a workspace: valid until either assembles again.
+    struct Assembled {
+        std::span<double> matrix;
+    };
+    using Factor = DirectSolver::Factor;
 
     /// Fills in all that follows from Vᵏ.
     /// @param positions #local by 3, the halo included: Vᵏ.
@@ -41,10 +38,9 @@ class SubMeshSystem {
     /// @param time_step dt, in length².
     /// @param p Robin parameter, in 1/length.
     /// @param roles one per vertex of Γ.
-    virtual void assemble(const Points& positions, const Points& other_side, double time_step, double p,
-                          std::span<const InterfaceRole> roles, SolverWorkspace& workspace) = 0;
-
-    [[nodiscard]] virtual FacesInUse faces_in_use() const { return FacesInUse::All; }
+    [[nodiscard]] virtual Assembled assemble(const Points& positions, const Points& other_side, double time_step,
+                                             double p, std::span<const InterfaceRole> roles,
+                                             SolverWorkspace& workspace) = 0;
 
     /// What a factor takes, in bytes; where that is not known beforehand, an estimate.
     [[nodiscard]] virtual std::size_t factor_bytes() const = 0;
@@ -52,9 +48,10 @@ class SubMeshSystem {
     /// Whose the factorisation is (see DirectSolver::kind).
     [[nodiscard]] virtual Factorisation factorisation() const = 0;
 
-    /// To be called after `assemble`, with the same workspace.
+    /// @param memory must outlive the factor, as must the system.
     /// @throws ComputationError if the equations are singular or not finite.
-    virtual void factorise(SolverWorkspace& workspace) = 0;
+    [[nodiscard]] virtual Factor factorise(const Assembled& equations, FactorMemory& memory,
+                                           SolverWorkspace& workspace) = 0;
 
     /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
     [[nodiscard]] virtual Index n_nearly_singular() const { return 0; }
@@ -63,36 +60,41 @@ class SubMeshSystem {
     /// @param positions #local by 3: Vᵏ.
     /// @param prediction #local by 3; receives the result at own vertices.
     /// @throws ComputationError if the result is not finite.
-    virtual void predict(const Points& positions, Points& prediction, SolverWorkspace& workspace) = 0;
+    virtual void predict(const Factor& factor, const Points& positions, Points& prediction,
+                         SolverWorkspace& workspace) = 0;
 
     /// Takes account of the other side where the sub-mesh leads.
     /// @param positions #local by 3: Vᵏ.
     /// @param other_side #local by 3: what is known of Vᵏ⁺¹ beyond Γ, on Γ and in the halo.
     virtual void use_other_side(const Points& positions, const Points& other_side) = 0;
 
-    /// Solves for Vᵏ⁺¹, then gives the factor's memory back.
+    /// Solves for Vᵏ⁺¹.
     /// @param positions #local by 3: Vᵏ.
     /// @param solution #local by 3. In: Vᵏ⁺¹ at those vertices of Γ where the sub-mesh follows. Out: Vᵏ⁺¹ at all own
     ///        vertices; where it follows, and at fixed vertices, to the bit what was given.
     /// @throws ComputationError if the result is not finite.
-    virtual void solve(const Points& positions, Points& solution, SolverWorkspace& workspace) = 0;
+    virtual void solve(const Factor& factor, const Points& positions, Points& solution, SolverWorkspace& workspace) = 0;
+};
+
+/// What a system is made of.
+struct SystemParts {
+    /// Must outlive the system.
+    const SubMesh& sub_mesh;
+    /// SubMesh::twin. Only equations that are not symmetric keep it: a twentieth of a flow's memory.
+    std::vector<Index> twin;
+    Laplacian laplacian;
+    Factorisation factorisation = Factorisation::Automatic;
 };
 
 /// The equations with a condition of any kind on Γ.
-/// @param sub_mesh must outlive the system.
 /// @throws ComputationError if the analysis fails.
-std::unique_ptr<SubMeshSystem> make_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                           std::unique_ptr<TransmissionCondition> condition, SolverWorkspace& workspace,
-                                           Factorisation factorisation = Factorisation::Automatic);
+std::unique_ptr<SubMeshSystem> make_system(SystemParts parts, std::unique_ptr<TransmissionCondition> condition,
+                                           SolverWorkspace& workspace);
 
 /// The equations where the other side is predicted (see predicted_side.h).
-std::unique_ptr<SubMeshSystem> make_predicted_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                                     SolverWorkspace& workspace,
-                                                     Factorisation factorisation = Factorisation::Automatic);
+std::unique_ptr<SubMeshSystem> make_predicted_system(SystemParts parts, SolverWorkspace& workspace);
 
 /// The equations of a sub-mesh that follows everywhere on its Γ, which may be empty.
-std::unique_ptr<SubMeshSystem> make_following_system(const SubMesh& sub_mesh, Laplacian laplacian,
-                                                     SolverWorkspace& workspace,
-                                                     Factorisation factorisation = Factorisation::Automatic);
+std::unique_ptr<SubMeshSystem> make_following_system(SystemParts parts, SolverWorkspace& workspace);
 
 }  // namespace seamflow

@@ -13,6 +13,7 @@
 #include "samples/common/meshes.h"
 #include "solvers/conditions/ventcell.h"
 #include "tests/support/flows.h"
+#include "tests/support/heap.h"
 
 using namespace seamflow;
 
@@ -50,13 +51,13 @@ class Machines {
             forget_others(s);
             states_[s].solved.setConstant(unknown);
         }
+        const Resources resources{test::heap(), workspace_};
         for (Index s = 0; s < n(); ++s)
             if (mutual())
-                assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan_, options_.time_step,
-                                              workspace_);
+                assemble_and_factorise_mutual(states_, s, decomposition_.halo[s], plan_, options_.time_step, resources);
             else
                 assemble_and_factorise(states_, s, decomposition_.halo[s], plan_.roles[s], options_.time_step,
-                                       workspace_);
+                                       resources);
         if (options_.interface.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
         for (Index rank = 0; rank < n(); ++rank)
@@ -103,14 +104,17 @@ class Machines {
 
     std::unique_ptr<SubMeshSystem> system_for(const SubMesh& sub_mesh, const FlowOptions& options)
     {
-        if (options.interface.conditions == Conditions::Schwarz)
-            return make_following_system(sub_mesh, options.laplacian, workspace_);
-        if (options.interface.conditions == Conditions::Robin)
-            return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh), workspace_);
-        if (options.interface.conditions == Conditions::Ventcell)
-            return make_system(sub_mesh, options.laplacian, make_ventcell(sub_mesh, options.interface.q.value()),
-                               workspace_);
-        return make_predicted_system(sub_mesh, options.laplacian, workspace_);
+        SystemParts parts{sub_mesh, sub_mesh.twin, options.laplacian};
+        switch (options.interface.conditions) {
+        case Conditions::Schwarz:
+            return make_following_system(std::move(parts), workspace_);
+        case Conditions::Robin:
+            return make_system(std::move(parts), make_ventcell(sub_mesh), workspace_);
+        case Conditions::Ventcell:
+            return make_system(std::move(parts), make_ventcell(sub_mesh, options.interface.q.value()), workspace_);
+        default:
+            return make_predicted_system(std::move(parts), workspace_);
+        }
     }
 
     [[nodiscard]] Index n() const { return cut_.n_parts; }

@@ -61,7 +61,7 @@ TEST_CASE("a factorisation that fails is made up for, or comes out with its step
             }
             const bool is_explicit = kind.options.scheme == Scheme::ExplicitEuler;
             CHECK((n > 2 || is_explicit));
-            // The last system of all has another chance when rows stop yielding, or with other pivots.
+            // The last system of all has another chance without responses, or with other pivots.
             if (after == After::Fails)
                 CHECK((n_complaints > 0 || is_explicit));
         }

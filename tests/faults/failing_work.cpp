@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -88,17 +89,21 @@ using namespace seamflow::test;
 
 #define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEENS_12TaskPriorityE"
 #define SEAMFLOW_LDL                                                                                                   \
-    "_ZN8seamflow9LdlSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_12LdlWorkspaceE"
+    "_ZNK8seamflow9LdlSolver9factoriseESt4spanIKdLm18446744073709551615EERNSt3pmr15memory_resourceERNS_"               \
+    "12LdlWorkspaceE"
 #define SEAMFLOW_LU                                                                                                    \
-    "_ZN8seamflow8LuSolver9factoriseESt4spanIKdLm18446744073709551615EERNS_12FactorMemoryERNS_11LuWorkspaceE"
+    "_ZNK8seamflow8LuSolver9factoriseESt4spanIKdLm18446744073709551615EERNSt3pmr15memory_resourceERNS_11LuWorkspaceE"
 
 using Values = std::span<const double>;
 
 TaskGraph::Node real_add_task(TaskGraph* graph, std::function<void()> body,
                               TaskPriority priority) asm("__real_" SEAMFLOW_ADD_TASK);
-bool real_ldl(LdlSolver* solver, Values values, FactorMemory& memory,
-              LdlWorkspace& workspace) asm("__real_" SEAMFLOW_LDL);
-bool real_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace) asm("__real_" SEAMFLOW_LU);
+using LdlFactor = std::optional<LdlSolver::Factor>;
+using LuFactor = std::optional<LuSolver::Factor>;
+LdlFactor real_ldl(const LdlSolver* solver, Values values, FactorMemory& memory,
+                   LdlWorkspace& workspace) asm("__real_" SEAMFLOW_LDL);
+LuFactor real_lu(const LuSolver* solver, Values values, FactorMemory& memory,
+                 LuWorkspace& workspace) asm("__real_" SEAMFLOW_LU);
 
 namespace {
 
@@ -131,25 +136,20 @@ TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, Task
     return node;
 }
 
-bool wrap_ldl(LdlSolver* solver, Values values, FactorMemory& memory,
-              LdlWorkspace& workspace) asm("__wrap_" SEAMFLOW_LDL);
-bool wrap_ldl(LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace)
+LdlFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory,
+                   LdlWorkspace& workspace) asm("__wrap_" SEAMFLOW_LDL);
+LdlFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace)
 {
-    const bool done = real_ldl(solver, values, memory, workspace);
-    if (!done || !factorisation_fails())
-        return done;
-    solver->free_factor(memory);
-    return false;
+    LdlFactor factor = real_ldl(solver, values, memory, workspace);
+    return factor && factorisation_fails() ? std::nullopt : std::move(factor);
 }
 
-bool wrap_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace) asm("__wrap_" SEAMFLOW_LU);
-bool wrap_lu(LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace)
+LuFactor wrap_lu(const LuSolver* solver, Values values, FactorMemory& memory,
+                 LuWorkspace& workspace) asm("__wrap_" SEAMFLOW_LU);
+LuFactor wrap_lu(const LuSolver* solver, Values values, FactorMemory& memory, LuWorkspace& workspace)
 {
-    const bool done = real_lu(solver, values, memory, workspace);
-    if (!done || !factorisation_fails())
-        return done;
-    solver->free_factor(memory);
-    return false;
+    LuFactor factor = real_lu(solver, values, memory, workspace);
+    return factor && factorisation_fails() ? std::nullopt : std::move(factor);
 }
 
 extern "C" {

@@ -6,7 +6,7 @@
 
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
-#include "solvers/direct/umfpack_solver.h"
+#include "solvers/direct/columns.h"
 #include "solvers/laplacian/laplacian_assembler.h"
 
 namespace seamflow {

@@ -1,7 +1,9 @@
+#include <memory>
+#include <memory_resource>
 #include <optional>
 
 #include "samples/benchmark/methods/peer_solver.h"
-#include "solvers/direct/umfpack_solver.h"
+#include "solvers/direct/suitesparse.h"
 
 namespace seamflow {
 
@@ -13,17 +15,23 @@ class WholeUmfpack final : public PeerSolver {
   public:
     [[nodiscard]] SystemForm form() const override { return SystemForm::AsTheyStand; }
     [[nodiscard]] StorageOrder order() const override { return StorageOrder::ByColumns; }
-    void analyse(const WholeSystem& system) override { solver_.emplace(system.pattern()); }
-    void prepare(const WholeSystem& system) override { solver_->factorise(system.values()); }
+    void analyse(const WholeSystem& system) override { solver_ = make_umfpack_lu(system.pattern()); }
+    void prepare(const WholeSystem& system) override
+    {
+        factor_.reset();
+        factor_ = solver_->factorise(system.values(), *std::pmr::new_delete_resource(), workspace_);
+    }
 
     int solve(const WholeSystem& system, Columns& solution) override
     {
-        solver_->solve(system.values(), system.right_hand_side(), solution);
+        factor_->solve(system.right_hand_side(), solution, workspace_);
         return 0;
     }
 
   private:
-    std::optional<UmfpackSolver> solver_;
+    SolverWorkspace workspace_;
+    std::unique_ptr<DirectSolver> solver_;
+    std::optional<DirectSolver::Factor> factor_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "partition/errors.h"
 #include "solvers/direct/direct_solver.h"
+#include "tests/support/heap.h"
 #include "tests/support/matrices.h"
 #include "tests/support/symmetric_matrices.h"
 
@@ -14,10 +15,10 @@ namespace {
 Columns solved(DirectSolver& solver, std::span<const double> values, const Columns& right_hand_side,
                SolverWorkspace& workspace)
 {
-    REQUIRE(solver.factorise(values, workspace));
+    const auto factor = solver.factorise(values, heap(), workspace);
+    REQUIRE(factor);
     Columns solution;
-    solver.solve(right_hand_side, solution, workspace);
-    solver.free_factor(*workspace.factors);
+    factor->solve(right_hand_side, solution, workspace);
     return solution;
 }
 
@@ -36,7 +37,7 @@ TEST_CASE("three symmetric systems are solved at once, and matrices that are not
         const auto solver = make_symmetric_solver(matrix.upper, asked, workspace);
         CHECK(solver->kind() == (asked == Factorisation::Cholmod ? asked : Factorisation::Own));
         CHECK(solver->factor_bytes() > 0);
-        CHECK_FALSE(solver->factorise(indefinite, workspace));
+        CHECK_FALSE(solver->factorise(indefinite, heap(), workspace));
         CHECK((matrix.dense * solved(*solver, matrix.values, right, workspace) - right).norm() < 1e-12);
     }
 }
@@ -72,7 +73,7 @@ TEST_CASE("large symmetric systems are solved by CHOLMOD")
     residual.bottomRows(n - 1) -= found.topRows(n - 1);
     CHECK(residual.cwiseAbs().maxCoeff() < 1e-14);
     values[upper.slot({7, 7})] = -1.0;
-    CHECK_FALSE(solver->factorise(values, workspace));
+    CHECK_FALSE(solver->factorise(values, heap(), workspace));
 }
 
 TEST_CASE("matrices with and without a diagonal are solved by turns, singular ones refused")
@@ -89,7 +90,7 @@ TEST_CASE("matrices with and without a diagonal are solved by turns, singular on
         for (Index i = 0; i < 50; i += 7)
             without_diagonal[pattern.slot({i, i})] = 0.0;
         const std::vector<double> singular(with_diagonal.size(), 0.0);
-        CHECK_THROWS_AS(static_cast<void>(solver.factorise(singular, workspace)), ComputationError);
+        CHECK_THROWS_AS(static_cast<void>(solver.factorise(singular, heap(), workspace)), ComputationError);
         for (const auto& values : {with_diagonal, without_diagonal}) {
             const Columns right_hand_side = random_columns(50, random);
             const Columns solution = solved(solver, values, right_hand_side, workspace);
@@ -147,10 +148,10 @@ TEST_CASE("matrices that are nearly singular are found out, and those whose pivo
     const Columns right_hand_side = Columns::Constant(2, 3, 2.0);
     const std::vector<double> nearly_singular{1.0, 1.0, 1.0, 1.0 + 1e-15};
     const Columns solution = solved(solver, nearly_singular, right_hand_side, workspace);
-    CHECK(solver.is_nearly_singular());
+    CHECK(solver.factorise(nearly_singular, heap(), workspace)->is_nearly_singular());
     CHECK((dense(pattern, nearly_singular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-14);
-    solved(solver, std::vector<double>{2.0, 1.0, 1.0, 2.0}, right_hand_side, workspace);
-    CHECK_FALSE(solver.is_nearly_singular());
+    const std::vector<double> regular{2.0, 1.0, 1.0, 2.0};
+    CHECK_FALSE(solver.factorise(regular, heap(), workspace)->is_nearly_singular());
 
     const Index n = 14;
     const auto [full, growing] = growing_matrix(n);
@@ -159,7 +160,7 @@ TEST_CASE("matrices that are nearly singular are found out, and those whose pivo
     const Columns of_full = random_columns(n, random);
     const Columns expected = dense(full, growing).fullPivLu().solve(of_full);
     CHECK((solved(*careful, growing, of_full, workspace) - expected).cwiseAbs().maxCoeff() < 1e-10);
-    CHECK_FALSE(careful->is_nearly_singular());
+    CHECK_FALSE(careful->factorise(growing, heap(), workspace)->is_nearly_singular());
 }
 
 TEST_CASE("whose factorisation a general system has is what was asked for, but where pivots are too small")

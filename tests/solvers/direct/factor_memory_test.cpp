@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "partition/decomposition/sweep_plan.h"
 #include "solvers/direct/factor_memory.h"
-#include "solvers/direct/solver_workspace.h"
 #include "solvers/systems/sub_mesh_system.h"
 #include "tests/support/cut_meshes.h"
 
@@ -17,57 +16,89 @@ namespace {
 /// The heap, counted.
 class CountedMemory final : public FactorMemory {
   public:
-    std::span<std::byte> take(std::size_t bytes) override
-    {
-        ++n_takes;
-        n_live += 1;
-        most_bytes = std::max(most_bytes, bytes);
-        return heap_memory().take(bytes);
-    }
-
-    void give_back(std::span<std::byte> memory) override
-    {
-        n_live -= 1;
-        heap_memory().give_back(memory);
-    }
-
     int n_takes = 0;
     int n_live = 0;
     std::size_t most_bytes = 0;
+
+  private:
+    void* do_allocate(std::size_t bytes, std::size_t alignment) override
+    {
+        ++n_takes;
+        ++n_live;
+        most_bytes = std::max(most_bytes, bytes);
+        return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    }
+    void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override
+    {
+        --n_live;
+        std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
+    }
+    [[nodiscard]] bool do_is_equal(const FactorMemory& other) const noexcept override { return this == &other; }
 };
 
 }  // namespace
 
-TEST_CASE("the heap gives every factor memory of its own, fit for doubles")
+TEST_CASE("numbers go back when they die, and no numbers take no memory")
 {
-    const auto a = heap_memory().take(1000);
-    const auto b = heap_memory().take(1000);
-    for (const auto& memory : {a, b}) {
-        CHECK(memory.size() >= 1000);
-        CHECK(reinterpret_cast<std::uintptr_t>(memory.data()) % alignof(double) == 0);
+    CountedMemory memory;
+    {
+        auto a = take_numbers<double>(memory, 1000);
+        const auto b = take_numbers<double>(memory, 10);
+        const auto none = take_numbers<double>(memory, 0);
+        CHECK(memory.n_live == 2);
+        const auto moved = std::move(a);
+        CHECK(memory.n_live == 2);
     }
-    std::memset(a.data(), 1, a.size());
-    std::memset(b.data(), 2, b.size());
-    CHECK(static_cast<int>(a.front()) == 1);
-    CHECK(static_cast<int>(a.back()) == 1);
-    heap_memory().give_back(a);
-    heap_memory().give_back(b);
+    CHECK(memory.n_takes == 2);
+    CHECK(memory.n_live == 0);
 }
 
-TEST_CASE("kept memory is the same, factor after factor, until one needs more")
+TEST_CASE("a pool grows to what is taken at once, and no further")
 {
-    KeptMemory memory;
-    const auto first = memory.take(1000);
-    CHECK(first.size() == 1000);
-    memory.give_back(first);
-    CHECK(memory.take(500).data() == first.data());
-    const auto larger = memory.take(4000);
-    CHECK(larger.size() == 4000);
-    CHECK(reinterpret_cast<std::uintptr_t>(larger.data()) % alignof(double) == 0);
+    FactorPool pool(100);
+    CHECK(pool.bytes() == 0);
+    for (int round = 0; round < 3; ++round) {
+        std::vector<FactorNumbers<std::byte>> taken;
+        for (const std::size_t bytes : {100U, 1U, 37U, 100U})
+            taken.push_back(take_numbers<std::byte>(pool, bytes));
+        taken.clear();
+        CHECK(pool.bytes() == 400);
+    }
 }
 
-TEST_CASE(
-    "a system takes memory for its factor when it factorises, no more than it says, and gives it back when solved")
+TEST_CASE("without a least size, blocks fit what is taken, and are used again for the same")
+{
+    FactorPool pool;
+    for (int round = 0; round < 3; ++round) {
+        const auto large = take_numbers<std::byte>(pool, 4000);
+        const auto small = take_numbers<std::byte>(pool, 500);
+        const auto another = take_numbers<std::byte>(pool, 500);
+        CHECK(small.get() != another.get());
+        CHECK(pool.bytes() == 5000);
+    }
+}
+
+TEST_CASE("blocks that are taken at the same time are apart and fit for doubles, and the last one back is the next")
+{
+    FactorPool pool(64);
+    std::vector<FactorNumbers<std::byte>> taken;
+    for (int i = 0; i < 10; ++i) {
+        taken.push_back(take_numbers<std::byte>(pool, 64));
+        CHECK(reinterpret_cast<std::uintptr_t>(taken.back().get()) % alignof(double) == 0);
+    }
+    std::sort(taken.begin(), taken.end());
+    for (std::size_t i = 1; i < taken.size(); ++i)
+        CHECK(taken[i - 1].get() + 64 <= taken[i].get());
+    const std::byte* const third = taken[3].get();
+    const std::byte* const seventh = taken[7].get();
+    taken[3].reset();
+    taken[7].reset();
+    const auto first_taken = take_numbers<std::byte>(pool, 8);
+    CHECK(first_taken.get() == seventh);
+    CHECK(take_numbers<std::byte>(pool, 8).get() == third);
+}
+
+TEST_CASE("a system takes memory for its factor when it factorises, no more than it says, and the factor gives it back")
 {
     for (const test::CutMesh& cut : test::cut_meshes()) {
         CAPTURE(cut.name);
@@ -75,20 +106,21 @@ TEST_CASE(
         const SubMesh& sub_mesh = decomposition.sub_meshes.front();
         CountedMemory memory;
         SolverWorkspace workspace;
-        workspace.factors = &memory;
-        const auto system = make_predicted_system(sub_mesh, Laplacian::Fujiwara, workspace);
+        const auto system = make_predicted_system({sub_mesh, sub_mesh.twin, Laplacian::Fujiwara}, workspace);
         const Points positions = test::localised(sub_mesh, cut.mesh.vertices);
         const std::vector<InterfaceRole> roles(sub_mesh.interface.vertices.size(), InterfaceRole::Follows);
         CHECK(memory.n_takes == 0);
         for (int step = 1; step <= 2; ++step) {
             Points solution = positions;
-            system->assemble(positions, positions, 0.001, 1.0, roles, workspace);
-            system->factorise(workspace);
-            CHECK(memory.n_live == 1);
-            system->predict(positions, solution, workspace);
-            CHECK(memory.n_live == 1);
-            solution = positions;
-            system->solve(positions, solution, workspace);
+            const auto equations = system->assemble(positions, positions, 0.001, 1.0, roles, workspace);
+            {
+                const auto factor = system->factorise(equations, memory, workspace);
+                CHECK(memory.n_live == 1);
+                system->predict(factor, positions, solution, workspace);
+                solution = positions;
+                system->solve(factor, positions, solution, workspace);
+                CHECK(memory.n_live == 1);
+            }
             CHECK(memory.n_live == 0);
             CHECK(memory.n_takes == step);
         }

@@ -6,6 +6,7 @@
 
 #include "solvers/direct/ldl_solver.h"
 #include "tests/support/allocations.h"
+#include "tests/support/heap.h"
 #include "tests/support/random_graphs.h"
 #include "tests/support/symmetric_matrices.h"
 
@@ -51,12 +52,12 @@ SymmetricMatrix arrow_matrix(Index n_first, Index n_last, RandomNumbers& random)
     return matrix;
 }
 
-Columns solved(LdlSolver& solver, std::span<const double> values, const Columns& right, LdlWorkspace& workspace)
+Columns solved(const LdlSolver& solver, std::span<const double> values, const Columns& right, LdlWorkspace& workspace)
 {
-    REQUIRE(solver.factorise(values, heap_memory(), workspace));
+    const auto factor = solver.factorise(values, heap(), workspace);
+    REQUIRE(factor);
     Columns solution;
-    solver.solve(right, solution, workspace);
-    solver.free_factor(heap_memory());
+    factor->solve(right, solution, workspace);
     return solution;
 }
 
@@ -125,31 +126,31 @@ TEST_CASE("the last block is the Schur complement, and the others are solved for
         const SymmetricMatrix matrix = grid_matrix(10, 0.1, random);
         const Index n_first = 100 - n_last;
         LdlSolver solver(matrix.upper, n_last);
-        REQUIRE(solver.factorise(matrix.values, heap_memory(), workspace));
+        const auto factor = solver.factorise(matrix.values, heap(), workspace);
+        REQUIRE(factor);
         const Eigen::MatrixXd first = matrix.dense.topLeftCorner(n_first, n_first);
         const Eigen::MatrixXd coupling = matrix.dense.bottomLeftCorner(n_last, n_first);
         Eigen::MatrixXd schur = matrix.dense.bottomRightCorner(n_last, n_last);
         const Eigen::LLT<Eigen::MatrixXd> inverse(first);
         if (n_first > 0)
             schur -= coupling * inverse.solve(coupling.transpose());
-        REQUIRE(solver.last().rows() == n_last);
-        CHECK((product(solver.last()) - schur).norm() < 1e-12 * schur.norm());
+        REQUIRE(factor->last().rows() == n_last);
+        CHECK((product(factor->last()) - schur).norm() < 1e-12 * schur.norm());
 
         const Points right = random_columns(100, random);
         Points x = right;
-        solver.eliminate(x);
+        factor->forward_substitute(x);
         Points condensed = right.bottomRows(n_last);
         if (n_first > 0)
             condensed -= coupling * inverse.solve(right.topRows(n_first));
         CHECK((x.bottomRows(n_last) - condensed).norm() < 1e-12 * right.norm());
         const Points given = random_columns(n_last, random);
         x.bottomRows(n_last) = given;
-        solver.substitute_back(x);
+        factor->back_substitute(x);
         CHECK(x.bottomRows(n_last) == given);
         if (n_first > 0)
             CHECK((first * x.topRows(n_first) + coupling.transpose() * given - right.topRows(n_first)).norm() <
                   1e-12 * matrix.dense.norm() * x.norm());
-        solver.free_factor(heap_memory());
     }
 }
 
@@ -168,9 +169,9 @@ TEST_CASE("a matrix that is not positive definite is found out, and the solver g
                   std::numeric_limits<double>::quiet_NaN()}) {
                 auto unfit = matrix.values;
                 unfit[matrix.upper.slot({unknown, unknown})] = pivot;
-                CHECK_FALSE(solver.factorise(unfit, heap_memory(), workspace));
+                CHECK_FALSE(solver.factorise(unfit, heap(), workspace));
             }
-        CHECK_FALSE(solver.factorise(std::vector<double>(matrix.values.size(), 0.0), heap_memory(), workspace));
+        CHECK_FALSE(solver.factorise(std::vector<double>(matrix.values.size(), 0.0), heap(), workspace));
         CHECK(solved(solver, matrix.values, right, workspace) == expected);
     }
 }
@@ -181,10 +182,10 @@ TEST_CASE("without unknowns there is nothing to do")
     LdlSolver solver{SparsePattern{}};
     CHECK(solver.factor_bytes() == 0);
     CHECK(solved(solver, {}, Columns(0, 3), workspace).rows() == 0);
-    CHECK(solver.last().rows() == 0);
+    CHECK(solver.factorise({}, heap(), workspace)->last().rows() == 0);
 }
 
-TEST_CASE("from the second time on nothing is allocated, in the factor's memory aside")
+TEST_CASE("from the second time on nothing is allocated")
 {
     RandomNumbers random(5);
     LdlWorkspace workspace;
@@ -196,18 +197,14 @@ TEST_CASE("from the second time on nothing is allocated, in the factor's memory 
     const Columns small_right = random_columns(25, random);
     Columns solution(144, 3);
     Columns small_solution(25, 3);
+    FactorPool pool;
     const auto step = [&] {
-        REQUIRE(large_solver.factorise(large.values, heap_memory(), workspace));
-        REQUIRE(small_solver.factorise(small.values, heap_memory(), workspace));
         const long before = n_allocations();
-        REQUIRE(large_solver.factorise(large.values, heap_memory(), workspace));
-        large_solver.solve(right, solution, workspace);
-        REQUIRE(small_solver.factorise(small.values, heap_memory(), workspace));
-        small_solver.solve(small_right, small_solution, workspace);
-        const long counted = n_allocations() - before;
-        large_solver.free_factor(heap_memory());
-        small_solver.free_factor(heap_memory());
-        return counted;
+        const auto factor = large_solver.factorise(large.values, pool, workspace);
+        factor->solve(right, solution, workspace);
+        const auto small_factor = small_solver.factorise(small.values, pool, workspace);
+        small_factor->solve(small_right, small_solution, workspace);
+        return n_allocations() - before;
     };
     CHECK(step() > 0);
     CHECK(step() == 0);

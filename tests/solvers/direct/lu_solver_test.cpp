@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "solvers/direct/lu_solver.h"
+#include "tests/support/heap.h"
 #include "tests/support/matrices.h"
 #include "tests/support/random_matrices.h"
 
@@ -14,12 +15,13 @@ using namespace seamflow::test;
 
 namespace {
 
-Columns solved(LuSolver& solver, std::span<const double> values, const Columns& right_hand_side, LuWorkspace& workspace)
+Columns solved(const LuSolver& solver, std::span<const double> values, const Columns& right_hand_side,
+               LuWorkspace& workspace)
 {
-    REQUIRE(solver.factorise(values, heap_memory(), workspace));
+    const auto factor = solver.factorise(values, heap(), workspace);
+    REQUIRE(factor);
     Columns solution(right_hand_side.rows(), 3);
-    solver.solve(right_hand_side, solution, workspace);
-    solver.free_factor(heap_memory());
+    factor->solve(right_hand_side, solution, workspace);
     return solution;
 }
 
@@ -49,11 +51,7 @@ bool will_do(std::initializer_list<Entry> entries)
     for (const auto& [row, column, value] : entries)
         values[pattern.slot({unknown[column], unknown[row]})] = value;
     LuWorkspace workspace;
-    LuSolver solver(pattern);
-    const bool does = solver.factorise(values, heap_memory(), workspace);
-    CHECK(solver.has_factor() == does);
-    solver.free_factor(heap_memory());
-    return does;
+    return LuSolver(pattern).factorise(values, heap(), workspace).has_value();
 }
 
 }  // namespace
@@ -73,7 +71,6 @@ TEST_CASE("three systems are solved at once, for one set of values after the oth
             CHECK((solution - expected).cwiseAbs().maxCoeff() < 1e-12);
             LuWorkspace another;
             CHECK(solved(solver, values, right_hand_side, another) == solution);
-            CHECK_FALSE(solver.has_factor());
         }
     }
 }
@@ -124,14 +121,13 @@ TEST_CASE("a diagonal that will not do is found out, and the solver goes on with
         auto without_pivot = values;
         for (Index i = 0; i < 40; ++i)
             without_pivot[pattern.slot({i, i})] = pivot;
-        CHECK_FALSE(solver.factorise(without_pivot, heap_memory(), workspace));
-        CHECK_FALSE(solver.has_factor());
+        CHECK_FALSE(solver.factorise(without_pivot, heap(), workspace));
     }
     auto singular = values;
     for (Index i = pattern.column_offsets[12]; i < pattern.column_offsets[13]; ++i)
         singular[i] = 0.0;
-    CHECK_FALSE(solver.factorise(singular, heap_memory(), workspace));
-    CHECK_FALSE(solver.factorise(std::vector<double>(values.size(), 0.0), heap_memory(), workspace));
+    CHECK_FALSE(solver.factorise(singular, heap(), workspace));
+    CHECK_FALSE(solver.factorise(std::vector<double>(values.size(), 0.0), heap(), workspace));
     const Columns right_hand_side = random_columns(40, random);
     const Columns expected = dense(pattern, values).fullPivLu().solve(right_hand_side);
     CHECK((solved(solver, values, right_hand_side, workspace) - expected).cwiseAbs().maxCoeff() < 1e-12);

@@ -1,12 +1,13 @@
 #include <map>
-#include <memory>
 #include <set>
 
 #include <doctest/doctest.h>
 
 #include "samples/common/meshes/random_numbers.h"
 #include "solvers/interface/coarse_space.h"
+#include "solvers/systems/neumann_system.h"
 #include "tests/support/cut_meshes.h"
+#include "tests/support/heap.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -14,7 +15,7 @@ using namespace seamflow::test;
 namespace {
 
 /// S x over all sub-meshes, in double precision.
-Points product(const InterfaceCopies& copies, const std::vector<const NeumannSystem*>& systems, const Points& x)
+Points product(const InterfaceCopies& copies, const std::vector<SchurComplement>& complements, const Points& x)
 {
     Points result = Points::Zero(x.rows(), 3);
     for (Index s = 0; s < copies.n_sub_meshes(); ++s) {
@@ -22,7 +23,7 @@ Points product(const InterfaceCopies& copies, const std::vector<const NeumannSys
         for (Index i = 0; i < copies.n_in(s); ++i)
             local.row(i) = x.row(copies.vertex[copies.first[s] + i]);
         Points share = Points::Zero(copies.n_in(s), 3);
-        systems[s]->subtract_schur(local, share);
+        complements[s].subtract_product(local, share);
         for (Index i = 0; i < copies.n_in(s); ++i)
             result.row(copies.vertex[copies.first[s] + i]) -= share.row(i);
     }
@@ -39,13 +40,12 @@ TEST_CASE("what is left of the residual after the correction has no part along a
         CAPTURE(cut.name);
         const Decomposition decomposition = test::decompose(cut);
         const InterfaceCopies copies(decomposition);
-        std::vector<std::unique_ptr<NeumannSystem>> systems;
-        std::vector<const NeumannSystem*> views;
+        std::vector<SchurComplement> complements;
         for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
-            systems.push_back(std::make_unique<NeumannSystem>(sub_mesh, Laplacian::Fujiwara));
-            views.push_back(systems.back().get());
-            systems.back()->assemble(localised(sub_mesh, cut.mesh.vertices), 0.05, workspace);
-            systems.back()->factorise(workspace);
+            const NeumannSystem system(sub_mesh, sub_mesh.face_vertices, Laplacian::Fujiwara);
+            const auto equations = system.assemble(localised(sub_mesh, cut.mesh.vertices), 0.05, workspace);
+            const auto factor = system.factorise(equations, heap(), workspace.ldl);
+            complements.emplace_back().take(factor, SchurComplement::Storage::Copy);
         }
         std::vector<double> weights(copies.n_copies());
         std::map<std::vector<Index>, Index> stretches;
@@ -66,14 +66,14 @@ TEST_CASE("what is left of the residual after the correction has no part along a
             n_functions += length > 1 ? static_cast<Index>(sharing.size()) : 1;
         CHECK(coarse.size() == n_functions);
 
-        coarse.prepare(views, weights, run_serially);
+        coarse.prepare(complements, weights, run_serially);
         Points residual(copies.n_vertices(), 3);
         Points y(copies.n_vertices(), 3);
         for (Points* points : {&residual, &y})
             for (double& value : points->reshaped())
                 value = random.symmetric();
         coarse.correct(residual, y, run_serially);
-        const Points left = residual - product(copies, views, y);
+        const Points left = residual - product(copies, complements, y);
         std::map<std::pair<std::vector<Index>, Index>, Point> sums;
         for (Index v = 0; v < copies.n_vertices(); ++v) {
             std::vector<Index> sharing;

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include <Eigen/Core>
@@ -12,8 +11,10 @@
 #include "partition/errors.h"
 #include "samples/common/meshes/random_numbers.h"
 #include "solvers/interface/interface_equation.h"
+#include "solvers/systems/neumann_system.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/heap.h"
 #include "tests/support/matrices.h"
 
 using namespace seamflow;
@@ -29,15 +30,17 @@ struct Equation {
         , right_hand_sides(equation.copies().n_copies(), 3)
     {
         SolverWorkspace workspace;
-        for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
-            auto& system = *systems.emplace_back(std::make_unique<NeumannSystem>(sub_mesh, laplacian));
-            views.push_back(&system);
-            const Points positions = localised(sub_mesh, cut.mesh.vertices);
-            system.assemble(positions, time_step, workspace);
-            system.factorise(workspace);
-            const Index first = equation.copies().first[views.size() - 1];
-            Points eliminated;
-            system.condense(eliminated, right_hand_sides.middleRows(first, system.n_interface()), workspace);
+        complements.resize(decomposition.sub_meshes.size());
+        for (std::size_t s = 0; s < complements.size(); ++s) {
+            const SubMesh& sub_mesh = decomposition.sub_meshes[s];
+            const NeumannSystem system(sub_mesh, sub_mesh.face_vertices, laplacian);
+            const auto equations = system.assemble(localised(sub_mesh, cut.mesh.vertices), time_step, workspace);
+            const auto factor = system.factorise(equations, heap(), workspace.ldl);
+            Points condensed;
+            system.condense(equations, factor, condensed);
+            complements[s].take(factor, SchurComplement::Storage::Copy);
+            right_hand_sides.middleRows(equation.copies().first[s], system.n_interface()) =
+                condensed.bottomRows(system.n_interface());
         }
     }
 
@@ -56,13 +59,12 @@ struct Equation {
 
     InterfaceResult solve(const IterationStop& stop, Points& x, const Points& guess = {})
     {
-        return equation.solve(views, right_hand_sides, guess, stop, x, run_serially);
+        return equation.solve(complements, right_hand_sides, guess, stop, x, run_serially);
     }
 
     Decomposition decomposition;
     InterfaceEquation equation;
-    std::vector<std::unique_ptr<NeumannSystem>> systems;
-    std::vector<const NeumannSystem*> views;
+    std::vector<SchurComplement> complements;
     Points right_hand_sides;
 };
 

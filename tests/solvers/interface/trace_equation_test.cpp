@@ -10,7 +10,7 @@ using namespace seamflow::test;
 namespace {
 
 struct Solved {
-    TraceResult result;
+    InterfaceResult result;
     Points positions;
 };
 
@@ -19,9 +19,9 @@ Solved solve(const CutMesh& cut, Laplacian laplacian, int layers, const Iteratio
 {
     SolverWorkspace workspace;
     const Blocks blocks(cut, laplacian, layers, workspace, time_step);
-    TraceEquation equation(blocks.views, cut.mesh.n_vertices());
+    TraceEquation equation(blocks.blocks, cut.mesh.n_vertices());
     Solved solved{{}, cut.mesh.vertices};
-    solved.result = equation.solve(blocks.views, stop, solved.positions,
+    solved.result = equation.solve({blocks.blocks, blocks.factors}, stop, solved.positions,
                                    {run_serially, [&]() -> SolverWorkspace& { return workspace; }});
     return solved;
 }

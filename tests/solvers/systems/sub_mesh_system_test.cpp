@@ -14,8 +14,8 @@
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/heap.h"
 #include "tests/support/matrices.h"
-#include "tests/support/owned_memory.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -72,6 +72,11 @@ const NamedCondition conditions[] = {
      [](const SubMesh& sub_mesh, Laplacian laplacian) { return make_predicted_side(sub_mesh, laplacian); }},
 };
 
+SystemParts parts_of(const SubMesh& sub_mesh, Laplacian laplacian)
+{
+    return {sub_mesh, sub_mesh.twin, laplacian};
+}
+
 void check_interface_rows(TransmissionCondition& condition, const SubMesh& sub_mesh, const Points& positions,
                           std::span<const InterfaceRole> roles, const Points& given, const Points& solution)
 {
@@ -123,12 +128,13 @@ TEST_CASE("the system of the only sub-mesh is backward Euler on the whole mesh")
             CAPTURE(name_of(laplacian));
             const Decomposition whole =
                 seamflow::decompose(m.mesh, m.topology, std::vector<Index>(m.mesh.n_faces(), 0), 1);
-            const auto system = make_system(whole.sub_meshes.front(), laplacian,
-                                            make_adapted_ventcell(whole.sub_meshes.front()), workspace);
-            system->assemble(m.mesh.vertices, m.mesh.vertices, system_time_step, system_p, {}, workspace);
-            system->factorise(workspace);
+            const SubMesh& sub_mesh = whole.sub_meshes.front();
+            const auto system = make_system(parts_of(sub_mesh, laplacian), make_adapted_ventcell(sub_mesh), workspace);
+            const auto equations =
+                system->assemble(m.mesh.vertices, m.mesh.vertices, system_time_step, system_p, {}, workspace);
+            const auto factor = system->factorise(equations, heap(), workspace);
             Points solution = Points::Zero(m.mesh.n_vertices(), 3);
-            system->solve(m.mesh.vertices, solution, workspace);
+            system->solve(factor, m.mesh.vertices, solution, workspace);
             const Points expected = backward_euler_matrix(m, laplacian).partialPivLu().solve(m.mesh.vertices);
             CHECK(largest_difference(solution, expected) < 1e-9 * m.mesh.vertices.cwiseAbs().maxCoeff());
             for (Index v = 0; v < m.mesh.n_vertices(); ++v)
@@ -149,16 +155,18 @@ TEST_CASE("every row of a sub-mesh's system holds, and what is given comes out t
             const SubMesh& sub_mesh = decomposition.sub_meshes[random.below(cut.n_parts)];
             for (const NamedCondition& condition : conditions) {
                 CAPTURE(condition.name);
-                const auto system = make_system(sub_mesh, laplacian, condition.make(sub_mesh, laplacian), workspace);
+                const auto system =
+                    make_system(parts_of(sub_mesh, laplacian), condition.make(sub_mesh, laplacian), workspace);
                 const auto expected = condition.make(sub_mesh, laplacian);
                 for (int step = 0; step < 2; ++step) {
                     const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                     const Points given = nearby(positions, random);
                     const auto roles = random_roles(sub_mesh, random);
-                    system->assemble(positions, positions, system_time_step, system_p, roles, workspace);
-                    system->factorise(workspace);
+                    const auto equations =
+                        system->assemble(positions, positions, system_time_step, system_p, roles, workspace);
+                    const auto factor = system->factorise(equations, heap(), workspace);
                     Points solution = given;
-                    system->solve(positions, solution, workspace);
+                    system->solve(factor, positions, solution, workspace);
                     check_interface_rows(*expected, sub_mesh, positions, roles, given, solution);
                     check_other_rows(sub_mesh, laplacian, positions, solution);
                     CHECK(solution.bottomRows(sub_mesh.n_halo) == given.bottomRows(sub_mesh.n_halo));
@@ -173,17 +181,17 @@ TEST_CASE("equations that are not finite are refused, and the system goes on wit
     const PolygonMesh mesh = cut_meshes().front().mesh;
     const Topology topology = make_topology(mesh);
     const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(mesh.n_faces(), 0), 1);
-    OwnedMemory memory;
     SolverWorkspace workspace;
-    workspace.factors = &memory;
-    const auto system = make_system(whole.sub_meshes.front(), Laplacian::Fujiwara,
-                                    make_adapted_ventcell(whole.sub_meshes.front()), workspace);
+    const SubMesh& sub_mesh = whole.sub_meshes.front();
+    const auto system = make_system(parts_of(sub_mesh, Laplacian::Fujiwara), make_adapted_ventcell(sub_mesh), workspace);
+    const auto factorise = [&](const Points& positions) {
+        const auto equations = system->assemble(positions, positions, system_time_step, system_p, {}, workspace);
+        static_cast<void>(system->factorise(equations, heap(), workspace));
+    };
     Points positions = mesh.vertices;
     positions.row(16) = positions.row(17);
-    system->assemble(positions, positions, system_time_step, system_p, {}, workspace);
-    CHECK_THROWS_AS(system->factorise(workspace), ComputationError);
-    system->assemble(mesh.vertices, mesh.vertices, system_time_step, system_p, {}, workspace);
-    CHECK_NOTHROW(system->factorise(workspace));
+    CHECK_THROWS_AS(factorise(positions), ComputationError);
+    CHECK_NOTHROW(factorise(mesh.vertices));
 }
 
 TEST_CASE("predicted by a symmetric system or by a general one, the result is the same")
@@ -197,21 +205,21 @@ TEST_CASE("predicted by a symmetric system or by a general one, the result is th
         for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky})
             for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
                 CAPTURE(name_of(laplacian));
-                const auto fast = make_predicted_system(sub_mesh, laplacian, workspace);
-                GeneralSystem general(sub_mesh, laplacian, make_predicted_side(sub_mesh, laplacian),
-                                      Factorisation::Automatic);
+                const auto fast = make_predicted_system(parts_of(sub_mesh, laplacian), workspace);
+                GeneralSystem general(parts_of(sub_mesh, laplacian), make_predicted_side(sub_mesh, laplacian));
                 for (int step = 0; step < 2; ++step) {
                     const Points positions = nearby(localised(sub_mesh, cut.mesh.vertices), random);
                     const Points other_side = nearby(positions, random);
                     const auto roles = random_roles(sub_mesh, random);
                     const auto flow = [&](SubMeshSystem& system) {
-                        system.assemble(positions, positions, system_time_step, system_p, roles, workspace);
-                        system.factorise(workspace);
+                        const auto equations =
+                            system.assemble(positions, positions, system_time_step, system_p, roles, workspace);
+                        const auto factor = system.factorise(equations, heap(), workspace);
                         Points prediction = positions;
-                        system.predict(positions, prediction, workspace);
+                        system.predict(factor, positions, prediction, workspace);
                         system.use_other_side(positions, other_side);
                         Points solution = other_side;
-                        system.solve(positions, solution, workspace);
+                        system.solve(factor, positions, solution, workspace);
                         return std::pair{prediction, solution};
                     };
                     const auto [prediction, solution] = flow(*fast);
@@ -224,13 +232,14 @@ TEST_CASE("predicted by a symmetric system or by a general one, the result is th
     }
 }
 
-TEST_CASE("on the interface all rows yield that can, or none where they would leave no definite matrix")
+TEST_CASE("on the interface the other side responds in all rows where it can, or in none where no definite matrix "
+          "would be left")
 {
     // Triangles of a grid that is pressed flat and sheared are obtuse.
     RandomNumbers random(9);
     SolverWorkspace workspace;
     int n_without = 0;
-    int n_yielding = 0;
+    int n_responding = 0;
     for (const double dt : {1.0, 1.0, 1.0, 1000.0, 1000.0, 1000.0}) {
         PolygonMesh mesh = triangle_grid(14, 10);
         for (double& coordinate : mesh.vertices.reshaped())
@@ -243,36 +252,36 @@ TEST_CASE("on the interface all rows yield that can, or none where they would le
         const Decomposition decomposition = test::decompose(block);
         const SubMesh& sub_mesh = decomposition.sub_meshes[1];
         const Points positions = localised(sub_mesh, mesh.vertices);
-        const auto system = make_predicted_system(sub_mesh, Laplacian::AlexaWardetzky, workspace);
+        const auto system = make_predicted_system(parts_of(sub_mesh, Laplacian::AlexaWardetzky), workspace);
         const std::vector<InterfaceRole> roles(sub_mesh.interface.size(), InterfaceRole::Leads);
-        system->assemble(positions, positions, dt, system_p, roles, workspace);
-        system->factorise(workspace);
+        const auto equations = system->assemble(positions, positions, dt, system_p, roles, workspace);
+        const auto factor = system->factorise(equations, heap(), workspace);
         Points solution = positions;
-        system->solve(positions, solution, workspace);
+        system->solve(factor, positions, solution, workspace);
 
         Points after = mesh.vertices;
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             after.row(sub_mesh.local_to_global[v]) = solution.row(v);
         const Eigen::MatrixXd L = dt * dense_laplacian(Laplacian::AlexaWardetzky, mesh, block.topology);
         bool all_held = true;
-        bool all_yield = true;
+        bool all_respond = true;
         for (const Index i : sub_mesh.interface.vertices) {
             const Index v = sub_mesh.local_to_global[i];
             const Point held = after.row(v) - mesh.vertices.row(v) + L.row(v) * after;
-            double yield = 0.0;
+            double response = 0.0;
             for (Index beyond = sub_mesh.n_vertices; beyond < sub_mesh.n_vertices + sub_mesh.n_halo; ++beyond)
-                yield += L(v, sub_mesh.local_to_global[beyond]) * remainder_between(positions, i, beyond, dt);
-            const Point yielding = held + yield * (after.row(v) - mesh.vertices.row(v));
+                response += L(v, sub_mesh.local_to_global[beyond]) * remainder_between(positions, i, beyond, dt);
+            const Point responding = held + response * (after.row(v) - mesh.vertices.row(v));
             const double small = 1e-9 * (1.0 + L.row(v).norm()) * mesh.vertices.cwiseAbs().maxCoeff();
-            CHECK(std::min(held.norm(), yielding.norm()) < small);
+            CHECK(std::min(held.norm(), responding.norm()) < small);
             all_held = all_held && held.norm() < small;
-            all_yield = all_yield && yielding.norm() < small;
+            all_respond = all_respond && responding.norm() < small;
         }
-        n_without += all_held && !all_yield ? 1 : 0;
-        n_yielding += all_yield && !all_held ? 1 : 0;
+        n_without += all_held && !all_respond ? 1 : 0;
+        n_responding += all_respond && !all_held ? 1 : 0;
     }
     CHECK(n_without > 0);
-    CHECK(n_yielding > 0);
+    CHECK(n_responding > 0);
 }
 
 TEST_CASE("following everywhere, a symmetric system and a general one give the same")
@@ -288,14 +297,15 @@ TEST_CASE("following everywhere, a symmetric system and a general one give the s
                 const Points given = nearby(positions, random);
                 const std::vector<InterfaceRole> roles(sub_mesh.interface.size(), InterfaceRole::Follows);
                 const auto solved = [&](SubMeshSystem& system) {
-                    system.assemble(positions, positions, system_time_step, system_p, roles, workspace);
-                    system.factorise(workspace);
+                    const auto equations =
+                        system.assemble(positions, positions, system_time_step, system_p, roles, workspace);
+                    const auto factor = system.factorise(equations, heap(), workspace);
                     Points solution = given;
-                    system.solve(positions, solution, workspace);
+                    system.solve(factor, positions, solution, workspace);
                     return solution;
                 };
-                const auto following = make_following_system(sub_mesh, laplacian, workspace);
-                GeneralSystem general(sub_mesh, laplacian, make_dirichlet(sub_mesh), Factorisation::Automatic);
+                const auto following = make_following_system(parts_of(sub_mesh, laplacian), workspace);
+                GeneralSystem general(parts_of(sub_mesh, laplacian), make_dirichlet(sub_mesh));
                 const Points solution = solved(*following);
                 CHECK(largest_difference(solution, solved(general)) < 1e-10 * positions.cwiseAbs().maxCoeff());
                 for (const Index v : sub_mesh.interface.vertices)

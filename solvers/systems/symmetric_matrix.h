@@ -1,20 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sparse/sparse_pattern.h"
 
 namespace seamflow {
-
-/// A coefficient of an unknown's row at a vertex that is known.
-struct Coupling {
-    Index unknown = 0;
-    Index vertex = 0;
-    double value = 0.0;
-};
 
 /// Of each unknown the pairs that it makes with others, from either end.
 struct PairsOfUnknowns {
@@ -49,11 +44,32 @@ struct UpperPattern {
 /// @param order the unknowns in the order in which the matrix has them.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
-/// The entry of an unknown on the diagonal, which is the last of its column.
-/// @param column_offsets those of the upper triangle.
-inline Index diagonal_slot(std::span<const Index> column_offsets, Index unknown)
-{
-    return column_offsets[unknown + 1] - 1;
-}
+/// The symmetric matrix M + dt K of a sub-mesh at its unknowns, which is filled in anew in each step.
+struct SymmetricMatrix {
+    std::unique_ptr<SymmetricLaplacian> laplacian;
+    /// Of the sub-mesh, its halo included.
+    Index n_vertices = 0;
+    /// Per unknown, in the order of elimination.
+    std::vector<Index> vertex_of{};
+    /// Of the pattern of the upper triangle, whose rows the solver has.
+    std::vector<Index> column_offsets{};
+    /// Per pair of the Laplacian: an entry of the pattern, one of the further values behind them, or the last value of
+    /// all, which nobody reads.
+    std::vector<Index> slots{};
+
+    [[nodiscard]] Index n() const { return static_cast<Index>(vertex_of.size()); }
+    [[nodiscard]] Index n_entries() const { return column_offsets.back(); }
+
+    /// The entry of an unknown on the diagonal, which is the last of its column.
+    [[nodiscard]] Index diagonal_slot(Index unknown) const { return column_offsets[unknown + 1] - 1; }
+
+    /// Fills in the values, and dt K's diagonal and M in the workspace.
+    /// @param positions at least #own by 3, the halo where the Laplacian reaches it: Vᵏ.
+    /// @param n_further values.
+    /// @param product see SymmetricLaplacian::assemble.
+    /// @returns the entries and the further values, in the workspace.
+    std::span<double> fill(const Points& positions, double time_step, std::size_t n_further, SolverWorkspace& workspace,
+                           Points* product = nullptr) const;
+};
 
 }  // namespace seamflow

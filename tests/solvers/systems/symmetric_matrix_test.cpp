@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "solvers/systems/upper_pattern.h"
+#include "solvers/systems/symmetric_matrix.h"
 
 using namespace seamflow;
 
@@ -41,7 +41,7 @@ TEST_CASE("the upper triangle has its rows in ascending order, in any order of t
         for (Index column = 0; column < 4; ++column) {
             CHECK(std::is_sorted(pattern.rows.begin() + pattern.column_offsets[column],
                                  pattern.rows.begin() + pattern.column_offsets[column + 1]));
-            CHECK(pattern.rows[diagonal_slot(pattern.column_offsets, column)] == column);
+            CHECK(pattern.rows[pattern.column_offsets[column + 1] - 1] == column);
         }
         const auto number_of = [&](Index vertex) {
             return static_cast<Index>(std::find(order.begin(), order.end(), unknown_of[vertex]) - order.begin());

@@ -1,11 +1,11 @@
 #include <cmath>
-#include <utility>
 
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "solvers/direct/umfpack_solver.h"
+#include "solvers/direct/suitesparse.h"
+#include "tests/support/heap.h"
 #include "tests/support/matrices.h"
 #include "tests/support/random_matrices.h"
 
@@ -37,6 +37,26 @@ GrowingMatrix doubling_matrix(Index n)
     return matrix;
 }
 
+/// UMFPACK wants nothing from others.
+DirectSolver::Factor factorised(DirectSolver& solver, std::span<const double> values)
+{
+    SolverWorkspace workspace;
+    return *solver.factorise(values, heap(), workspace);
+}
+
+Columns solved(const DirectSolver::Factor& factor, const Columns& right_hand_side)
+{
+    SolverWorkspace workspace;
+    Columns solution;
+    factor.solve(right_hand_side, solution, workspace);
+    return solution;
+}
+
+Columns solved(DirectSolver& solver, std::span<const double> values, const Columns& right_hand_side)
+{
+    return solved(factorised(solver, values), right_hand_side);
+}
+
 }  // namespace
 
 TEST_CASE("random systems are solved, one set of values after the other")
@@ -44,13 +64,11 @@ TEST_CASE("random systems are solved, one set of values after the other")
     RandomNumbers random(1);
     for (const Index n : {1, 2, 10, 150}) {
         const SparsePattern pattern = random_pattern(n, random);
-        UmfpackSolver solver(pattern);
+        const auto solver = make_umfpack_lu(pattern);
         for (int repetition = 0; repetition < 3; ++repetition) {
             const auto values = random_values(pattern, random);
             const Columns right_hand_side = random_columns(n, random);
-            Columns solution(n, 3);
-            solver.factorise(values);
-            solver.solve(values, right_hand_side, solution);
+            const Columns solution = solved(*solver, values, right_hand_side);
             const Eigen::MatrixXd A = dense(pattern, values);
             CHECK((A * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
             CHECK((A.fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-10);
@@ -58,19 +76,16 @@ TEST_CASE("random systems are solved, one set of values after the other")
     }
 }
 
-TEST_CASE("a factor may be replaced before it is used, and a solver moved")
+TEST_CASE("a factor may be given up before it is used")
 {
     RandomNumbers random(2);
     const SparsePattern pattern = random_pattern(50, random);
     const auto unused = random_values(pattern, random);
     const auto values = random_values(pattern, random);
     const Columns right_hand_side = random_columns(50, random);
-    Columns solution(50, 3);
-    UmfpackSolver first(pattern);
-    first.factorise(unused);
-    first.factorise(values);
-    UmfpackSolver second(std::move(first));
-    second.solve(values, right_hand_side, solution);
+    const auto solver = make_umfpack_lu(pattern);
+    static_cast<void>(factorised(*solver, unused));
+    const Columns solution = solved(*solver, values, right_hand_side);
     CHECK((dense(pattern, values) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
 }
 
@@ -82,13 +97,12 @@ TEST_CASE("singular matrices are refused, and the solver goes on with regular on
     auto singular = regular;
     for (Index i = pattern.column_offsets[12]; i < pattern.column_offsets[13]; ++i)
         singular[i] = 0.0;
-    UmfpackSolver solver(pattern);
-    CHECK_THROWS_WITH_AS(solver.factorise(singular), doctest::Contains("the system is singular"), ComputationError);
-    CHECK_THROWS_AS(solver.factorise(std::vector<double>(regular.size(), 0.0)), ComputationError);
+    const auto solver = make_umfpack_lu(pattern);
+    CHECK_THROWS_WITH_AS(static_cast<void>(factorised(*solver, singular)), doctest::Contains("the system is singular"),
+                         ComputationError);
+    CHECK_THROWS_AS(static_cast<void>(factorised(*solver, std::vector<double>(regular.size(), 0.0))), ComputationError);
     const Columns right_hand_side = random_columns(30, random);
-    Columns solution(30, 3);
-    solver.factorise(regular);
-    solver.solve(regular, right_hand_side, solution);
+    const Columns solution = solved(*solver, regular, right_hand_side);
     CHECK((dense(pattern, regular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-10);
 }
 
@@ -96,7 +110,7 @@ TEST_CASE("a column without entries makes a matrix singular")
 {
     const SparsePattern pattern = make_pattern(3, {{0, 0}, {1, 1}, {0, 2}});
     const std::vector<double> values{1.0, 1.0, 1.0};
-    CHECK_THROWS_AS(UmfpackSolver(pattern).factorise(values), ComputationError);
+    CHECK_THROWS_AS(static_cast<void>(factorised(*make_umfpack_lu(pattern), values)), ComputationError);
 }
 
 TEST_CASE("large systems, solved with long integers, agree with small ones")
@@ -113,20 +127,14 @@ TEST_CASE("large systems, solved with long integers, agree with small ones")
     }());
     const auto block_values = random_values(block, random);
     const Columns block_right_hand_side = random_columns(n, random);
-    Columns expected(n, 3);
-    UmfpackSolver small(block);
-    small.factorise(block_values);
-    small.solve(block_values, block_right_hand_side, expected);
+    const Columns expected = solved(*make_umfpack_lu(block), block_values, block_right_hand_side);
 
     const SparsePattern pattern = repeated(block, copies);
     std::vector<double> values;
     for (Index k = 0; k < copies; ++k)
         values.insert(values.end(), block_values.begin(), block_values.end());
     const Columns right_hand_side = block_right_hand_side.replicate(copies, 1);
-    Columns solution(copies * n, 3);
-    UmfpackSolver large(pattern);
-    large.factorise(values);
-    large.solve(values, right_hand_side, solution);
+    const Columns solution = solved(*make_umfpack_lu(pattern), values, right_hand_side);
     CHECK((solution - expected.replicate(copies, 1)).cwiseAbs().maxCoeff() < 1e-12);
 }
 
@@ -136,11 +144,10 @@ TEST_CASE("where pivots on the diagonal would lose all digits, larger ones are f
     const auto [pattern, values] = growing_matrix(n);
     RandomNumbers random(5);
     const Columns right_hand_side = random_columns(n, random);
-    Columns solution(n, 3);
-    UmfpackSolver solver(pattern);
-    solver.factorise(values);
-    CHECK_FALSE(solver.is_nearly_singular());
-    solver.solve(values, right_hand_side, solution);
+    const auto solver = make_umfpack_lu(pattern);
+    const auto factor = factorised(*solver, values);
+    CHECK_FALSE(factor.is_nearly_singular());
+    const Columns solution = solved(factor, right_hand_side);
     CHECK((dense(pattern, values).fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-10);
 }
 
@@ -150,27 +157,23 @@ TEST_CASE("where the largest pivots lose digits as well, refinement brings them 
     const auto [pattern, values] = doubling_matrix(n);
     RandomNumbers random(6);
     const Columns right_hand_side = random_columns(n, random);
-    Columns solution(n, 3);
-    UmfpackSolver solver(pattern);
-    solver.factorise(values);
-    solver.solve(values, right_hand_side, solution);
+    const Columns solution = solved(*make_umfpack_lu(pattern), values, right_hand_side);
     CHECK((dense(pattern, values).fullPivLu().solve(right_hand_side) - solution).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("nearly singular matrices are solved as well as that goes, and said to be what they are")
 {
     const SparsePattern pattern = make_pattern(2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}});
-    UmfpackSolver solver(pattern);
+    const auto solver = make_umfpack_lu(pattern);
     const std::vector<double> nearly_singular{1.0, 1.0, 1.0, 1.0 + 1e-15};
     const std::vector<double> regular{1.0, 1.0, 1.0, 1.0 + 1e-9};
-    solver.factorise(regular);
-    CHECK_FALSE(solver.is_nearly_singular());
-    solver.factorise(nearly_singular);
-    CHECK(solver.is_nearly_singular());
-    Columns right_hand_side = Columns::Constant(2, 3, 2.0);
-    Columns solution(2, 3);
-    solver.solve(nearly_singular, right_hand_side, solution);
+    const auto is_nearly_singular = [&](const std::vector<double>& values) {
+        return factorised(*solver, values).is_nearly_singular();
+    };
+    CHECK_FALSE(is_nearly_singular(regular));
+    CHECK(is_nearly_singular(nearly_singular));
+    const Columns right_hand_side = Columns::Constant(2, 3, 2.0);
+    const Columns solution = solved(*solver, nearly_singular, right_hand_side);
     CHECK((dense(pattern, nearly_singular) * solution - right_hand_side).cwiseAbs().maxCoeff() < 1e-14);
-    solver.factorise(regular);
-    CHECK_FALSE(solver.is_nearly_singular());
+    CHECK_FALSE(is_nearly_singular(regular));
 }

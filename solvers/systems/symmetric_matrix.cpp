@@ -1,4 +1,4 @@
-#include "solvers/systems/upper_pattern.h"
+#include "solvers/systems/symmetric_matrix.h"
 
 #include <limits>
 #include <numeric>
@@ -107,6 +107,19 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
         rows[offsets[u + 1]++] = u;
     offsets.pop_back();
     return upper;
+}
+
+std::span<double> SymmetricMatrix::fill(const Points& positions, double time_step, std::size_t n_further,
+                                        SolverWorkspace& workspace, Points* product) const
+{
+    const std::size_t n_values = at(n_entries()) + n_further;
+    workspace.values.assign(n_values + 1, 0.0);
+    workspace.diagonal.resize(n_vertices);
+    workspace.mass.resize(n_vertices);
+    laplacian->assemble(positions, time_step, slots, workspace.values, workspace.diagonal, workspace.mass, product);
+    for (Index u = 0; u < n(); ++u)
+        workspace.values[diagonal_slot(u)] = workspace.mass[vertex_of[u]] + workspace.diagonal[vertex_of[u]];
+    return std::span(workspace.values).first(n_values);
 }
 
 }  // namespace seamflow

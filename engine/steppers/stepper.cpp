@@ -1,4 +1,4 @@
-#include "engine/steppers/make_stepper.h"
+#include "engine/steppers/stepper.h"
 
 #include "engine/steppers/explicit_stepper.h"
 #include "engine/steppers/schur_stepper.h"
@@ -30,6 +30,17 @@ std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, cons
     undecomposed.resources.memory_limit.reset();
     return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed, curvature,
                                           progress);
+}
+
+void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum)
+{
+    for (const PhaseSeconds& task : tasks) {
+        sum.assemble += task.assemble;
+        sum.factorise += task.factorise;
+        sum.solve += task.solve;
+        sum.correct += task.correct;
+        sum.interface += task.interface;
+    }
 }
 
 }  // namespace seamflow

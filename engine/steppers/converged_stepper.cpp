@@ -1,0 +1,86 @@
+#include "engine/steppers/converged_stepper.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "engine/measure/remarks.h"
+#include "engine/tasks/stopwatch.h"
+#include "solvers/direct/columns.h"
+
+namespace seamflow {
+
+ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options,
+                                   double parts_of_equation, Progress& progress)
+    : time_step_(options.time_step)
+    , positions_(mesh.vertices)
+    , seconds_(at(n_sub_meshes) + 1)
+    , graph_(options.report.record_schedule, progress)
+    , root_(graph_.add_root())
+    , equation_solved_(graph_.add_task({TaskKind::SolveInterface, -1, TaskPriority::Normal}, [this] { solve(); }))
+    , stop_{options.accuracy.tolerance.value(), options.accuracy.converge_iterations}
+    , loops_(parts_of_equation, progress)
+{
+    graph_.add_dependency(root_, equation_solved_);
+}
+
+void ConvergedStepper::step(const Points& before)
+{
+    assert(&before != &positions_);
+    before_ = &before;
+    graph_.run(0, loops_.parts());
+}
+
+void ConvergedStepper::solve()
+{
+    const Stopwatch watch;
+    reached_.last = solve_equation(stop_, loops_.begin());
+    loops_.end();
+    reached_.n_short_of_tolerance += reached_.last.residual <= stop_.tolerance ? 0 : 1;
+    reached_.n_stagnated += reached_.last.stagnated ? 1 : 0;
+    reached_.distance = std::hypot(reached_.distance, reached_.last.estimated_distance);
+    seconds_.back().interface += watch.seconds();
+}
+
+const Points& ConvergedStepper::localised(std::span<const Index> local_to_global, SolverWorkspace& workspace) const
+{
+    set_rows(workspace.positions, static_cast<Eigen::Index>(local_to_global.size()));
+    for (std::size_t v = 0; v < local_to_global.size(); ++v)
+        workspace.positions.row(static_cast<Eigen::Index>(v)) = before_->row(local_to_global[v]);
+    return workspace.positions;
+}
+
+void ConvergedStepper::save(StepMemory& memory) const
+{
+    memory.positions = positions_;
+    memory.numbers = {reached_.distance, static_cast<double>(reached_.n_short_of_tolerance),
+                      static_cast<double>(reached_.n_stagnated)};
+}
+
+void ConvergedStepper::restore(const StepMemory& memory)
+{
+    StepMemoryReader reader(memory);
+    positions_ = memory.positions;
+    restore_further(reader);
+    reached_.distance = reader.number();
+    reached_.n_short_of_tolerance = reader.count();
+    reached_.n_stagnated = reader.count();
+    reader.require_end();
+}
+
+void ConvergedStepper::describe(StepReport& report) const
+{
+    report.iterations = reached_.last.iterations;
+    report.residual = reached_.last.residual;
+    report.estimated_v_max = reached_.distance;
+}
+
+void ConvergedStepper::describe_steps(const std::string& advice, FlowReport& report) const
+{
+    add_seconds(report.seconds);
+    report.convergence.steps_short_of_tolerance = reached_.n_short_of_tolerance;
+    report.convergence.steps_stagnated = reached_.n_stagnated;
+    remark_on_missed_tolerance(stop_.iterations, advice, report);
+    report.schedule = graph_.schedule();
+}
+
+}  // namespace seamflow

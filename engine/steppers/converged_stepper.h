@@ -1,0 +1,88 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/memory/workspaces.h"
+#include "engine/options/flow_options.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "engine/tasks/step_graph.h"
+#include "solvers/interface/interface_result.h"
+
+namespace seamflow {
+
+/// What steps that take the undecomposed step itself, sub-mesh by sub-mesh, have in common: an iteration solves the equation for
+/// what sub-meshes share to a tolerance, with tasks of the sub-meshes before it, and maybe after it.
+class ConvergedStepper : public Stepper {
+  public:
+    void step(const Points& before) final;
+    [[nodiscard]] const Points& positions() const final { return positions_; }
+    void save(StepMemory& memory) const override;
+    void restore(const StepMemory& memory) final;
+    void add_seconds(PhaseSeconds& seconds) const final { add_up(seconds_, seconds); }
+    void describe(StepReport& report) const final;
+
+  protected:
+    /// Adds the equation to the graph.
+    /// @param parts_of_equation that it counts for in the progress of a step.
+    /// @param progress must outlive the stepper.
+    ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options, double parts_of_equation,
+                     Progress& progress);
+
+    /// Solves it.
+    virtual InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) = 0;
+
+    /// Takes back what `save` has added.
+    virtual void restore_further(StepMemoryReader&) {}
+
+    /// Vᵏ of a sub-mesh, in the workspace.
+    /// @param local_to_global of its own vertices.
+    const Points& localised(std::span<const Index> local_to_global, SolverWorkspace& workspace) const;
+
+    /// Fills in what all such steps report.
+    /// @param parts all sub-meshes.
+    /// @param advice what to do where steps missed the tolerance for want of iterations; may be empty.
+    template <class Parts>
+    void describe_parts(const Parts& parts, const std::string& advice, FlowReport& report) const
+    {
+        for (const auto& part : parts)
+            describe_sub_mesh(part.sub_mesh, 0, 0.0, report);
+        describe_steps(advice, report);
+    }
+
+    Workspaces workspaces_;
+    double time_step_;
+    /// #V by 3: Vᵏ, during a step.
+    const Points* before_ = nullptr;
+    /// #V by 3: Vᵏ⁺¹, complete at the end of a step.
+    Points positions_;
+    /// Per sub-mesh, and of the equation.
+    std::vector<PhaseSeconds> seconds_;
+    StepGraph graph_;
+    StepGraph::Node root_;
+    StepGraph::Node equation_solved_;
+
+  private:
+    /// How well steps have kept to their tolerance.
+    struct Reached {
+        /// In the last step; the residual is relative to that of the positions before it.
+        InterfaceResult last;
+        /// Estimated distance of the positions to those of the undecomposed flow. The residuals of the steps are added
+        /// up like independent errors.
+        double distance = 0.0;
+        int n_short_of_tolerance = 0;
+        int n_stagnated = 0;
+    };
+
+    void solve();
+    void describe_steps(const std::string& advice, FlowReport& report) const;
+
+    IterationStop stop_;
+    /// Of the iteration.
+    LoopCount loops_;
+    Reached reached_;
+};
+
+}  // namespace seamflow

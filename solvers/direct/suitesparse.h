@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "partition/errors.h"
+#include "solvers/direct/direct_solver.h"
+#include "solvers/sparse/sparse_pattern.h"
+
+/// SuiteSparse's solvers behind the interface of direct solvers. Their factors are in their own memory.
+namespace seamflow {
+
+/// LLᵀ of symmetric matrices by dense blocks, by CHOLMOD, in the order in which the unknowns are.
+/// @param upper the entries on and above the diagonal, the whole diagonal among them.
+/// @throws ComputationError if CHOLMOD fails (memory).
+std::unique_ptr<DirectSolver> make_cholmod_llt(SparsePattern upper, CholmodWorkspace& workspace);
+
+/// LU by UMFPACK. Pivots are taken from the diagonal; where those would lose nearly all digits, the largest of each
+/// column are, and solutions are refined. A factor is nearly singular if the smallest pivot is below 1e-13 of the
+/// largest even so. Its bytes are an upper bound for most matrices, as long as pivots from the diagonal do.
+/// @param pattern must outlive the solver.
+/// @throws ComputationError if UMFPACK fails (memory).
+std::unique_ptr<DirectSolver> make_umfpack_lu(const SparsePattern& pattern);
+
+/// A pattern's own arrays, which must outlive this, or where SuiteSparse is to have longer integers, copies.
+template <class Integer>
+class PatternView {
+  public:
+    explicit PatternView(const SparsePattern& pattern)
+        : offsets_(view(pattern.column_offsets, copied_offsets_))
+        , rows_(view(pattern.rows, copied_rows_))
+    {
+    }
+    PatternView(const PatternView&) = delete;
+    PatternView& operator=(const PatternView&) = delete;
+
+    [[nodiscard]] const Integer* offsets() const { return offsets_; }
+    [[nodiscard]] const Integer* rows() const { return rows_; }
+
+  private:
+    static const Integer* view(const std::vector<Index>& own, std::vector<Integer>& copy)
+    {
+        if constexpr (std::is_same_v<Integer, Index>)
+            return own.data();
+        copy.assign(own.begin(), own.end());
+        return copy.data();
+    }
+
+    std::vector<Integer> copied_offsets_;
+    std::vector<Integer> copied_rows_;
+    const Integer* offsets_;
+    const Integer* rows_;
+};
+
+[[noreturn]] inline void throw_out_of_memory(const std::string& task)
+{
+    throw ComputationError("out of memory in the " + task + " of the system: use more sub-meshes");
+}
+
+[[noreturn]] inline void throw_failure(const std::string& library, const std::string& task, long status)
+{
+    throw ComputationError(library + "'s " + task + " failed with status " + std::to_string(status));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "solvers/krylov/stopping_criterion.h"
+
+namespace seamflow {
+
+/// How the iteration for what sub-meshes share ended: for the equation on Γ, or for that on traces.
+struct InterfaceResult : IterationResult {
+    /// Estimate of the largest distance to the solution, in units of length.
+    double estimated_distance = 0.0;
+};
+
+}  // namespace seamflow
