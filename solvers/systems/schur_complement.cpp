@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "partition/vector_area.h"
 #include "solvers/direct/simd.h"
 
 namespace seamflow {
