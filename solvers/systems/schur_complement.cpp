@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solvers/direct/simd.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
