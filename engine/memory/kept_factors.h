@@ -17,8 +17,8 @@ struct FactorBytes {
     std::size_t on_interface = 0;
 };
 
-/// Which factors a converged step keeps from the elimination of the interiors until these are filled in. The others are
-/// made twice; in between only their block on Γ is kept.
+/// Which factors a converged step keeps from condensation until back substitution. The others are made twice; in
+/// between only their block on Γ is kept.
 struct KeptFactors {
     /// Per sub-mesh: 1 where the whole factor is kept.
     std::vector<std::uint8_t> whole;

@@ -60,12 +60,8 @@ const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Ind
     set_rows(mean, state.solved.rows());
     mean = state.solved;
     const auto& interface = state.sub_mesh->interface;
-    for (Index i = 0; i < interface.size(); ++i) {
-        Point sum = Point::Zero();
-        for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
-            sum += states[interface.sharing[i][k]].solved.row(interface.index_in_sharing[i][k]);
-        mean.row(interface.vertices[i]) = sum / static_cast<double>(interface.sharing[i].size());
-    }
+    for (Index i = 0; i < interface.size(); ++i)
+        mean.row(interface.vertices[i]) = mean_of_copies(states, interface, i, &SubMeshState::solved);
     return mean;
 }
 

@@ -7,13 +7,13 @@
 #include "engine/steppers/sub_mesh_state.h"
 #include "partition/decomposition/decomposition.h"
 #include "partition/topology.h"
-#include "solvers/estimate/indicator_equation.h"
+#include "solvers/estimate/error_equation.h"
 
 namespace seamflow {
 
 /// How far a flow in sub-meshes is from the undecomposed one, estimated without it.
 ///
-/// Given Γ, the interiors obey the undecomposed step exactly (but for Δ_P, see IndicatorEquation). What the sweep
+/// Given Γ, the interiors obey the undecomposed step exactly (but for Δ_P, see ErrorEquation). What the sweep
 /// leaves of its rows on Γ, the residual, gives the error e of the sweep by an equation on Γ alone; the correction of Γ
 /// adds its own displacement, which is known. Steps add up as vectors on Γ: the flow carries tangential differences
 /// along and smooths normal ones. Away from Γ the error of a step dies away, so that Γ has the largest.
@@ -59,7 +59,7 @@ class ErrorEstimate {
     double time_step_;
     /// Whether every sub-mesh has a copy of Γ of its own.
     bool has_copies_;
-    IndicatorEquation equation_;
+    ErrorEquation equation_;
     /// Each #Γ by 3. What the correction did in this step, and what is there after all steps: displacements by
     /// corrections, and errors of sweeps.
     Points correction_;

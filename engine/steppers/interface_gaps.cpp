@@ -8,42 +8,16 @@ namespace seamflow {
 
 namespace {
 
-/// Where the copies of a vertex of Γ lie: one row of a sub-mesh's positions each.
-class CopiesOfVertex {
-  public:
-    CopiesOfVertex(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i)
-        : states_(&states)
-        , sub_meshes_(interface.sharing[i])
-        , vertices_(interface.index_in_sharing[i])
-    {
-    }
-
-    [[nodiscard]] std::size_t size() const { return sub_meshes_.size(); }
-    [[nodiscard]] Point operator[](std::size_t k) const
-    {
-        return (*states_)[sub_meshes_[k]].position.row(vertices_[k]);
-    }
-
-  private:
-    const std::vector<SubMeshState>* states_;
-    std::span<const Index> sub_meshes_;
-    std::span<const Index> vertices_;
-};
-
-Point mean_of(const CopiesOfVertex& copies)
+/// Between two copies of the i-th vertex of a sub-mesh's Γ.
+double largest_distance(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i)
 {
-    Point sum = Point::Zero();
-    for (std::size_t k = 0; k < copies.size(); ++k)
-        sum += copies[k];
-    return sum / static_cast<double>(copies.size());
-}
-
-double largest_distance(const CopiesOfVertex& copies)
-{
+    const auto copy = [&](std::size_t k) -> Point {
+        return states[interface.sharing[i][k]].position.row(interface.index_in_sharing[i][k]);
+    };
     double largest = 0.0;
-    for (std::size_t k = 0; k < copies.size(); ++k)
+    for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
         for (std::size_t l = 0; l < k; ++l)
-            largest = std::max(largest, (copies[k] - copies[l]).norm());
+            largest = std::max(largest, (copy(k) - copy(l)).norm());
     return largest;
 }
 
@@ -84,9 +58,9 @@ void InterfaceGaps::join_interface_of(Index s, const std::vector<SubMeshState>& 
     for (Index i = 0; i < interface.size(); ++i) {
         if (interface.sharing[i].front() != s)
             continue;
-        const CopiesOfVertex copies(states, interface, i);
-        positions.row(sub_mesh.local_to_global[interface.vertices[i]]) = mean_of(copies);
-        gaps_[gap++] = largest_distance(copies);
+        positions.row(sub_mesh.local_to_global[interface.vertices[i]]) =
+            mean_of_copies(states, interface, i, &SubMeshState::position);
+        gaps_[gap++] = largest_distance(states, interface, i);
     }
 }
 

@@ -33,6 +33,7 @@ class SchurStepper final : public ConvergedStepper {
                  Progress& progress);
 
     void save(StepMemory& memory) const override;
+    using ConvergedStepper::describe;
     void describe(FlowReport& report) const override;
 
   private:

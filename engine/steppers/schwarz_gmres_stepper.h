@@ -25,6 +25,7 @@ class SchwarzGmresStepper final : public ConvergedStepper {
     SchwarzGmresStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                         Progress& progress);
 
+    using ConvergedStepper::describe;
     void describe(FlowReport& report) const override;
 
   private:

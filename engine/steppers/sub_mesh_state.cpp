@@ -77,6 +77,15 @@ SubMeshState::SubMeshState(const SubMesh& mesh, std::unique_ptr<SubMeshSystem> e
     solved = position;
 }
 
+Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
+                     Points SubMeshState::*array)
+{
+    Point sum = Point::Zero();
+    for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
+        sum += (states[interface.sharing[i][k]].*array).row(interface.index_in_sharing[i][k]);
+    return sum / static_cast<double>(interface.sharing[i].size());
+}
+
 void assemble_and_factorise(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo,
                             std::span<const InterfaceRole> roles, double time_step, const Resources& resources)
 {

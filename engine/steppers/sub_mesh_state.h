@@ -33,6 +33,11 @@ struct SubMeshState {
     PhaseSeconds seconds;
 };
 
+/// The mean of all copies of the i-th vertex of a sub-mesh's Γ.
+/// @param array that the copies are rows of.
+Point mean_of_copies(const std::vector<SubMeshState>& states, const SubMeshInterface& interface, Index i,
+                     Points SubMeshState::*array);
+
 /// What a task works with.
 struct Resources {
     /// Must outlive the states.

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "engine/memory/factor_window.h"
+#include "engine/steppers/sweep_order.h"
 #include "engine/tasks/step_graph.h"
 #include "partition/decomposition/sweep_plan.h"
 

@@ -23,13 +23,28 @@ double total_curvature(const SubMesh& sub_mesh, const std::vector<double>& curva
     return sum;
 }
 
+std::vector<Index> ascending(std::size_t n)
+{
+    std::vector<Index> numbers(n);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+}
+
+/// The place of each number in an order.
+std::vector<Index> inverse(const std::vector<Index>& order)
+{
+    std::vector<Index> places(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        places[order[i]] = static_cast<Index>(i);
+    return places;
+}
+
 }  // namespace
 
 std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Coloring coloring,
                                    const std::vector<double>& curvature)
 {
-    std::vector<Index> rank(decomposition.sub_meshes.size());
-    std::iota(rank.begin(), rank.end(), 0);
+    std::vector<Index> rank = ascending(decomposition.sub_meshes.size());
     if (coloring == Coloring::Label)
         return rank;
 
@@ -40,12 +55,9 @@ std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Coloring 
              [&](Index s) { of_sub_mesh[s] = total_curvature(decomposition.sub_meshes[s], curvature); });
     for (std::size_t s = 0; s < colors.size(); ++s)
         total[colors[s]] += of_sub_mesh[s];
-    std::vector<Index> order(total.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = ascending(total.size());
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return total[a] > total[b]; });
-    std::vector<Index> rank_of_color(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        rank_of_color[order[i]] = static_cast<Index>(i);
+    const std::vector<Index> rank_of_color = inverse(order);
     std::transform(colors.begin(), colors.end(), rank.begin(), [&](Index c) { return rank_of_color[c]; });
     return rank;
 }
@@ -56,6 +68,26 @@ std::vector<Index> reversed(const std::vector<Index>& rank)
     std::vector<Index> reversed_rank(rank.size());
     std::transform(rank.begin(), rank.end(), reversed_rank.begin(), [&](Index r) { return highest - r; });
     return reversed_rank;
+}
+
+Index least_window(const SweepPlan& plan, const std::vector<Index>& order)
+{
+    const std::vector<Index> places = inverse(order);
+    // Per sub-mesh, the last place that must be factorised before it can be solved.
+    std::vector<Index> last = places;
+    std::vector<Index> by_rank = ascending(plan.rank.size());
+    std::stable_sort(by_rank.begin(), by_rank.end(), [&](Index s, Index t) { return plan.rank[s] < plan.rank[t]; });
+    Index window = 0;
+    for (const Index s : by_rank) {
+        for (const Transfer& prediction : plan.predictions[s])
+            last[s] = std::max(last[s], places[prediction.from]);
+        for (const auto* transfers : {&plan.traces[s], &plan.copies[s]})
+            for (const Transfer& transfer : *transfers)
+                if (plan.rank[transfer.from] < plan.rank[s])
+                    last[s] = std::max(last[s], last[transfer.from]);
+        window = std::max(window, last[s] - places[s] + 1);
+    }
+    return window;
 }
 
 }  // namespace seamflow

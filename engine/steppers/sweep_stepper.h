@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/memory/factor_window.h"
 #include "engine/memory/shared_factor_pool.h"
 #include "engine/memory/workspaces.h"
 #include "engine/options/flow_options.h"

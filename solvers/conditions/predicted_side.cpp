@@ -14,8 +14,8 @@ namespace {
 
 /// Which row stands at a vertex in this step.
 enum class RowKind : std::uint8_t {
-    /// The undecomposed step's, the other side yielding to Γ.
-    Yielding,
+    /// The undecomposed step's, the other side responding to Γ.
+    Responding,
     /// The undecomposed step's, the other side as predicted.
     Held,
     Robin,
@@ -33,11 +33,11 @@ class PredictedSide final : public TransmissionCondition {
         , star_(sub_mesh, reach_of(laplacian) == Reach::TwoRings ? Laplacian::AlexaWardetzky : laplacian)
         , robin_(sub_mesh)
         , kinds_(sub_mesh.interface.vertices.size(), RowKind::Robin)
-        , yields_(sub_mesh.interface.vertices.size())
+        , responds_(sub_mesh.interface.vertices.size())
     {
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             list_columns(i);
-            yields_[i] =
+            responds_[i] =
                 reach_of(laplacian) == Reach::Edges || (reach_of(laplacian) == Reach::Faces && has_only_triangles(i));
         }
     }
@@ -65,7 +65,7 @@ class PredictedSide final : public TransmissionCondition {
             if (columns[k] < sub_mesh_->n_vertices)
                 row[place_of(i, columns[k])] += time_step_ * star[k];
             else
-                diagonal += time_step_ * star[k] * yielding(i, columns[k], positions);
+                diagonal += time_step_ * star[k] * response(i, columns[k], positions);
         row[place_of(i, sub_mesh_->interface.vertices[i])] += diagonal;
     }
 
@@ -79,7 +79,7 @@ class PredictedSide final : public TransmissionCondition {
         Point sum = v;
         for (std::size_t k = 0; k < columns.size(); ++k)
             if (columns[k] >= sub_mesh_->n_vertices)
-                sum -= time_step_ * star[k] * (other_side.row(columns[k]) - yielding(i, columns[k], positions) * v);
+                sum -= time_step_ * star[k] * (other_side.row(columns[k]) - response(i, columns[k], positions) * v);
         return sum;
     }
 
@@ -109,12 +109,12 @@ class PredictedSide final : public TransmissionCondition {
 
     [[nodiscard]] RowKind choose_kind(Index i, const Points& positions) const
     {
-        if (!yields_[i])
+        if (!responds_[i])
             return robin_.is_well_defined(i, positions) ? RowKind::Robin : RowKind::Held;
-        return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Yielding : RowKind::Held;
+        return remaining_diagonal(i, positions) >= 0.0 ? RowKind::Responding : RowKind::Held;
     }
 
-    /// What remains of the Laplacian's diagonal when the other side yields. Obtuse triangles can make it negative.
+    /// What remains of the Laplacian's diagonal when the other side responds. Obtuse triangles can make it negative.
     [[nodiscard]] double remaining_diagonal(Index i, const Points& positions) const
     {
         const auto star = star_.row(i);
@@ -135,9 +135,9 @@ class PredictedSide final : public TransmissionCondition {
     }
 
     /// ρ of a vertex beyond Γ in row i; 0 where the other side is held.
-    [[nodiscard]] double yielding(Index i, Index beyond, const Points& positions) const
+    [[nodiscard]] double response(Index i, Index beyond, const Points& positions) const
     {
-        return kinds_[i] == RowKind::Yielding ? remainder(sub_mesh_->interface.vertices[i], beyond, positions) : 0.0;
+        return kinds_[i] == RowKind::Responding ? remainder(sub_mesh_->interface.vertices[i], beyond, positions) : 0.0;
     }
 
     [[nodiscard]] std::size_t place_of(Index i, Index column) const
@@ -162,8 +162,8 @@ class PredictedSide final : public TransmissionCondition {
     AdaptedRobin robin_;
     IndexLists columns_;
     std::vector<RowKind> kinds_;
-    /// Per vertex of Γ, whether the Laplacian allows the other side to yield there.
-    std::vector<bool> yields_;
+    /// Per vertex of Γ, whether the Laplacian lets the other side respond there.
+    std::vector<bool> responds_;
     double time_step_ = 0.0;
 };
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "solvers/direct/simd.h"
+#include "solvers/laplacian/geometry.h"
 #include "solvers/sparse/elimination_order.h"
 
 namespace seamflow {

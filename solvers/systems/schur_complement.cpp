@@ -4,6 +4,7 @@
 
 #include "partition/vector_area.h"
 #include "solvers/direct/simd.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 

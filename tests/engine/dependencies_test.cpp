@@ -9,7 +9,6 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/memory/factor_window.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"

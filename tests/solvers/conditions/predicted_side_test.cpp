@@ -42,7 +42,7 @@ TEST_CASE("with Δ_A a flat mesh of triangles satisfies the condition as it is, 
     CHECK(largest_residual_at_rest(cut, Laplacian::AlexaWardetzky) < 1e-12);
 }
 
-TEST_CASE("the row at a vertex without prediction is the row of the undecomposed step that yields by ρ")
+TEST_CASE("the row at a vertex without prediction is the row of the undecomposed step with a response by ρ")
 {
     // On a grid of unit squares, Δ_F: one neighbour beyond a straight Γ, coefficients -1, ρ = e^-θ with cosh θ = 1 + 1
     // / 2dt.

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <doctest/doctest.h>
 
-#include "solvers/estimate/indicator_equation.h"
+#include "solvers/estimate/error_equation.h"
 #include "tests/support/allocations.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/matrices.h"
@@ -54,7 +54,7 @@ Points disturbed(const Case& c, Laplacian laplacian, double time_step, double ha
     return after;
 }
 
-void assemble(const Case& c, const Points& after, double time_step, IndicatorEquation& equation)
+void assemble(const Case& c, const Points& after, double time_step, ErrorEquation& equation)
 {
     for (Index s = 0; s < 2; ++s) {
         const SubMesh& sub_mesh = c.decomposition.sub_meshes[s];
@@ -94,7 +94,7 @@ TEST_CASE("the error on Γ is found from the residual, smooth and rough")
                     CAPTURE(half_waves);
                     const Points after = disturbed(c, laplacian, time_step, half_waves);
                     const double expected = after.col(2).cwiseAbs().maxCoeff();
-                    IndicatorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian);
+                    ErrorEquation equation(c.decomposition, c.cut.mesh, c.cut.topology, laplacian);
                     assemble(c, after, time_step, equation);
                     if (laplacian == Laplacian::PtackovaVelho)
                         equation.measure_whole_rows(c.cut.mesh, c.cut.topology, c.cut.mesh.vertices, after, time_step,
@@ -110,8 +110,8 @@ TEST_CASE("the order of the loop does not matter, and nothing is allocated")
 {
     for (const Case& c : cases()) {
         const Points after = disturbed(c, Laplacian::AlexaWardetzky, 4.0, 3.0);
-        IndicatorEquation forward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky);
-        IndicatorEquation backward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky);
+        ErrorEquation forward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky);
+        ErrorEquation backward(c.decomposition, c.cut.mesh, c.cut.topology, Laplacian::AlexaWardetzky);
         assemble(c, after, 4.0, forward);
         assemble(c, after, 4.0, backward);
         const Loop serial = run_serially;
@@ -129,7 +129,7 @@ TEST_CASE("without Γ there is nothing to solve")
     const Topology topology = make_topology(mesh);
     const std::vector<Index> labels(mesh.n_faces(), 0);
     const Decomposition decomposition = decompose(mesh, topology, labels, 1);
-    IndicatorEquation equation(decomposition, mesh, topology, Laplacian::PtackovaVelho);
+    ErrorEquation equation(decomposition, mesh, topology, Laplacian::PtackovaVelho);
     equation.solve(run_serially);
     CHECK(equation.size() == 0);
 }

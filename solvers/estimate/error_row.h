@@ -8,7 +8,7 @@
 
 namespace seamflow {
 
-/// What a neighbour of a vertex of Γ is, where it is not itself on Γ (see indicator_row).
+/// What a neighbour of a vertex of Γ is, where it is not itself on Γ (see error_row).
 inline constexpr Index off_interface = -1;
 inline constexpr Index held_fixed = -2;
 
@@ -17,13 +17,13 @@ inline constexpr Index held_fixed = -2;
 /// sweep. T is M + dt K on Γ, and what lies beyond Γ answers as in a half plane: at distance d from Γ, e^-θ of the
 /// error is left, cosh θ = 1 + d² / 2 dt D, where D says how fast the row itself diffuses. Positive definite: couplings
 /// that are negative count as none.
-struct IndicatorRow {
+struct ErrorRow {
     /// M_v: in length for Δ_F, in length² for the others.
     double mass = 0.0;
     /// T_vv.
     double diagonal = 0.0;
-    /// What the vertices beyond Γ yield, in the unit of T.
-    double yielded = 0.0;
+    /// The response of the vertices beyond Γ, in the unit of T: what their coupling leaves of itself.
+    double response = 0.0;
     Point residual = Point::Zero();
     /// Unit normal of the surface at Vᵏ, for Δ_F of the sub-mesh's own side; zero where it has none.
     Point normal = Point::Zero();
@@ -34,7 +34,7 @@ struct IndicatorRow {
 /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
 /// @param time_step dt, in length².
 /// @param couplings one per edge neighbour: receives -T_vw where it is on Γ, and else 0.
-IndicatorRow indicator_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
-                           const Points& before, const Points& after, double time_step, std::span<double> couplings);
+ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
+                   const Points& before, const Points& after, double time_step, std::span<double> couplings);
 
 }  // namespace seamflow

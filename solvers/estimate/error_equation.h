@@ -14,22 +14,22 @@
 
 namespace seamflow {
 
-/// The equation T e = r for the error of a decomposed step on Γ (see IndicatorRow), one row per vertex of Γ. Steps
+/// The equation T e = r for the error of a decomposed step on Γ (see ErrorRow), one row per vertex of Γ. Steps
 /// allocate nothing, and the bits do not depend on the loop.
-class IndicatorEquation {
+class ErrorEquation {
   public:
     /// @param decomposition must outlive this; its sub-meshes do not overlap.
-    IndicatorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                      Laplacian laplacian, const Loop& loop = run_serially);
+    ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+                  Laplacian laplacian, const Loop& loop = run_serially);
 
     /// Number of vertices on Γ, numbered sub-mesh by sub-mesh, each by the one that owns it.
-    [[nodiscard]] Index size() const { return static_cast<Index>(diagonal_.size()); }
+    [[nodiscard]] Index size() const { return static_cast<Index>(rows_.diagonal.size()); }
 
     /// The first number of a sub-mesh; for s = #sub-meshes the number of all.
-    [[nodiscard]] Index first(Index s) const { return first_[s]; }
+    [[nodiscard]] Index first(Index s) const { return numbering_.first[s]; }
 
     /// The local index of a vertex in the sub-mesh that owns it.
-    [[nodiscard]] Index local_vertex(Index i) const { return local_vertex_[i]; }
+    [[nodiscard]] Index local_vertex(Index i) const { return numbering_.local_vertex[i]; }
 
     /// Fills in the rows of a sub-mesh's own part of Γ. Different sub-meshes may do so at the same time.
     /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
@@ -44,20 +44,20 @@ class IndicatorEquation {
                             const Points& after, double time_step, const Loop& loop);
 
     /// Adds to the right-hand side what makes the step spread a displacement of single vertices of Γ.
-    void add_displacement(Index i, const Point& d) { residual_.row(i) += mass_[i] * d; }
+    void add_displacement(Index i, const Point& d) { iteration_.residual.row(i) += rows_.mass[i] * d; }
 
     /// The same for an error that dies away from Γ, so that it comes back where it is smooth along Γ, and smoothed
     /// where it is rough.
-    void add_error(Index i, const Point& d) { residual_.row(i) += row_sum_[i] * d; }
+    void add_error(Index i, const Point& d) { iteration_.residual.row(i) += rows_.row_sum[i] * d; }
 
     /// Unit normal of the surface at Vᵏ; zero where it has none.
-    [[nodiscard]] Point normal(Index i) const { return normal_.row(i); }
+    [[nodiscard]] Point normal(Index i) const { return rows_.normal.row(i); }
 
     /// Solves to two digits; may be called once after the rows have been filled in.
     void solve(const Loop& loop);
 
     /// #Γ by 3, in units of length: not finite where the rows are not.
-    [[nodiscard]] const Points& error() const { return error_; }
+    [[nodiscard]] const Points& error() const { return iteration_.error; }
 
   private:
     void list_neighbours(std::span<const Index> kinds, const Loop& loop);
@@ -67,35 +67,51 @@ class IndicatorEquation {
     double add_up(const Loop& loop, Value&& value);
     [[nodiscard]] Point product(Index i) const;
 
+    /// The vertices of Γ.
+    struct Numbering {
+        /// Per sub-mesh, and one more.
+        std::vector<Index> first{0};
+        /// Per vertex, its index in its owner's interface, and see local_vertex.
+        std::vector<Index> index_in_owner;
+        std::vector<Index> local_vertex;
+    };
+    struct Rows {
+        /// Per vertex of Γ, its edge neighbours: numbers on Γ, or see off_interface; and -T there.
+        IndexLists neighbours;
+        std::vector<double> couplings;
+        std::vector<double> mass;
+        std::vector<double> diagonal;
+        std::vector<double> row_sum;
+        /// Of the vertices beyond Γ, to each neighbour along Γ.
+        std::vector<double> response;
+        /// #Γ by 3.
+        Points normal;
+    };
+    /// Conjugate gradients: each #Γ by 3.
+    struct Iteration {
+        Points residual;
+        Points error;
+        Points direction;
+        Points product;
+        /// Per block of Γ.
+        std::vector<double> of_block;
+    };
+    /// With Δ_P.
+    struct WholeRows {
+        /// Rows of the whole mesh at the vertices of Γ, and then at those that share a face with one of them.
+        PtackovaRows rows;
+        Points residual;
+        /// With how many vertices of Γ each of the latter shares a face, and for each vertex of Γ their numbers.
+        std::vector<Index> n_shared;
+        IndexLists around;
+    };
+
     const Decomposition* decomposition_;
     Laplacian laplacian_;
-    std::vector<Index> first_{0};
-    /// Per vertex of Γ, its index in its owner's interface, and see local_vertex.
-    std::vector<Index> index_in_owner_;
-    std::vector<Index> local_vertex_;
-    /// Per vertex of Γ, its edge neighbours: numbers on Γ, or see off_interface; and -T there.
-    IndexLists neighbours_;
-    std::vector<double> couplings_;
-    std::vector<double> mass_;
-    std::vector<double> diagonal_;
-    std::vector<double> row_sum_;
-    /// What the vertices beyond Γ yield to each neighbour along Γ.
-    std::vector<double> yielded_;
-    /// Each #Γ by 3.
-    Points normal_;
-    Points residual_;
-    Points error_;
-    Points direction_;
-    Points product_;
-    /// Per block of Γ.
-    std::vector<double> of_block_;
-
-    /// With Δ_P: the rows of the whole mesh at the vertices of Γ, and then at those that share a face with one of them.
-    std::optional<PtackovaRows> whole_rows_;
-    Points whole_residual_;
-    /// With how many vertices of Γ each of the latter shares a face, and for each vertex of Γ their numbers.
-    std::vector<Index> n_shared_;
-    IndexLists around_;
+    Numbering numbering_;
+    Rows rows_;
+    Iteration iteration_;
+    std::optional<WholeRows> whole_;
 };
 
 }  // namespace seamflow

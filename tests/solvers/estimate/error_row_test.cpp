@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "solvers/estimate/residual_indicator.h"
+#include "solvers/estimate/error_row.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/matrices.h"
 
@@ -11,7 +11,7 @@ using namespace seamflow;
 
 namespace {
 
-constexpr double indicator_time_step = 0.03;
+constexpr double error_time_step = 0.03;
 
 /// Every neighbour as what it is, numbered by its index in the whole mesh.
 std::vector<Index> kinds_at(const test::CutMesh& cut, const SubMesh& sub_mesh, Index i)
@@ -42,8 +42,8 @@ void for_each_row(const test::CutMesh& cut, Laplacian laplacian, const Points& a
         for (Index i = 0; i < sub_mesh.interface.size(); ++i) {
             const auto kinds = kinds_at(cut, sub_mesh, i);
             std::vector<double> couplings(kinds.size());
-            const IndicatorRow row =
-                indicator_row(sub_mesh, laplacian, i, kinds, before_here, after_here, indicator_time_step, couplings);
+            const ErrorRow row =
+                error_row(sub_mesh, laplacian, i, kinds, before_here, after_here, error_time_step, couplings);
             action(sub_mesh, i, row, kinds, couplings);
         }
     }
@@ -60,9 +60,9 @@ TEST_CASE("the residual is that of the whole system in its symmetric form")
             const Points& before = cut.mesh.vertices;
             const Points after = before + 0.05 * Points::Random(before.rows(), 3);
             const Points expected =
-                after - before + indicator_time_step * test::dense_laplacian(laplacian, cut.mesh, cut.topology) * after;
+                after - before + error_time_step * test::dense_laplacian(laplacian, cut.mesh, cut.topology) * after;
             for_each_row(cut, laplacian, after,
-                         [&](const SubMesh& sub_mesh, Index i, const IndicatorRow& row, const auto&, const auto&) {
+                         [&](const SubMesh& sub_mesh, Index i, const ErrorRow& row, const auto&, const auto&) {
                              const Index v = sub_mesh.local_to_global[sub_mesh.interface.vertices[i]];
                              CHECK(row.mass > 0.0);
                              CHECK((row.residual / row.mass - expected.row(v)).norm() <=
@@ -78,7 +78,7 @@ TEST_CASE("T is symmetric and positive definite, the same for all sub-meshes at 
             CAPTURE(cut.name);
             std::map<std::pair<Index, Index>, double> entries;
             for_each_row(cut, laplacian, cut.mesh.vertices,
-                         [&](const SubMesh& sub_mesh, Index i, const IndicatorRow& row, const auto& kinds,
+                         [&](const SubMesh& sub_mesh, Index i, const ErrorRow& row, const auto& kinds,
                              const std::vector<double>& couplings) {
                              const Index v = sub_mesh.local_to_global[sub_mesh.interface.vertices[i]];
                              double sum = 0.0;
@@ -95,7 +95,7 @@ TEST_CASE("T is symmetric and positive definite, the same for all sub-meshes at 
                                  }
                              }
                              CHECK(row.diagonal >= sum + 0.999 * row.mass);
-                             CHECK(row.yielded >= 0.0);
+                             CHECK(row.response >= 0.0);
                              CHECK((row.normal.norm() == doctest::Approx(1.0) || row.normal.norm() == 0.0));
                          });
         }

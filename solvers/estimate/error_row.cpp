@@ -1,4 +1,4 @@
-#include "solvers/estimate/residual_indicator.h"
+#include "solvers/estimate/error_row.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ struct Draft {
     Index vertex;
     std::span<const Index> neighbours;
     std::span<double> couplings;
-    IndicatorRow row;
+    ErrorRow row;
     /// Couplings to vertices that share a face but no edge: their sum, and that of their products with squared
     /// distances, across Γ and in all.
     double far = 0.0;
@@ -124,8 +124,8 @@ void close_row(std::span<const Index> kinds, double spread_squared, Draft& draft
         return;
     const double cosh_less_one = 0.5 * std::max(0.0, across / beyond) / spread_squared;
     const double left = 1.0 / (1.0 + cosh_less_one + std::sqrt(cosh_less_one * (cosh_less_one + 2.0)));
-    draft.row.yielded = beyond * left;
-    draft.row.diagonal += beyond - draft.row.yielded;
+    draft.row.response = beyond * left;
+    draft.row.diagonal += beyond - draft.row.response;
 }
 
 /// The Laplacian whose matrix stands for that of another: Δ_A for those that reach two rings.
@@ -134,8 +134,8 @@ using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings
 
 }  // namespace
 
-IndicatorRow indicator_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
-                           const Points& before, const Points& after, double time_step, std::span<double> couplings)
+ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
+                   const Points& before, const Points& after, double time_step, std::span<double> couplings)
 {
     const auto& interface = sub_mesh.interface;
     const Index v = interface.vertices[i];
