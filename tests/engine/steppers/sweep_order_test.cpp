@@ -7,7 +7,7 @@
 #include "engine/steppers/sweep_order.h"
 #include "partition/cut/coloring.h"
 #include "partition/cut/cut.h"
-#include "partition/decomposition/narrow_order.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "samples/common/meshes.h"
 #include "tests/support/cut_meshes.h"
 
@@ -194,7 +194,7 @@ TEST_CASE("with the least window no sweep waits for itself, with one place less 
         std::vector<Index> shuffled = in_order(decomposition.sub_meshes.size());
         std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(7));
         for (const SweepPlan& plan : plans_for(decomposition))
-            for (const auto& order : {narrow_order(decomposition.adjacency), shuffled}) {
+            for (const auto& order : {reverse_cuthill_mckee(decomposition.adjacency), shuffled}) {
                 const Index least = least_window(plan, order);
                 CHECK(always_ends(plan, {order, least}));
                 CHECK_FALSE(always_ends(plan, {order, least - 1}));
