@@ -12,7 +12,7 @@
 namespace seamflow {
 
 /// How the sub-meshes are coloured. Sub-meshes of one colour are independent; colours are solved in turn.
-enum class Coloring {
+enum class Colouring {
     /// Two colours (red-black) where the sub-mesh adjacency is bipartite, few otherwise. Colour classes are solved in
     /// order of decreasing total curvature Σ‖ΔV⁰‖.
     Greedy,
@@ -142,7 +142,7 @@ struct InterfaceOptions {
     /// faces that share a vertex with it, into sub-meshes that do not solve before it. Of no use with other conditions.
     int overlap = 1;
     /// Order of sub-meshes in a step.
-    Coloring coloring = Coloring::Greedy;
+    Colouring colouring = Colouring::Greedy;
     /// Direction of the sweep over the colours.
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
@@ -208,8 +208,8 @@ struct ReportOptions {
     /// Record what ran when, in which thread (FlowReport::schedule): 32 bytes for each task and step. Steps of
     /// Scheme::ExplicitEuler have no tasks.
     bool record_schedule = false;
-    /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::separated, StepState::separated). For
-    /// the classical conditions with Scheme::BackwardEuler alone: with others the copies are the same.
+    /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::separated, StepState::separated).
+    /// For the classical conditions with Scheme::BackwardEuler alone: with others the copies are the same.
     bool keep_gaps = false;
 };
 

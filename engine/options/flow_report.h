@@ -83,7 +83,7 @@ struct SubMeshReport {
     /// With those of the interface, and of the overlap of Conditions::Schwarz.
     Index vertices = 0;
     /// Colour 0 solves first in even steps.
-    Index color = 0;
+    Index colour = 0;
     /// Robin parameter, in 1/length; 0 without interface, and with conditions that have none.
     double p = 0.0;
 };
@@ -100,11 +100,11 @@ struct CutReport {
 
     [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(sub_meshes.size()); }
     /// Colours are numbered from 0, and each is used.
-    [[nodiscard]] Index n_colors() const
+    [[nodiscard]] Index n_colours() const
     {
         Index n = 0;
         for (const SubMeshReport& sub_mesh : sub_meshes)
-            n = std::max(n, sub_mesh.color + 1);
+            n = std::max(n, sub_mesh.colour + 1);
         return n;
     }
 };

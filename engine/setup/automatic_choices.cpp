@@ -49,7 +49,7 @@ bool speaks_of_sweeps(const FlowOptions& options)
            options.interface.p_edge != defaults.interface.p_edge || options.interface.q ||
            options.interface.sweep != defaults.interface.sweep ||
            options.interface.correction != defaults.interface.correction ||
-           options.interface.coloring != defaults.interface.coloring ||
+           options.interface.colouring != defaults.interface.colouring ||
            options.resources.factorisation == Factorisation::Cholmod ||
            options.resources.factorisation == Factorisation::Umfpack;
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_names.h"
 #include "engine/setup/origin_offset.h"
 #include "engine/state/checksum.h"
 #include "partition/errors.h"
@@ -41,11 +42,15 @@ std::string text_of(Laplacian laplacian)
     return std::string(name_of(laplacian));
 }
 
-/// An enumerator by its name.
-template <class Enum, std::size_t N>
-std::string named(Enum value, const std::array<std::string_view, N>& names)
+template <class Option>
+concept HasNames = requires
 {
-    return std::string(names.at(static_cast<std::size_t>(value)));
+    OptionNames<Option>::list;
+};
+
+std::string text_of(HasNames auto value)
+{
+    return std::string(option_name(value));
 }
 
 std::string text_of(const std::vector<Index>& indices)
@@ -74,7 +79,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     // Every field has a name here, so that a new one cannot be forgotten.
     const auto& [laplacian, time_step, steps, scheme, cut, interface, accuracy, motion, resources, report] = options;
     const auto& [subdomains, labels] = cut;
-    const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, coloring, sweep, correction] = interface;
+    const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
     const auto& [boundary, fixed_vertices, strict, rescale] = motion;
     const auto& [threads, memory_limit, factorisation] = resources;
@@ -87,7 +92,6 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     static_cast<void>(memory_limit);
     static_cast<void>(largest_update);
     static_cast<void>(record_schedule);
-    using Names = std::array<std::string_view, 2>;
     return {{
         {"version", SEAMFLOW_VERSION},
         {"mesh", text_of(mesh)},
@@ -95,27 +99,25 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"time_step", text_of(time_step)},
         {"subdomains", text_of(subdomains)},
         {"labels", text_of(labels)},
-        {"coloring", named(coloring, Names{"greedy", "label"})},
-        {"conditions", named(conditions, std::array<std::string_view, 5>{"adapted-robin", "adapted-ventcell", "robin",
-                                                                         "ventcell", "schwarz"})},
-        {"scheme", named(scheme, Names{"implicit", "explicit"})},
-        {"transmission", named(transmission, Names{"derivative", "predicted"})},
+        {"colouring", text_of(colouring)},
+        {"conditions", text_of(conditions)},
+        {"scheme", text_of(scheme)},
+        {"transmission", text_of(transmission)},
         {"p", text_of(p)},
-        {"p_rule", named(p_rule, Names{"paper", "inverse-step"})},
-        {"p_edge", named(p_edge, std::array<std::string_view, 4>{"automatic", "min", "percentile", "mean"})},
+        {"p_rule", text_of(p_rule)},
+        {"p_edge", text_of(p_edge)},
         {"q", text_of(q)},
         {"overlap", text_of(overlap)},
-        {"sweep", named(sweep, std::array<std::string_view, 3>{"automatic", "fixed", "alternating"})},
-        {"boundary", named(boundary, Names{"fixed", "free"})},
+        {"sweep", text_of(sweep)},
+        {"boundary", text_of(boundary)},
         {"fixed_vertices", text_of(fixed_vertices)},
-        {"rescale", named(rescale, std::array<std::string_view, 3>{"none", "area", "volume"})},
-        {"correction", named(correction, std::array<std::string_view, 3>{"automatic", "centroid", "none"})},
+        {"rescale", text_of(rescale)},
+        {"correction", text_of(correction)},
         {"tolerance", text_of(tolerance)},
-        {"approach", named(approach, Names{"automatic", "sweep"})},
+        {"approach", text_of(approach)},
         {"converge_iterations", text_of(converge_iterations)},
         {"reference", reference ? "yes" : "no"},
-        {"factorisation",
-         named(factorisation, std::array<std::string_view, 4>{"automatic", "own", "cholmod", "umfpack"})},
+        {"factorisation", text_of(factorisation)},
     }};
 }
 

@@ -30,8 +30,8 @@ class Stepper {
     /// #V by 3, after the last step.
     [[nodiscard]] virtual const Points& positions() const = 0;
 
-    /// The sub-meshes after the last step (see FlowReport::separated); null where they have no copies of their own of Γ,
-    /// and without ReportOptions::keep_gaps.
+    /// The sub-meshes after the last step (see FlowReport::separated); null where they have no copies of their own of
+    /// Γ, and without ReportOptions::keep_gaps.
     [[nodiscard]] virtual const PolygonMesh* separated() const { return nullptr; }
 
     /// Gives what the next step needs.
@@ -74,9 +74,9 @@ void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum);
 /// @param sub_mesh a SubMesh, or what else has `faces` and `n_vertices`.
 /// @param p Robin parameter, in 1/length.
 template <class Part>
-void describe_sub_mesh(const Part& sub_mesh, Index color, double p, FlowReport& report)
+void describe_sub_mesh(const Part& sub_mesh, Index colour, double p, FlowReport& report)
 {
-    report.cut.sub_meshes.push_back({static_cast<Index>(sub_mesh.faces.size()), sub_mesh.n_vertices, color, p});
+    report.cut.sub_meshes.push_back({static_cast<Index>(sub_mesh.faces.size()), sub_mesh.n_vertices, colour, p});
 }
 
 }  // namespace seamflow

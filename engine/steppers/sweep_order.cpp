@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "engine/tasks/parallel_loop.h"
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 
 namespace seamflow {
 
@@ -41,24 +41,24 @@ std::vector<Index> inverse(const std::vector<Index>& order)
 
 }  // namespace
 
-std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Coloring coloring,
+std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Colouring colouring,
                                    const std::vector<double>& curvature)
 {
     std::vector<Index> rank = ascending(decomposition.sub_meshes.size());
-    if (coloring == Coloring::Label)
+    if (colouring == Colouring::Label)
         return rank;
 
-    const std::vector<Index> colors = color(decomposition.adjacency);
-    std::vector<double> total(n_colors(colors), 0.0);
-    std::vector<double> of_sub_mesh(colors.size());
-    for_each(run_in_parallel, static_cast<Index>(colors.size()),
+    const std::vector<Index> colours = colour(decomposition.adjacency);
+    std::vector<double> total(n_colours(colours), 0.0);
+    std::vector<double> of_sub_mesh(colours.size());
+    for_each(run_in_parallel, static_cast<Index>(colours.size()),
              [&](Index s) { of_sub_mesh[s] = total_curvature(decomposition.sub_meshes[s], curvature); });
-    for (std::size_t s = 0; s < colors.size(); ++s)
-        total[colors[s]] += of_sub_mesh[s];
+    for (std::size_t s = 0; s < colours.size(); ++s)
+        total[colours[s]] += of_sub_mesh[s];
     std::vector<Index> order = ascending(total.size());
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return total[a] > total[b]; });
-    const std::vector<Index> rank_of_color = inverse(order);
-    std::transform(colors.begin(), colors.end(), rank.begin(), [&](Index c) { return rank_of_color[c]; });
+    const std::vector<Index> rank_of_colour = inverse(order);
+    std::transform(colours.begin(), colours.end(), rank.begin(), [&](Index c) { return rank_of_colour[c]; });
     return rank;
 }
 

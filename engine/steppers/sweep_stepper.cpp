@@ -12,8 +12,8 @@
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
-#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/decomposition/overlap.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -52,7 +52,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     , positions_(copied(mesh.vertices))
     , factorisation_(options.resources.factorisation)
 {
-    const auto rank = rank_sub_meshes(decomposition_, options.interface.coloring, curvature);
+    const auto rank = rank_sub_meshes(decomposition_, options.interface.colouring, curvature);
     if (options.interface.conditions == Conditions::Schwarz)
         decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.interface.overlap);
     progress.require_going_on();

@@ -54,8 +54,7 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
     add_real(app, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths [5]");
     add_integer(app, "--steps", flow.steps, 1, "number of steps [5]");
     add_integer(app, "--subdomains", flow.cut.subdomains, 0, "number of sub-meshes of ours; 0: chosen [0]");
-    add_choice(app, "--conditions", flow.interface.conditions, conditions_choices(),
-               "what holds between sub-meshes of ours [adapted-robin]");
+    add_choice(app, "--conditions", flow.interface.conditions, "what holds between sub-meshes of ours [adapted-robin]");
     add_real(app, "--q", flow.interface.q, {0.0, std::numeric_limits<double>::max()},
              "Ventcell parameter of ours, for adapted-ventcell and ventcell");
     add_bytes(app, "--memory-limit", flow.resources.memory_limit,

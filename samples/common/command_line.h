@@ -11,6 +11,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "engine/options/option_names.h"
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"
@@ -91,6 +92,15 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, Value& target,
         throw CLI::ValidationError(names, "\"" + word + "\" is none of " + words);
     };
     return app.add_option_function<std::string>(names, store, description)->type_name(words);
+}
+
+/// As above, for an option of a flow.
+template <class Option>
+CLI::Option* add_choice(CLI::App& app, const std::string& names, Option& target, const std::string& description)
+{
+    const auto& list = OptionNames<Option>::list;
+    return add_choice(app, names, target, std::vector<std::pair<std::string, Option>>(std::begin(list), std::end(list)),
+                      description);
 }
 
 /// Parses the command line.

@@ -18,17 +18,6 @@ const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices()
     return choices;
 }
 
-const std::vector<std::pair<std::string, Conditions>>& conditions_choices()
-{
-    static const std::vector<std::pair<std::string, Conditions>> choices{
-        {"adapted-robin", Conditions::AdaptedRobin},
-        {"adapted-ventcell", Conditions::AdaptedVentcell},
-        {"robin", Conditions::Robin},
-        {"ventcell", Conditions::Ventcell},
-        {"schwarz", Conditions::Schwarz}};
-    return choices;
-}
-
 CLI::Option* add_converge(CLI::App& app, FlowOptions& options, const std::string& description)
 {
     const auto store = [&options](const std::string& text) {

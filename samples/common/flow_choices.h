@@ -17,7 +17,4 @@ const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices();
 /// Adds --converge: "auto", "never", or a tolerance below 1, for AccuracyOptions::tolerance and approach.
 CLI::Option* add_converge(CLI::App& app, FlowOptions& options, const std::string& description);
 
-/// "adapted-robin", "adapted-ventcell", "robin", "ventcell", "schwarz".
-const std::vector<std::pair<std::string, Conditions>>& conditions_choices();
-
 }  // namespace seamflow

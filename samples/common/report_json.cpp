@@ -132,8 +132,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["subdomains"] = report.cut.n_sub_meshes();
     json["subdomain_vertices"] = of_sub_meshes(report.cut, &SubMeshReport::vertices);
     json["subdomain_faces"] = of_sub_meshes(report.cut, &SubMeshReport::faces);
-    json["subdomain_colors"] = of_sub_meshes(report.cut, &SubMeshReport::color);
-    json["colors"] = report.cut.n_colors();
+    json["subdomain_colours"] = of_sub_meshes(report.cut, &SubMeshReport::colour);
+    json["colours"] = report.cut.n_colours();
     json["interface_vertices"] = report.cut.interface_vertices;
     json["repaired_faces"] = report.cut.repaired_faces;
     json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;

@@ -27,7 +27,7 @@ std::string counted(Index count, const std::string& singular, const std::string&
 void print_cut(std::ostream& out, const FlowReport& report)
 {
     out << fmt::format("cut        {} in {}, {}\n", counted(report.cut.n_sub_meshes(), "sub-mesh", "sub-meshes"),
-                       counted(report.cut.n_colors(), "colour", "colours"),
+                       counted(report.cut.n_colours(), "colour", "colours"),
                        counted(report.cut.interface_vertices, "interface vertex", "interface vertices"));
     std::vector<Index> sizes;
     for (const SubMeshReport& sub_mesh : report.cut.sub_meshes)

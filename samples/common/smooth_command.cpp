@@ -23,14 +23,11 @@ void add_parameters(CLI::App& app, FlowOptions& options)
     std::vector<CLI::Option*> of_derivatives;
     of_derivatives.push_back(
         add_real(app, "--p", options.interface.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]"));
-    of_derivatives.push_back(add_choice<PRule>(app, "--p-rule", options.interface.p_rule,
-                                               {{"paper", PRule::Paper}, {"inverse-step", PRule::InverseStep}},
-                                               "η in p*: 1 or 1/dt [paper]"));
-    of_derivatives.push_back(add_choice<PEdge>(
-        app, "--p-edge", options.interface.p_edge,
-        {{"auto", PEdge::Automatic}, {"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}},
-        "edge in p*: the shortest, the 5th percentile, or the mean; auto: the shortest unless it is a "
-        "sliver's, then the percentile [auto; with --plain min]"));
+    of_derivatives.push_back(add_choice(app, "--p-rule", options.interface.p_rule, "η in p*: 1 or 1/dt [paper]"));
+    of_derivatives.push_back(
+        add_choice(app, "--p-edge", options.interface.p_edge,
+                   "edge in p*: the shortest, the 5th percentile, or the mean; auto: the shortest unless it is a "
+                   "sliver's, then the percentile [auto; with --plain min]"));
     add_real(app, "--q", options.interface.q, {0.0, std::numeric_limits<double>::max()},
              "Ventcell parameter, for adapted-ventcell and ventcell");
     app.callback([of_derivatives, &app, &options] {
@@ -65,9 +62,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "--plain", [&options] { options = FlowOptions::plain(); }, "the paper to the letter, without improvements");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_amount(app, command.amount);
-    add_choice<Boundary>(app, "--boundary", options.motion.boundary,
-                         {{"fixed", Boundary::Fixed}, {"free", Boundary::Free}},
-                         "whether the rims of an open surface stay where they are or draw in freely [fixed]");
+    add_choice(app, "--boundary", options.motion.boundary,
+               "whether the rims of an open surface stay where they are or draw in freely [fixed]");
     auto* fix = app.add_option("--fix", command.fix,
                                "vertices that stay: their numbers from 0, one a line, or a .ply with as many vertices "
                                "and a property that is not 0 where they stay")
@@ -78,29 +74,23 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or degenerate where the Laplacian divides, instead of holding "
                  "such vertices fixed");
-    add_choice<Rescale>(
+    add_choice(
         app, "--rescale", options.motion.rescale,
-        {{"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}},
         "scale the result to the area or volume of the input, its centroid kept; where no vertex is held, so of open "
         "surfaces with --boundary free [none]");
-    add_choice<Scheme>(app, "--scheme", options.scheme,
-                       {{"implicit", Scheme::BackwardEuler}, {"explicit", Scheme::ExplicitEuler}},
-                       "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
-                       "small time steps only [implicit]");
+    add_choice(app, "--scheme", options.scheme,
+               "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
+               "small time steps only [implicit]");
     add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
     auto* subdomains = add_integer(app, "--subdomains", options.cut.subdomains, 0,
                                    "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
     app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
         ->excludes(subdomains)
         ->type_name("FILE");
-    add_choice<Coloring>(app, "--coloring", options.interface.coloring,
-                         {{"greedy", Coloring::Greedy}, {"label", Coloring::Label}},
-                         "order of the sub-meshes in a step [greedy]");
-    add_choice(app, "--conditions", options.interface.conditions, conditions_choices(),
-               "what holds between sub-meshes [adapted-robin]");
-    add_choice<Transmission>(app, "--transmission", options.interface.transmission,
-                             {{"predicted", Transmission::Predicted}, {"derivative", Transmission::Derivative}},
-                             "how the first sub-mesh at the interface learns of the others [predicted]");
+    add_choice(app, "--coloring", options.interface.colouring, "order of the sub-meshes in a step [greedy]");
+    add_choice(app, "--conditions", options.interface.conditions, "what holds between sub-meshes [adapted-robin]");
+    add_choice(app, "--transmission", options.interface.transmission,
+               "how the first sub-mesh at the interface learns of the others [predicted]");
     add_parameters(app, options);
     add_integer(app, "--overlap", options.interface.overlap, 1,
                 "layers of faces by which sub-meshes overlap with schwarz [1]");
@@ -109,22 +99,17 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "leave the vertices of the interface where the step puts them");
     app.add_flag("--keep-gaps", options.report.keep_gaps,
                  "write the sub-meshes as they are, each with its own copy of the interface; for robin and ventcell");
-    add_choice<Sweep>(app, "--sweep", options.interface.sweep,
-                      {{"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}},
-                      "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
+    add_choice(app, "--sweep", options.interface.sweep,
+               "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
     add_converge(
         app, options,
         "the undecomposed step itself, to this relative residual; never: one sweep each step; auto: to 1e-2 where "
         "sweeps would stray, unless another option speaks of sweeps [auto]");
     add_integer(app, "--converge-iterations", options.accuracy.converge_iterations, 0,
                 "most iterations of a converged step [1000]");
-    add_choice<Factorisation>(app, "--factorisation", options.resources.factorisation,
-                              {{"auto", Factorisation::Automatic},
-                               {"own", Factorisation::Own},
-                               {"cholmod", Factorisation::Cholmod},
-                               {"umfpack", Factorisation::Umfpack}},
-                              "whose factorisation solves the equations of sub-meshes; cholmod: UMFPACK where they are "
-                              "not symmetric; both keep fujiwara and alexa-wardetzky to sweeps [auto: the fastest]");
+    add_choice(app, "--factorisation", options.resources.factorisation,
+               "whose factorisation solves the equations of sub-meshes; cholmod: UMFPACK where they are "
+               "not symmetric; both keep fujiwara and alexa-wardetzky to sweeps [auto: the fastest]");
     add_integer(app, "--threads", options.resources.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     add_bytes(
         app, "--memory-limit", options.resources.memory_limit,

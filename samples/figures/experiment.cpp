@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "samples/common/flow_choices.h"
+#include "engine/options/option_names.h"
 #include "samples/figures/measured.h"
 #include "samples/figures/surfaces.h"
 
@@ -216,7 +216,7 @@ void cut_in_two(FlowOptions& options, const FigureMesh& mesh)
     options.interface.p = mesh.authors->p;
     if (!mesh.authors->uncorrected)
         return;
-    options.interface.coloring = Coloring::Label;
+    options.interface.colouring = Colouring::Label;
     options.interface.correction = Correction::None;
 }
 
@@ -238,14 +238,13 @@ std::string exact(double value)
 std::string plain_arguments(const FlowOptions& options)
 {
     std::string text = " --plain";
-    for (const auto& [name, conditions] : conditions_choices())
-        if (conditions == options.interface.conditions && conditions != robin)
-            text += " --conditions " + name;
+    if (options.interface.conditions != robin)
+        text.append(" --conditions ").append(option_name(options.interface.conditions));
     if (options.interface.p)
         text += " --p " + exact(*options.interface.p);
     if (options.interface.q)
         text += " --q " + exact(*options.interface.q);
-    if (options.interface.coloring == Coloring::Label)
+    if (options.interface.colouring == Colouring::Label)
         text += " --coloring label";
     if (options.interface.correction == Correction::None)
         text += " --no-correction";
@@ -258,10 +257,7 @@ std::string conditions_of(const Variant& variant)
 {
     if (variant.cut == CutKind::Uncut)
         return "undecomposed";
-    for (const auto& [name, conditions] : conditions_choices())
-        if (conditions == variant.conditions)
-            return name;
-    return {};
+    return std::string(option_name(variant.conditions));
 }
 
 std::string_view name_of(Settings settings)

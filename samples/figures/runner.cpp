@@ -137,7 +137,7 @@ class Run {
     {
         std::vector<double> p;
         for (const SubMeshReport& part : report.cut.sub_meshes)
-            if (part.p > 0.0 && (variant.cut == CutKind::Metis || part.color == 0))
+            if (part.p > 0.0 && (variant.cut == CutKind::Metis || part.colour == 0))
                 p.push_back(part.p);
         std::string range;
         if (!p.empty()) {
@@ -149,7 +149,7 @@ class Run {
             table_.rows[row].p = range;
         }
         if (variant.cut == CutKind::Halves && report.cut.n_sub_meshes() == 2)
-            leading_ = report.cut.sub_meshes[0].color == 0 ? 0 : 1;
+            leading_ = report.cut.sub_meshes[0].colour == 0 ? 0 : 1;
     }
 
     /// What is known of a state before the flow has come to its end.

@@ -11,8 +11,8 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
-#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/decomposition/overlap.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "solvers/laplacian/laplacian.h"
@@ -89,12 +89,12 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
     return ascending(std::move(waits));
 }
 
-std::vector<Index> colors_of(const FlowReport& report)
+std::vector<Index> colours_of(const FlowReport& report)
 {
-    std::vector<Index> colors;
+    std::vector<Index> colours;
     for (const SubMeshReport& sub_mesh : report.cut.sub_meshes)
-        colors.push_back(sub_mesh.color);
-    return colors;
+        colours.push_back(sub_mesh.colour);
+    return colours;
 }
 
 /// The sub-meshes of a flow, cut out again.
@@ -103,8 +103,8 @@ Decomposition decomposed(const PolygonMesh& mesh, const FlowOptions& options, co
     const Topology topology = make_topology(mesh);
     if (options.interface.conditions != Conditions::Schwarz)
         return decompose(mesh, topology, report.cut.labels, report.cut.n_sub_meshes());
-    const std::vector<Index> colors = colors_of(report);
-    const Overlap overlap{report.cut.labels, colors, options.interface.overlap};
+    const std::vector<Index> colours = colours_of(report);
+    const Overlap overlap{report.cut.labels, colours, options.interface.overlap};
     auto faces = faces_by_label(report.cut.labels, report.cut.n_sub_meshes());
     std::vector<SubMesh> sub_meshes;
     for (Index s = 0; s < report.cut.n_sub_meshes(); ++s)
@@ -176,9 +176,9 @@ Index check_graphs(const PolygonMesh& mesh, const FlowOptions& options)
     PolygonMesh moved = mesh;
     const FlowReport report = mean_curvature_flow(moved, options);
     const Decomposition decomposition = decomposed(mesh, options, report);
-    std::vector<std::vector<Index>> ranks{colors_of(report)};
+    std::vector<std::vector<Index>> ranks{colours_of(report)};
     if (alternates(options, at(report.cut.n_sub_meshes())))
-        ranks.push_back(reversed(colors_of(report)));
+        ranks.push_back(reversed(colours_of(report)));
     const FactorWindow window{reverse_cuthill_mckee(decomposition.adjacency), report.resources.live_factors};
     const Schedule& schedule = report.schedule.value();
     std::size_t first = 0;
@@ -249,7 +249,7 @@ TEST_CASE("so has that of sweeps in an order of their own, without correction, a
             FlowOptions options = recorded_options(24);
             options.laplacian = laplacian;
             options.interface.sweep = sweep;
-            options.interface.coloring = Coloring::Label;
+            options.interface.colouring = Colouring::Label;
             options.interface.correction = Correction::None;
             check_graphs(mesh, options);
         }

@@ -33,7 +33,7 @@ class Machines {
         , decomposition_(decompose(mesh, topology_, cut_.labels, cut_.n_parts))
     {
         const std::vector<double> no_curvature(mesh.n_vertices(), 0.0);
-        const auto rank = rank_sub_meshes(decomposition_, options.interface.coloring, no_curvature);
+        const auto rank = rank_sub_meshes(decomposition_, options.interface.colouring, no_curvature);
         if (options.interface.conditions == Conditions::Schwarz)
             grow_sub_meshes(mesh, rank);
         else
@@ -177,7 +177,7 @@ FlowOptions fixed_sweep_options(Laplacian laplacian)
     options.time_step = 0.001;
     options.steps = 3;
     options.cut.subdomains = 7;
-    options.interface.coloring = Coloring::Label;
+    options.interface.colouring = Colouring::Label;
     options.interface.sweep = Sweep::Fixed;
     return options;
 }

@@ -115,7 +115,7 @@ TEST_CASE("other numbers of the vertices and faces move the result by rounding a
         for (const Laplacian laplacian : all_laplacians) {
             CAPTURE(name_of(laplacian));
             FlowOptions options = sweep_options(laplacian, 0);
-            options.interface.coloring = Coloring::Label;
+            options.interface.colouring = Colouring::Label;
             options.cut.labels = labels_of_tiles(mesh);
             const Points result = flowed(mesh, options);
             std::vector<Index> labels;

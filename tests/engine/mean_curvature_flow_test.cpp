@@ -43,15 +43,15 @@ TEST_CASE("the report tells what was done")
     CHECK(report.mesh.faces == mesh.n_faces());
     CHECK(report.cut.n_sub_meshes() == 6);
     Index n_faces = 0;
-    std::set<Index> colors;
+    std::set<Index> colours;
     for (const SubMeshReport& sub_mesh : report.cut.sub_meshes) {
         CHECK(sub_mesh.p > 1.0);
         n_faces += sub_mesh.faces;
-        colors.insert(sub_mesh.color);
+        colours.insert(sub_mesh.colour);
     }
     CHECK(n_faces == mesh.n_faces());
     CHECK(report.cut.labels.size() == at(mesh.n_faces()));
-    CHECK(static_cast<Index>(colors.size()) == report.cut.n_colors());
+    CHECK(static_cast<Index>(colours.size()) == report.cut.n_colours());
     CHECK(report.cut.interface_vertices > 50);
     CHECK(report.time_step == 0.001);
     REQUIRE(report.steps.size() == 2);
@@ -81,7 +81,7 @@ TEST_CASE("one sub-mesh is the undecomposed flow to the bit")
         options.report.reference = true;
         PolygonMesh flowing = mesh;
         const FlowReport report = mean_curvature_flow(flowing, options);
-        CHECK(report.cut.n_colors() == 1);
+        CHECK(report.cut.n_colours() == 1);
         CHECK(report.steps.back().distance->max == 0.0);
     }
 }

@@ -114,7 +114,7 @@ TEST_CASE("on a wavy tube cut along a peak Schwarz holds the interface back, ada
     schwarz.time_step = 0.05;
     schwarz.steps = 5;
     schwarz.cut.labels = cut.labels;
-    schwarz.interface.coloring = Coloring::Label;
+    schwarz.interface.colouring = Colouring::Label;
     FlowOptions robin = schwarz;
     schwarz.interface.conditions = Conditions::Schwarz;
     CHECK(distance_to_undecomposed(cut.mesh, schwarz) > 5.0 * distance_to_undecomposed(cut.mesh, robin));

@@ -231,7 +231,7 @@ test("legends tell what is seen, its range and its unit", async () => {
     await opened.selectOption("#colour", "sub-mesh");
     assert.equal(await opened.locator("#legend li").count(), report.subdomains);
     await opened.selectOption("#colour", "class");
-    assert.equal(await opened.locator("#legend li").count(), report.colors);
+    assert.equal(await opened.locator("#legend li").count(), report.colours);
     await opened.selectOption("#colour", "distance");
     await opened.selectOption("#range", "largest");
     assert.match(await legend(), /^Distance to the undecomposed flow.*in mean edge lengths/);

@@ -67,7 +67,7 @@ TEST_CASE("the report of smooth has its keys")
     REQUIRE(w.smooth("mesh.obj out.obj --time-step-edges 2 --plain --subdomains 2 --steps 3 --threads 1 "
                      "--laplacian ptackova-velho --reference --report report.json") == 0);
     const Json report = w.json("report.json");
-    for (const char* key : {"vertices", "faces", "subdomains", "colors", "laplacian", "time_step", "threads", "p",
+    for (const char* key : {"vertices", "faces", "subdomains", "colours", "laplacian", "time_step", "threads", "p",
                             "seconds", "steps", "displacement", "peak_memory_bytes", "subdomain_vertices",
                             "interface_vertices", "repaired_faces", "remarks", "mean_edge", "input", "output"})
         CHECK_MESSAGE(report.contains(key), key);

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 #include "partition/topology.h"
 
 /// What a cut has to be, found the slow way.

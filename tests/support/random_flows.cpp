@@ -33,7 +33,7 @@ void choose_cut(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions& opt
         options.cut.labels = random_cut(mesh, 2 + random.below(9), random);
     else
         options.cut.subdomains = kind < 0.85 ? random.below(16) : 1;
-    options.interface.coloring = one_of({Coloring::Greedy, Coloring::Greedy, Coloring::Label}, random);
+    options.interface.colouring = one_of({Colouring::Greedy, Colouring::Greedy, Colouring::Label}, random);
 }
 
 void choose_robin(RandomNumbers& random, FlowOptions& options)
@@ -82,7 +82,7 @@ void choose_approach(const PolygonMesh& mesh, RandomNumbers& random, FlowOptions
     if (kind < 0.45)
         choose_sweeps(random, options);
     else if (kind < 0.75) {
-        options.interface.coloring = Coloring::Greedy;
+        options.interface.colouring = Colouring::Greedy;
         options.accuracy.tolerance = power_of_ten(-11.0, -1.0, random);
         options.accuracy.converge_iterations = random.unit() < 0.1 ? random.below(4) : 300;
     } else if (kind < 0.85) {

@@ -28,7 +28,7 @@ bool is_cut_alike(const Case& c)
     const FlowReport& report = c.expected.report;
     if (c.flow.options.scheme == Scheme::ExplicitEuler || report.cut.n_sub_meshes() <= 1)
         return true;
-    return !c.flow.options.cut.labels.empty() && c.flow.options.interface.coloring == Coloring::Label &&
+    return !c.flow.options.cut.labels.empty() && c.flow.options.interface.colouring == Colouring::Label &&
            report.cut.repaired_faces == 0 && !report.convergence.tolerance;
 }
 

@@ -93,7 +93,7 @@ ReferenceFlow read_flow(const std::filesystem::path& path)
     options.laplacian = laplacian_named(data.at("laplacian").get<std::string>());
     options.time_step = data.at("time_step").get<double>();
     options.steps = static_cast<int>(data.at("positions_after_step").size());
-    options.interface.coloring = data.at("coloring") == "label" ? Coloring::Label : Coloring::Greedy;
+    options.interface.colouring = data.at("coloring") == "label" ? Colouring::Label : Colouring::Greedy;
     // The authors correct after adapted conditions only; the files say true for Schwarz, too.
     options.interface.correction = data.at("correction").get<bool>() ? Correction::Automatic : Correction::None;
     if (data.at("conditions") == "schwarz")

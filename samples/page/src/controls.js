@@ -10,7 +10,7 @@ export function meanings(flow) {
     const list = [["plain", { name: "Plain" }]];
     if (flow.report.subdomains > 1)
         list.push(["sub-mesh", { name: "Sub-mesh" }]);
-    if (flow.report.colors > 1)
+    if (flow.report.colours > 1)
         list.push(["class", { name: "Colour class" }]);
     list.push(
         flow.has_undecomposed
@@ -100,9 +100,9 @@ export function showLegend(flow, chosen, range) {
         if (few < report.subdomains)
             parts.push(element("div", { className: "quiet" }, `and so on: 0 to ${report.subdomains - 1}`));
     } else if (chosen.colour === "class") {
-        const count = (c) => report.subdomain_colors.filter((other) => other === c).length;
+        const count = (c) => report.subdomain_colours.filter((other) => other === c).length;
         const name = (c) => `${c}${c === 0 ? " (first in even steps)" : ""}: ${count(c)}`;
-        parts.push(swatches(Array.from({ length: Math.min(report.colors, 12) }, (_, c) => [colourOfClass(c), name(c)])));
+        parts.push(swatches(Array.from({ length: Math.min(report.colours, 12) }, (_, c) => [colourOfClass(c), name(c)])));
         parts.push(element("div", { className: "quiet" }, "number of sub-meshes in each"));
     } else if (chosen.colour === "texture") {
         parts.push(element("div", { className: "quiet" }, "z in the input, from blue (lowest) to red; its lines go with the vertices"));

@@ -30,7 +30,7 @@ export function summary(mesh, report) {
         `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
         `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
         `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`,
-        report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colors > 1 ? ` in ${report.colors} colours` : ""}` : "undecomposed",
+        report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colours > 1 ? ` in ${report.colours} colours` : ""}` : "undecomposed",
     ].join(" · ");
 }
 
@@ -41,7 +41,7 @@ function rows(report) {
         ["Output", report.output],
         ["Mean edge", `${digits(report.mean_edge)} (length)`],
         ["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`],
-        ["Sub-meshes", `${digits(report.subdomains)}${report.colors > 1 ? ` in ${report.colors} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`],
+        ["Sub-meshes", `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`],
     ];
     if (report.tolerance !== undefined)
         list.push(["Steps", `converged to ${digits(report.tolerance)}; iterations ${report.steps.map((step) => step.iterations ?? "–").join(", ")}`]);

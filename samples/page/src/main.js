@@ -39,7 +39,7 @@ async function colour() {
     if (chosen.colour === "sub-mesh")
         return () => view.colourByLabel((v) => colourOfLabel(labels[v]));
     if (chosen.colour === "class")
-        return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colors[labels[v]] ?? 0));
+        return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colours[labels[v]] ?? 0));
     if (chosen.colour === "texture") {
         const heights = await texture(facts.flows[0].states[0].surface.positions.block);
         return () => view.colourByTexture(heights, ramp("texture"));

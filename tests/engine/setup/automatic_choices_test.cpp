@@ -130,7 +130,7 @@ TEST_CASE("options that speak of sweeps get sweeps")
     CHECK(sweeps_with([](FlowOptions& o) { o.interface.transmission = Transmission::Derivative; }));
     CHECK(sweeps_with([](FlowOptions& o) { o.interface.p = 1.0; }));
     CHECK(sweeps_with([](FlowOptions& o) { o.interface.correction = Correction::None; }));
-    CHECK(sweeps_with([](FlowOptions& o) { o.interface.coloring = Coloring::Label; }));
+    CHECK(sweeps_with([](FlowOptions& o) { o.interface.colouring = Colouring::Label; }));
     CHECK(sweeps_with([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }));
     CHECK_FALSE(sweeps_with([](FlowOptions& o) { o.resources.memory_limit = 1'000'000'000; }));
     FlowOptions plain = FlowOptions::plain();

@@ -179,7 +179,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
          [](FlowOptions& o) {
              o.cut.labels = {0, 1};
          }},
-        {"coloring", [](FlowOptions& o) { o.interface.coloring = Coloring::Label; }},
+        {"colouring", [](FlowOptions& o) { o.interface.colouring = Colouring::Label; }},
         {"conditions", [](FlowOptions& o) { o.interface.conditions = Conditions::Ventcell; }},
         {"scheme", [](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }},
         {"transmission", [](FlowOptions& o) { o.interface.transmission = Transmission::Derivative; }},

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/steppers/sweep_order.h"
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 #include "partition/cut/cut.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "samples/common/meshes.h"
@@ -112,11 +112,11 @@ std::vector<Index> in_order(std::size_t n)
 
 std::vector<SweepPlan> plans_for(const Decomposition& decomposition)
 {
-    const std::vector<Index> by_color = color(decomposition.adjacency);
-    const std::vector<Index> one_by_one = in_order(by_color.size());
-    return {plan_sweep(decomposition, by_color), plan_sweep(decomposition, reversed(by_color)),
-            plan_sweep(decomposition, one_by_one), plan_mutual_sweep(decomposition, by_color),
-            plan_mutual_sweep(decomposition, reversed(by_color))};
+    const std::vector<Index> by_colour = colour(decomposition.adjacency);
+    const std::vector<Index> one_by_one = in_order(by_colour.size());
+    return {plan_sweep(decomposition, by_colour), plan_sweep(decomposition, reversed(by_colour)),
+            plan_sweep(decomposition, one_by_one), plan_mutual_sweep(decomposition, by_colour),
+            plan_mutual_sweep(decomposition, reversed(by_colour))};
 }
 
 }  // namespace
@@ -125,8 +125,8 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
 {
     for (const Index k : {2, 3, 8, 20}) {
         const Decomposition decomposition = cut_up(make_triangles(3000), k);
-        for (const Coloring coloring : {Coloring::Greedy, Coloring::Label}) {
-            const auto rank = rank_sub_meshes(decomposition, coloring, std::vector<double>(4000, 1.0));
+        for (const Colouring colouring : {Colouring::Greedy, Colouring::Label}) {
+            const auto rank = rank_sub_meshes(decomposition, colouring, std::vector<double>(4000, 1.0));
             std::vector<int> used(rank.size(), 0);
             for (std::size_t s = 0; s < rank.size(); ++s) {
                 ++used[rank[s]];
@@ -144,7 +144,7 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
 
 TEST_CASE("with labels as colours the rank is the label")
 {
-    const auto rank = rank_sub_meshes(cut_up(make_quads(1000), 5), Coloring::Label, std::vector<double>(2000, 0.0));
+    const auto rank = rank_sub_meshes(cut_up(make_quads(1000), 5), Colouring::Label, std::vector<double>(2000, 0.0));
     CHECK(rank == std::vector<Index>{0, 1, 2, 3, 4});
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("the colour with more curvature in the interior of its sub-meshes goes
         const SubMesh& sub_mesh = decomposition.sub_meshes[curved];
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             curvature[sub_mesh.local_to_global[v]] = 1.0;
-        const auto rank = rank_sub_meshes(decomposition, Coloring::Greedy, curvature);
+        const auto rank = rank_sub_meshes(decomposition, Colouring::Greedy, curvature);
         CHECK(rank[curved] == 0);
         CHECK(rank[1 - curved] == 1);
     }
@@ -177,7 +177,7 @@ TEST_CASE("curvature on the interface and on the boundary does not count")
     for (Index v = 0; v < first.n_vertices; ++v)
         if (first.fixed[v] == 0)
             curvature[first.local_to_global[v]] += 1e-3;
-    CHECK(rank_sub_meshes(decomposition, Coloring::Greedy, curvature) == std::vector<Index>{0, 1});
+    CHECK(rank_sub_meshes(decomposition, Colouring::Greedy, curvature) == std::vector<Index>{0, 1});
 }
 
 TEST_CASE("the reversed order turns first to last")

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 #include "partition/decomposition/decomposition.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/cut_meshes.h"

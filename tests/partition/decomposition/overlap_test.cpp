@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/sweep_plan.h"
@@ -61,7 +61,7 @@ void for_each_grown(Check&& check)
         CAPTURE(cut.name);
         std::vector<Index> by_label(cut.n_parts);
         std::iota(by_label.begin(), by_label.end(), 0);
-        for (const auto& rank : {color(test::decompose(cut).adjacency), by_label})
+        for (const auto& rank : {colour(test::decompose(cut).adjacency), by_label})
             for (const int layers : {1, 2})
                 check(grown(cut, rank, layers));
     }

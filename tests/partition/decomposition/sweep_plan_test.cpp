@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 #include "partition/decomposition/sweep_plan.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -17,13 +17,13 @@ namespace {
 /// Ranks to try: by colour in both directions, and each sub-mesh on its own.
 std::vector<std::vector<Index>> ranks_for(const Decomposition& decomposition)
 {
-    const std::vector<Index> by_color = color(decomposition.adjacency);
-    std::vector<Index> backwards = by_color;
+    const std::vector<Index> by_colour = colour(decomposition.adjacency);
+    std::vector<Index> backwards = by_colour;
     for (Index& rank : backwards)
-        rank = n_colors(by_color) - 1 - rank;
-    std::vector<Index> one_by_one(by_color.size());
+        rank = n_colours(by_colour) - 1 - rank;
+    std::vector<Index> one_by_one(by_colour.size());
     std::iota(one_by_one.begin(), one_by_one.end(), 0);
-    return {by_color, backwards, one_by_one};
+    return {by_colour, backwards, one_by_one};
 }
 
 /// A tube that ends in one face of n corners, cut in quarters around it: that face belongs to none of them alone.
@@ -164,7 +164,7 @@ TEST_CASE("in a mutual sweep everyone leads, and every other copy of a vertex of
     for (const CutMesh& cut : cut_meshes()) {
         CAPTURE(cut.name);
         const Decomposition decomposition = test::decompose(cut);
-        const SweepPlan plan = plan_mutual_sweep(decomposition, color(decomposition.adjacency));
+        const SweepPlan plan = plan_mutual_sweep(decomposition, colour(decomposition.adjacency));
         for (std::size_t s = 0; s < decomposition.sub_meshes.size(); ++s) {
             const SubMesh& sub_mesh = decomposition.sub_meshes[s];
             CHECK(std::all_of(plan.roles[s].begin(), plan.roles[s].end(),

@@ -107,7 +107,7 @@ TEST_CASE("OFF: what is written")
 namespace {
 
 /// A tetrahedron as binary OFF.
-std::string binary_tetrahedron(std::endian order, bool colors_follow_faces, float first_coordinate = 0.1F)
+std::string binary_tetrahedron(std::endian order, bool colours_follow_faces, float first_coordinate = 0.1F)
 {
     std::string file = "OFF BINARY\n";
     const auto append = [&](auto number) {
@@ -123,7 +123,7 @@ std::string binary_tetrahedron(std::endian order, bool colors_follow_faces, floa
     for (const std::array<std::int32_t, 4>& face : {std::array{3, 0, 2, 1}, {3, 0, 1, 3}, {3, 1, 2, 3}, {3, 0, 3, 2}}) {
         for (const std::int32_t number : face)
             append(number);
-        if (colors_follow_faces) {
+        if (colours_follow_faces) {
             append(std::int32_t{1});
             append(0.5F);
         }
@@ -136,8 +136,8 @@ std::string binary_tetrahedron(std::endian order, bool colors_follow_faces, floa
 TEST_CASE("binary OFF is read in both byte orders, with colours behind the faces and without")
 {
     for (const std::endian order : {std::endian::big, std::endian::little})
-        for (const bool colors : {true, false}) {
-            const MeshFile file = test::read_text("a.off", binary_tetrahedron(order, colors));
+        for (const bool colours : {true, false}) {
+            const MeshFile file = test::read_text("a.off", binary_tetrahedron(order, colours));
             CHECK(file.kind == FileKind{FileFormat::Off, Encoding::Ascii});
             REQUIRE(file.mesh.n_vertices() == 4);
             REQUIRE(file.mesh.n_faces() == 4);

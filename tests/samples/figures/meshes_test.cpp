@@ -68,7 +68,7 @@ TEST_CASE("the authors' parameters are for their own mesh")
     mesh.authors = teaser.source.authors;
     const FlowOptions options = options_of(teaser, halves, mesh);
     CHECK(options.interface.p == 6.2993055940947205);
-    CHECK(options.interface.coloring == Coloring::Label);
+    CHECK(options.interface.colouring == Colouring::Label);
     CHECK(options.interface.correction == Correction::None);
     CHECK(options.interface.sweep == Sweep::Fixed);
     CHECK(
@@ -80,7 +80,7 @@ TEST_CASE("the authors' parameters are for their own mesh")
     mesh.authors = hexagons.source.authors;
     const FlowOptions others = options_of(hexagons, hexagons.variants.back(), mesh);
     CHECK(others.interface.p == 54.2606704480561);
-    CHECK(others.interface.coloring == Coloring::Greedy);
+    CHECK(others.interface.colouring == Colouring::Greedy);
     CHECK(others.interface.correction == FlowOptions::plain().interface.correction);
 }
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 #include "partition/cut/cut.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
@@ -36,16 +36,16 @@ Adjacency random_graph(Index n, std::uint32_t one_in, std::uint32_t seed)
     return adjacency;
 }
 
-void check_valid(const Adjacency& adjacency, const std::vector<Index>& colors)
+void check_valid(const Adjacency& adjacency, const std::vector<Index>& colours)
 {
-    REQUIRE(colors.size() == adjacency.size());
+    REQUIRE(colours.size() == adjacency.size());
     for (std::size_t i = 0; i < adjacency.size(); ++i) {
-        CHECK(colors[i] >= 0);
-        CHECK(colors[i] < n_colors(colors));
+        CHECK(colours[i] >= 0);
+        CHECK(colours[i] < n_colours(colours));
         for (const Index j : adjacency[i])
-            CHECK(colors[i] != colors[static_cast<std::size_t>(j)]);
+            CHECK(colours[i] != colours[static_cast<std::size_t>(j)]);
     }
-    CHECK(color(adjacency) == colors);
+    CHECK(colour(adjacency) == colours);
 }
 
 /// m by n nodes in rows, each joined to the next in its row and to two in the next row.
@@ -75,9 +75,9 @@ Adjacency triangular_grid(Index m, Index n)
 TEST_CASE("rings take two colours or three")
 {
     for (Index n = 3; n < 40; ++n) {
-        const auto colors = color(ring(n));
-        check_valid(ring(n), colors);
-        CHECK(n_colors(colors) == (n % 2 == 0 ? 2 : 3));
+        const auto colours = colour(ring(n));
+        check_valid(ring(n), colours);
+        CHECK(n_colours(colours) == (n % 2 == 0 ? 2 : 3));
     }
 }
 
@@ -86,38 +86,38 @@ TEST_CASE("a grid of triangles, of which one colour follows from the others, tak
     for (const Index m : {2, 5, 12})
         for (const Index n : {2, 7, 12}) {
             const Adjacency adjacency = triangular_grid(m, n);
-            const auto colors = color(adjacency);
-            check_valid(adjacency, colors);
-            CHECK(n_colors(colors) == 3);
+            const auto colours = colour(adjacency);
+            check_valid(adjacency, colours);
+            CHECK(n_colours(colours) == 3);
         }
 }
 
 TEST_CASE("few nodes take few colours")
 {
-    CHECK(n_colors(color({})) == 0);
-    CHECK(color({{}}) == std::vector<Index>{0});
-    CHECK(color({{}, {2}, {1}}) == std::vector<Index>{0, 0, 1});
+    CHECK(n_colours(colour({})) == 0);
+    CHECK(colour({{}}) == std::vector<Index>{0});
+    CHECK(colour({{}, {2}, {1}}) == std::vector<Index>{0, 0, 1});
 }
 
 TEST_CASE("a component that is not bipartite does not spoil the others")
 {
     const Adjacency adjacency{{1, 2}, {0, 2}, {0, 1}, {4}, {3, 5}, {4}};
-    const auto colors = color(adjacency);
-    check_valid(adjacency, colors);
-    CHECK(n_colors(colors) == 3);
-    CHECK(std::vector<Index>(colors.begin() + 3, colors.end()) == std::vector<Index>{0, 1, 0});
+    const auto colours = colour(adjacency);
+    check_valid(adjacency, colours);
+    CHECK(n_colours(colours) == 3);
+    CHECK(std::vector<Index>(colours.begin() + 3, colours.end()) == std::vector<Index>{0, 1, 0});
 }
 
 TEST_CASE("random graphs are coloured validly, with no more colours than neighbours and one")
 {
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         const Adjacency adjacency = random_graph(60, 2 + seed, seed);
-        const auto colors = color(adjacency);
-        check_valid(adjacency, colors);
+        const auto colours = colour(adjacency);
+        check_valid(adjacency, colours);
         std::size_t most = 0;
         for (const auto& neighbours : adjacency)
             most = std::max(most, neighbours.size());
-        CHECK(n_colors(colors) <= static_cast<Index>(most) + 1);
+        CHECK(n_colours(colours) <= static_cast<Index>(most) + 1);
     }
 }
 
@@ -144,9 +144,9 @@ TEST_CASE("cuts of meshes are coloured with few colours")
         for (const Index k : {2, 7, 30}) {
             const Cut cut = cut_into(mesh, topology, k);
             const Adjacency adjacency = adjacency_of(mesh, topology, cut.labels, cut.n_parts);
-            const auto colors = color(adjacency);
-            check_valid(adjacency, colors);
-            CHECK(n_colors(colors) <= 7);
+            const auto colours = colour(adjacency);
+            check_valid(adjacency, colours);
+            CHECK(n_colours(colours) <= 7);
         }
     }
 }

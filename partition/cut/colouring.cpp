@@ -1,4 +1,4 @@
-#include "partition/cut/coloring.h"
+#include "partition/cut/colouring.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace {
 
 /// Gives alternating colours to the connected component of `root` and lists its nodes.
 /// @returns false if there is a cycle of odd length; the colours are then no colouring.
-bool color_alternately(const Adjacency& adjacency, Index root, std::vector<Index>& colors, std::vector<Index>& nodes)
+bool colour_alternately(const Adjacency& adjacency, Index root, std::vector<Index>& colours, std::vector<Index>& nodes)
 {
     nodes.clear();
-    colors[root] = 0;
+    colours[root] = 0;
     bool bipartite = true;
     append_reachable(root, nodes, [&](Index node, auto&& reach) {
-        const Index color = colors[node];
+        const Index colour = colours[node];
         for (const Index neighbour : adjacency[node]) {
-            if (colors[neighbour] < 0) {
-                colors[neighbour] = 1 - color;
+            if (colours[neighbour] < 0) {
+                colours[neighbour] = 1 - colour;
                 reach(neighbour);
-            } else if (colors[neighbour] == color) {
+            } else if (colours[neighbour] == colour) {
                 bipartite = false;
             }
         }
@@ -40,7 +40,7 @@ Index lowest_free(const std::vector<bool>& taken)
 
 /// Colours the nodes of a connected component one by one: next is the one whose neighbours have the most different
 /// colours, then the one with the most neighbours, then the first.
-void color_by_saturation(const Adjacency& adjacency, const std::vector<Index>& nodes, std::vector<Index>& colors)
+void colour_by_saturation(const Adjacency& adjacency, const std::vector<Index>& nodes, std::vector<Index>& colours)
 {
     using Urgency = std::tuple<Index, Index, Index>;
     std::vector<Index> saturation(adjacency.size(), 0);
@@ -50,22 +50,22 @@ void color_by_saturation(const Adjacency& adjacency, const std::vector<Index>& n
     };
     std::set<Urgency> waiting;
     for (const Index node : nodes) {
-        colors[node] = -1;
+        colours[node] = -1;
         waiting.insert(urgency(node));
     }
     while (!waiting.empty()) {
         const Index node = std::get<2>(*waiting.begin());
         waiting.erase(waiting.begin());
-        const Index color = lowest_free(taken[node]);
-        colors[node] = color;
+        const Index colour = lowest_free(taken[node]);
+        colours[node] = colour;
         for (const Index neighbour : adjacency[node]) {
-            auto& colors_taken = taken[neighbour];
-            if (colors_taken.size() <= at(color))
-                colors_taken.resize(at(color) + 1, false);
-            if (colors_taken[color])
+            auto& colours_taken = taken[neighbour];
+            if (colours_taken.size() <= at(colour))
+                colours_taken.resize(at(colour) + 1, false);
+            if (colours_taken[colour])
                 continue;
             const bool still_waiting = waiting.erase(urgency(neighbour)) > 0;
-            colors_taken[color] = true;
+            colours_taken[colour] = true;
             ++saturation[neighbour];
             if (still_waiting)
                 waiting.insert(urgency(neighbour));
@@ -75,19 +75,19 @@ void color_by_saturation(const Adjacency& adjacency, const std::vector<Index>& n
 
 }  // namespace
 
-std::vector<Index> color(const Adjacency& adjacency)
+std::vector<Index> colour(const Adjacency& adjacency)
 {
-    std::vector<Index> colors(adjacency.size(), -1);
+    std::vector<Index> colours(adjacency.size(), -1);
     std::vector<Index> nodes;
     for (Index root = 0; root < static_cast<Index>(adjacency.size()); ++root)
-        if (colors[root] < 0 && !color_alternately(adjacency, root, colors, nodes))
-            color_by_saturation(adjacency, nodes, colors);
-    return colors;
+        if (colours[root] < 0 && !colour_alternately(adjacency, root, colours, nodes))
+            colour_by_saturation(adjacency, nodes, colours);
+    return colours;
 }
 
-Index n_colors(std::span<const Index> colors)
+Index n_colours(std::span<const Index> colours)
 {
-    return colors.empty() ? 0 : *std::max_element(colors.begin(), colors.end()) + 1;
+    return colours.empty() ? 0 : *std::max_element(colours.begin(), colours.end()) + 1;
 }
 
 }  // namespace seamflow

@@ -13,9 +13,9 @@ using Adjacency = std::vector<std::vector<Index>>;
 /// Colours the nodes so that neighbours differ: with two colours every connected component that allows it, the others
 /// with few (the node whose neighbours have most colours first). Deterministic.
 /// @returns one colour per node, from 0.
-std::vector<Index> color(const Adjacency& adjacency);
+std::vector<Index> colour(const Adjacency& adjacency);
 
 /// The number of colours used: one more than the highest.
-Index n_colors(std::span<const Index> colors);
+Index n_colours(std::span<const Index> colours);
 
 }  // namespace seamflow

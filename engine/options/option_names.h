@@ -1,0 +1,103 @@
+#pragma once
+
+#include <string_view>
+#include <utility>
+
+#include "engine/options/flow_options.h"
+#include "partition/errors.h"
+
+/// The words by which command lines and checkpoints know the values of FlowOptions. There is no other list of them: a
+/// further value has one line here.
+namespace seamflow {
+
+template <class Option>
+using NamedOption = std::pair<std::string_view, Option>;
+
+/// A list for each option, in the order of `--help`.
+template <class Option>
+struct OptionNames;
+
+template <>
+struct OptionNames<Colouring> {
+    static constexpr NamedOption<Colouring> list[]{{"greedy", Colouring::Greedy}, {"label", Colouring::Label}};
+};
+
+template <>
+struct OptionNames<Conditions> {
+    static constexpr NamedOption<Conditions> list[]{{"adapted-robin", Conditions::AdaptedRobin},
+                                                    {"adapted-ventcell", Conditions::AdaptedVentcell},
+                                                    {"robin", Conditions::Robin},
+                                                    {"ventcell", Conditions::Ventcell},
+                                                    {"schwarz", Conditions::Schwarz}};
+};
+
+template <>
+struct OptionNames<Scheme> {
+    static constexpr NamedOption<Scheme> list[]{{"implicit", Scheme::BackwardEuler},
+                                                {"explicit", Scheme::ExplicitEuler}};
+};
+
+template <>
+struct OptionNames<PRule> {
+    static constexpr NamedOption<PRule> list[]{{"paper", PRule::Paper}, {"inverse-step", PRule::InverseStep}};
+};
+
+template <>
+struct OptionNames<PEdge> {
+    static constexpr NamedOption<PEdge> list[]{
+        {"auto", PEdge::Automatic}, {"min", PEdge::Minimum}, {"percentile", PEdge::Percentile}, {"mean", PEdge::Mean}};
+};
+
+template <>
+struct OptionNames<Transmission> {
+    static constexpr NamedOption<Transmission> list[]{{"predicted", Transmission::Predicted},
+                                                      {"derivative", Transmission::Derivative}};
+};
+
+template <>
+struct OptionNames<Sweep> {
+    static constexpr NamedOption<Sweep> list[]{
+        {"auto", Sweep::Automatic}, {"fixed", Sweep::Fixed}, {"alternating", Sweep::Alternating}};
+};
+
+template <>
+struct OptionNames<Correction> {
+    static constexpr NamedOption<Correction> list[]{
+        {"auto", Correction::Automatic}, {"centroid", Correction::Centroid}, {"none", Correction::None}};
+};
+
+template <>
+struct OptionNames<Boundary> {
+    static constexpr NamedOption<Boundary> list[]{{"fixed", Boundary::Fixed}, {"free", Boundary::Free}};
+};
+
+template <>
+struct OptionNames<Rescale> {
+    static constexpr NamedOption<Rescale> list[]{
+        {"none", Rescale::None}, {"area", Rescale::Area}, {"volume", Rescale::Volume}};
+};
+
+template <>
+struct OptionNames<Approach> {
+    static constexpr NamedOption<Approach> list[]{{"auto", Approach::Automatic}, {"sweep", Approach::Sweep}};
+};
+
+template <>
+struct OptionNames<Factorisation> {
+    static constexpr NamedOption<Factorisation> list[]{{"auto", Factorisation::Automatic},
+                                                       {"own", Factorisation::Own},
+                                                       {"cholmod", Factorisation::Cholmod},
+                                                       {"umfpack", Factorisation::Umfpack}};
+};
+
+/// @throws OptionError for what is no value of the option.
+template <class Option>
+std::string_view option_name(Option value)
+{
+    for (const auto& [name, named] : OptionNames<Option>::list)
+        if (named == value)
+            return name;
+    throw OptionError("an option has a value that has no name");
+}
+
+}  // namespace seamflow
