@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests, from a bare Debian 12 on. Ends with the summary of ctest and its exit status.
 #
-#     tests/run.sh [--preset release|debug|asan|tsan|coverage]
+#     tests/run.sh [--all] [--preset release|debug|asan|tsan|coverage]
 #     tests/run.sh --sanitizers     # all tests under ASan and UBSan, the engine's under TSan, a flow under valgrind
 #     tests/run.sh --coverage       # which lines the tests reach, at least 90 % of them
 #
-# The last two are described in tests/sanitizers/run.sh and tests/coverage/run.sh. The tests that need a corpus of
-# meshes look for it in the directory SEAMFLOW_CORPUS.
+# With --all the library is also built once more, as shared libraries. The last two are described in
+# tests/sanitizers/run.sh and tests/coverage/run.sh. The tests that need a corpus of meshes look for it in the directory
+# SEAMFLOW_CORPUS.
 
 set -euo pipefail
 if [[ -n "${SEAMFLOW_CORPUS:-}" ]]; then
@@ -23,6 +24,7 @@ usage() {
 }
 
 preset=release
+all=0
 while (($# > 0)); do
     case "$1" in
     --preset)
@@ -32,6 +34,10 @@ while (($# > 0)); do
         ;;
     --preset=*)
         preset="${1#*=}"
+        shift
+        ;;
+    --all)
+        all=1
         shift
         ;;
     --sanitizers | --coverage)
@@ -49,5 +55,9 @@ asan | tsan) more+=("${sanitizer_packages[@]}") ;;
 esac
 install_packages doxygen patch "${more[@]}"
 build "$preset"
-# All: those tests too that plain ctest leaves out because they take long.
-exec ctest --preset "$preset" --build-config All --parallel "$(nproc)"
+if ((all)); then
+    more=(--build-config All)
+else
+    more=()
+fi
+exec ctest --preset "$preset" "${more[@]}" --parallel "$(nproc)"

@@ -67,9 +67,7 @@ void require_valid_tolerance(const FlowOptions& options)
 /// Without a tolerance converged steps are not chosen (see choose_tolerance).
 void require_valid_factorisation(const FlowOptions& options)
 {
-    const bool is_foreign = options.resources.factorisation == Factorisation::Cholmod ||
-                            options.resources.factorisation == Factorisation::Umfpack;
-    if (is_foreign && options.accuracy.tolerance && is_symmetric(options.laplacian))
+    if (is_foreign(options.resources.factorisation) && options.accuracy.tolerance && is_symmetric(options.laplacian))
         throw OptionError(
             "factorisation is that of another library, but converged steps of the Laplacians fujiwara and "
             "alexa-wardetzky need the Schur complements that the library's own gives: take sweeps "

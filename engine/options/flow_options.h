@@ -147,6 +147,8 @@ struct InterfaceOptions {
     Sweep sweep = Sweep::Automatic;
     /// Treatment of the interface after a step.
     Correction correction = Correction::Automatic;
+
+    friend bool operator==(const InterfaceOptions&, const InterfaceOptions&) = default;
 };
 
 /// How near steps come to the undecomposed ones, and when a flow is given up.

@@ -20,8 +20,7 @@ SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const 
     if (most_by_width < most_by_cost)
         choice.reason += fmt::format("more would be narrower than {:.0f} √dt", needs.width);
     else
-        choice.reason +=
-            fmt::format("blocks of about {} vertices are cheap, and wide enough against √dt", needs.vertices);
+        choice.reason += fmt::format("about {} vertices each are fastest, and wide enough against √dt", needs.vertices);
     return choice;
 }
 
@@ -33,7 +32,7 @@ double width_in_diffusion_lengths(double area, Index k, double time_step)
 namespace {
 
 /// Leaves a few hundredths of a mean edge length on most meshes, and took one to four iterations with Δ_F on regular
-/// ones, up to 34 on a scan with slivers (measured: see engine/accuracy.md).
+/// ones, up to 19 on a scan with slivers (measured: see engine/accuracy.md).
 constexpr double loose_tolerance = 1e-2;
 /// In squared mean edge lengths: with longer steps, what a sweep leaves comes near a mean edge length.
 constexpr double longest_step_of_sweeps = 16.0;
@@ -43,15 +42,7 @@ bool speaks_of_sweeps(const FlowOptions& options)
 {
     const FlowOptions defaults;
     return options.accuracy.approach == Approach::Sweep || options.scheme != defaults.scheme ||
-           options.interface.conditions != defaults.interface.conditions ||
-           options.interface.transmission != defaults.interface.transmission || options.interface.p ||
-           options.interface.p_rule != defaults.interface.p_rule ||
-           options.interface.p_edge != defaults.interface.p_edge || options.interface.q ||
-           options.interface.sweep != defaults.interface.sweep ||
-           options.interface.correction != defaults.interface.correction ||
-           options.interface.colouring != defaults.interface.colouring ||
-           options.resources.factorisation == Factorisation::Cholmod ||
-           options.resources.factorisation == Factorisation::Umfpack;
+           options.interface != defaults.interface || is_foreign(options.resources.factorisation);
 }
 
 /// Whether sweeps would take two sub-meshes at most.

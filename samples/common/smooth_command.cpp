@@ -59,7 +59,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     FlowOptions& options = command.options;
     // Options take effect in the order in which they are added here: --plain first, so that the others refine it.
     app.add_flag_callback(
-        "--plain", [&options] { options = FlowOptions::plain(); }, "the paper to the letter, without improvements");
+        "--plain", [&options] { options = FlowOptions::plain(); },
+        "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_amount(app, command.amount);
     add_choice(app, "--boundary", options.motion.boundary,
@@ -72,7 +73,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         ->needs(fix)
         ->type_name("NAME");
     app.add_flag("--strict", options.motion.strict,
-                 "refuse meshes that are not manifold, or degenerate where the Laplacian divides, instead of holding "
+                 "refuse meshes that are not manifold, or have edges or faces of size 0 where the Laplacian divides, "
+                 "instead of holding "
                  "such vertices fixed");
     add_choice(
         app, "--rescale", options.motion.rescale,
@@ -87,7 +89,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
         ->excludes(subdomains)
         ->type_name("FILE");
-    add_choice(app, "--coloring", options.interface.colouring, "order of the sub-meshes in a step [greedy]");
+    add_choice(app, "--coloring", options.interface.colouring,
+               "how sub-meshes are coloured, which sets the order in which they solve [greedy]");
     add_choice(app, "--conditions", options.interface.conditions, "what holds between sub-meshes [adapted-robin]");
     add_choice(app, "--transmission", options.interface.transmission,
                "how the first sub-mesh at the interface learns of the others [predicted]");

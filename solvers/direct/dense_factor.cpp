@@ -207,7 +207,7 @@ SEAMFLOW_WIDE void multiply_twice(Lower lower, const float* scales, FloatColumns
 }
 
 /// result = L⁻¹ v; of v nothing of use remains.
-SEAMFLOW_WIDE void eliminate(Lower lower, FloatColumns v, FloatColumns result)
+SEAMFLOW_WIDE void forward_substitute(Lower lower, FloatColumns v, FloatColumns result)
 {
     for (Index begin = 0; begin < lower.n; begin += group) {
         const Block block = lower.block(begin);
@@ -225,7 +225,7 @@ SEAMFLOW_WIDE void eliminate(Lower lower, FloatColumns v, FloatColumns result)
 }
 
 /// result = L⁻ᵀ v, where it is 0 before.
-SEAMFLOW_WIDE void substitute_back(Lower lower, FloatColumns v, FloatColumns result)
+SEAMFLOW_WIDE void back_substitute(Lower lower, FloatColumns v, FloatColumns result)
 {
     for (Index begin = lower.last_block(); begin >= 0; begin -= group) {
         const Block block = lower.block(begin);
@@ -306,10 +306,10 @@ void DenseFactor::multiply(FloatColumns v, FloatColumns result) const
 
 void DenseFactor::solve(FloatColumns v, FloatColumns scratch) const
 {
-    eliminate({lower_.data(), n_}, v, scratch);
+    forward_substitute({lower_.data(), n_}, v, scratch);
     multiply_by_diagonal(inverse_, scratch);
     set_zero(v, inverse_.size());
-    substitute_back({lower_.data(), n_}, scratch, v);
+    back_substitute({lower_.data(), n_}, scratch, v);
 }
 
 }  // namespace seamflow

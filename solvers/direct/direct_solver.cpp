@@ -105,18 +105,21 @@ std::optional<DirectSolver::Factor> DirectSolver::factorise(std::span<const doub
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
                                                     SolverWorkspace& workspace, const EliminationTree& tree)
 {
-    assert(factorisation != Factorisation::Umfpack && "UMFPACK has general matrices");
-    if (factorisation == Factorisation::Own ||
-        (factorisation == Factorisation::Automatic && upper.n() <= most_unknowns_for_ldl))
+    if (factorisation == Factorisation::Automatic)
+        factorisation = upper.n() <= most_unknowns_for_ldl ? Factorisation::Own : Factorisation::Cholmod;
+    if (factorisation == Factorisation::Own)
         return std::make_unique<OwnLdl>(upper, tree);
+    assert(factorisation == Factorisation::Cholmod && "no other has symmetric matrices");
     return make_cholmod_llt(std::move(upper), workspace.cholmod);
 }
 
 std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, Factorisation factorisation)
 {
-    if (factorisation == Factorisation::Own ||
-        (factorisation == Factorisation::Automatic && pattern.n() <= most_unknowns_for_lu))
+    if (factorisation == Factorisation::Automatic)
+        factorisation = pattern.n() <= most_unknowns_for_lu ? Factorisation::Own : Factorisation::Umfpack;
+    if (factorisation == Factorisation::Own)
         return std::make_unique<OwnLu>(pattern);
+    // CHOLMOD has symmetric matrices alone.
     return make_umfpack_lu(pattern);
 }
 

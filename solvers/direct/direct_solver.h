@@ -8,7 +8,7 @@
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/factorisation.h"
 #include "solvers/direct/solver_workspace.h"
-#include "solvers/sparse/factor_pattern.h"
+#include "solvers/sparse/symbolic_factor.h"
 
 namespace seamflow {
 

@@ -15,4 +15,10 @@ enum class Factorisation {
     Umfpack,
 };
 
+/// Whether another library is asked for.
+constexpr bool is_foreign(Factorisation factorisation)
+{
+    return factorisation == Factorisation::Cholmod || factorisation == Factorisation::Umfpack;
+}
+
 }  // namespace seamflow

@@ -32,10 +32,10 @@ bool factorise_panel(const LdlPanel& panel, Index width = register_width());
 
 /// Eliminates a block's unknowns from three right-hand sides.
 /// @param x all unknowns by 3, row by row.
-void eliminate_panel(const LdlPanel& panel, double* x);
+void forward_substitute_panel(const LdlPanel& panel, double* x);
 
 /// Solves for a block's unknowns, with those of its other rows given.
 /// @param x all unknowns by 3, row by row.
-void substitute_panel(const LdlPanel& panel, double* x);
+void back_substitute_panel(const LdlPanel& panel, double* x);
 
 }  // namespace seamflow

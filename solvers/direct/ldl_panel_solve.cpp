@@ -112,14 +112,14 @@ void with_known(Index n, Use use)
 
 }  // namespace
 
-void eliminate_panel(const LdlPanel& panel, double* x)
+void forward_substitute_panel(const LdlPanel& panel, double* x)
 {
     for (Index first = 0; first < panel.width; first += columns_at_once)
         with_known(std::min(columns_at_once, panel.width - first),
                    [&](auto n) { eliminate_columns<n>(panel, first, x); });
 }
 
-void substitute_panel(const LdlPanel& panel, double* x)
+void back_substitute_panel(const LdlPanel& panel, double* x)
 {
     for (Index end = panel.width; end > 0;) {
         const Index n_columns = std::min(columns_at_once, end);

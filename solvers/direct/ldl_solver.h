@@ -13,7 +13,7 @@
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/ldl_panel.h"
 #include "solvers/direct/solver_workspace.h"
-#include "solvers/sparse/factor_pattern.h"
+#include "solvers/sparse/symbolic_factor.h"
 
 namespace seamflow {
 
@@ -46,29 +46,29 @@ class LdlSolver {
                                                   LdlWorkspace& workspace) const;
 
   private:
-    /// What an earlier block takes away from columns of a later one.
+    /// What an earlier supernode takes away from columns of a later one.
     struct Update {
         Index earlier;
-        /// The first of the earlier block's rows that belong to these columns, and how many do.
+        /// The first of the earlier supernode's rows that belong to these columns, and how many do.
         Index place;
         Index n_columns;
     };
 
-    void list_updates(const std::vector<Index>& block_of);
-    void find_places(const SparsePattern& upper, const std::vector<Index>& block_of);
-    void subtract_updates(Index block, double* factor, LdlWorkspace& workspace) const;
-    [[nodiscard]] LdlPanel panel(double* factor, Index block) const
+    void list_updates(const std::vector<Index>& supernode_of);
+    void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
+    void subtract_updates(Index supernode, double* factor, LdlWorkspace& workspace) const;
+    [[nodiscard]] LdlPanel panel(double* factor, Index supernode) const
     {
-        return {factor + panels_[block], pattern_.width(block), pattern_.rows[block]};
+        return {factor + panels_[supernode], pattern_.width(supernode), pattern_.rows[supernode]};
     }
 
     Index n_last_;
     /// Per entry of the matrix: where it stands in the factor.
     std::vector<Index> places_;
-    FactorPattern pattern_;
-    /// Per block, where it begins in the factor, and where the last one ends.
+    SymbolicFactor pattern_;
+    /// Per supernode, where it begins in the factor, and where the last one ends.
     std::vector<Index> panels_{0};
-    /// Per block, and one more.
+    /// Per supernode, and one more.
     std::vector<Index> update_offsets_;
     std::vector<Update> updates_;
 };

@@ -15,7 +15,7 @@ using Pair = Eigen::Array2d;
 constexpr Eigen::Index lower = 0;
 constexpr Eigen::Index upper = 1;
 
-/// Takes what some columns of a block contribute away from the column of L and the row of U of the unknown
+/// Takes what some columns of a supernode contribute away from the column of L and the row of U of the unknown
 /// rows[place].
 /// @param columns the first of them; each has as many entries as there are rows.
 template <std::size_t Width>
@@ -51,9 +51,9 @@ void subtract(const Pair* columns, Index n_columns, std::span<const Index> rows,
 }  // namespace
 
 LuSolver::LuSolver(const SparsePattern& pattern)
-    : pattern_(make_factor_pattern(pattern))
+    : pattern_(make_symbolic_factor(pattern))
 {
-    for (Index b = 0; b < pattern_.n_blocks(); ++b)
+    for (Index b = 0; b < pattern_.n_supernodes(); ++b)
         panels_.push_back(panels_.back() + at(pattern_.width(b)) * pattern_.rows[b].size());
     list_loads(pattern);
 }
@@ -82,7 +82,7 @@ std::optional<LuSolver::Factor> LuSolver::factorise(std::span<const double> valu
     measure_rows(values, workspace);
     workspace.elimination.assign(pattern_.n(), Pair::Zero());
     Factor factor(*this, take_numbers<Pair>(memory, panels_.back()));
-    for (Index b = 0; b < pattern_.n_blocks(); ++b)
+    for (Index b = 0; b < pattern_.n_supernodes(); ++b)
         for (Index column = 0; column < pattern_.width(b); ++column) {
             load(pattern_.first[b] + column, values, workspace);
             eliminate(b, column, factor, workspace);
@@ -111,27 +111,27 @@ void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& 
     }
 }
 
-/// Takes away what earlier columns contribute, those of the same block last.
-void LuSolver::eliminate(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const
+/// Takes away what earlier columns contribute, those of the same supernode last.
+void LuSolver::eliminate(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     Pair* elimination = workspace.elimination.data();
-    const Index unknown = pattern_.first[block] + column;
+    const Index unknown = pattern_.first[supernode] + column;
     for (Index k = pattern_.update_offsets[unknown]; k < pattern_.update_offsets[unknown + 1]; ++k) {
         const auto [earlier, place] = pattern_.updates[k];
         subtract(factor.column_of(earlier, 0), pattern_.width(earlier), pattern_.rows[earlier], place, elimination);
     }
-    subtract(factor.column_of(block, 0), column, pattern_.rows[block], column, elimination);
+    subtract(factor.column_of(supernode, 0), column, pattern_.rows[supernode], column, elimination);
 }
 
 /// Moves a column and a row to the factor.
 /// @returns whether the pivot will do.
-bool LuSolver::store(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const
+bool LuSolver::store(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const
 {
     constexpr double largest_multiplier = 1000.0;
     constexpr double largest_growth = 1e6;
     constexpr double least_pivot = 1e-12;
-    const auto rows = pattern_.rows[block];
-    Pair* result = factor.column_of(block, column);
+    const auto rows = pattern_.rows[supernode];
+    Pair* result = factor.column_of(supernode, column);
     const double* sizes = workspace.row_sizes.data();
     const double size = sizes[rows[column]];
     const double inverse = 1.0 / workspace.elimination[rows[column]][lower];
@@ -150,12 +150,12 @@ bool LuSolver::store(Index block, Index column, const Factor& factor, LuWorkspac
 
 void LuSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, LuWorkspace& workspace) const
 {
-    const FactorPattern& pattern = solver_->pattern_;
+    const SymbolicFactor& pattern = solver_->pattern_;
     workspace.solution.resize(pattern.n());
     Eigen::Array4d* x = workspace.solution.data();
     for (Index v = 0; v < pattern.n(); ++v)
         x[pattern.position[v]] << right_hand_side.row(v).transpose().array(), 0.0;
-    for (Index b = 0; b < pattern.n_blocks(); ++b)
+    for (Index b = 0; b < pattern.n_supernodes(); ++b)
         for (Index c = 0; c < pattern.width(b); ++c) {
             const auto rows = pattern.rows[b];
             const Pair* column = column_of(b, c);
@@ -163,7 +163,7 @@ void LuSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, 
             for (std::size_t m = at(c) + 1; m < rows.size(); ++m)
                 x[rows[m]] -= column[m][lower] * known;
         }
-    for (Index b = pattern.n_blocks(); b-- > 0;)
+    for (Index b = pattern.n_supernodes(); b-- > 0;)
         for (Index c = pattern.width(b); c-- > 0;) {
             const auto rows = pattern.rows[b];
             const Pair* row = column_of(b, c);

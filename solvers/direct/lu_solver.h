@@ -11,7 +11,7 @@
 #include "solvers/direct/columns.h"
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/solver_workspace.h"
-#include "solvers/sparse/factor_pattern.h"
+#include "solvers/sparse/symbolic_factor.h"
 
 namespace seamflow {
 
@@ -25,7 +25,7 @@ class LuSolver {
     class Factor;
 
     /// Analyses the pattern, which is needed only during the call.
-    /// @throws ComputationError if CHOLMOD, which finds the order of elimination, fails (memory).
+    /// @throws ComputationError if CHOLMOD, which finds the elimination ordering, fails (memory).
     explicit LuSolver(const SparsePattern& pattern);
 
     /// What a factor takes, in bytes.
@@ -50,19 +50,19 @@ class LuSolver {
     void list_loads(const SparsePattern& pattern);
     void measure_rows(std::span<const double> values, LuWorkspace& workspace) const;
     void load(Index unknown, std::span<const double> values, LuWorkspace& workspace) const;
-    void eliminate(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const;
-    bool store(Index block, Index column, const Factor& factor, LuWorkspace& workspace) const;
+    void eliminate(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const;
+    bool store(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const;
 
-    FactorPattern pattern_;
+    SymbolicFactor pattern_;
     /// Number of unknowns + 1, and what is loaded for each.
     std::vector<Index> load_offsets_;
     std::vector<Load> loads_;
-    /// Per block, where its columns begin, and where the last one ends.
+    /// Per supernode, where its columns begin, and where the last one ends.
     std::vector<std::size_t> panels_{0};
 };
 
-/// L U of one matrix, block after block, column after column: entries of L and of Uᵀ in pairs. On the diagonal stands
-/// the pivot's inverse; above it nothing of use.
+/// L U of one matrix, supernode after supernode, column after column: entries of L and of Uᵀ in pairs. On the diagonal
+/// stands the pivot's inverse; above it nothing of use.
 class LuSolver::Factor {
   public:
     /// Solves for three right-hand sides.
@@ -77,10 +77,10 @@ class LuSolver::Factor {
     {
     }
 
-    /// One column of a block, with an entry for each of the block's rows.
-    [[nodiscard]] Eigen::Array2d* column_of(Index block, Index column) const
+    /// One column of a supernode, with an entry for each of the supernode's rows.
+    [[nodiscard]] Eigen::Array2d* column_of(Index supernode, Index column) const
     {
-        return pairs_.get() + solver_->panels_[block] + at(column) * solver_->pattern_.rows[block].size();
+        return pairs_.get() + solver_->panels_[supernode] + at(column) * solver_->pattern_.rows[supernode].size();
     }
 
     const LuSolver* solver_;

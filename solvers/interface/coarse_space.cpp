@@ -7,7 +7,7 @@
 
 #include "solvers/direct/simd.h"
 #include "solvers/laplacian/geometry.h"
-#include "solvers/sparse/elimination_order.h"
+#include "solvers/sparse/elimination_ordering.h"
 
 namespace seamflow {
 
@@ -189,7 +189,7 @@ void CoarseSpace::analyse()
     std::iota(energy_.unknown_of.begin(), energy_.unknown_of.end(), 0);
     if (size() == 0)
         return;
-    const std::vector<Index> order = elimination_order(make_pattern(size(), entries()));
+    const std::vector<Index> order = elimination_ordering(make_pattern(size(), entries()));
     for (std::size_t i = 0; i < order.size(); ++i)
         energy_.unknown_of[order[i]] = static_cast<Index>(i);
     const std::vector<MatrixEntry> places = entries();

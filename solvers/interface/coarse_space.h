@@ -42,7 +42,7 @@ class CoarseSpace {
     void correct(const Points& residual, Points& y, const Loop& loop);
 
   private:
-    /// E in the order of elimination, and its factor.
+    /// E in the elimination ordering, and its factor.
     struct Energy {
         /// Per function: its unknown.
         std::vector<Index> unknown_of;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "solvers/direct/columns.h"
-#include "solvers/sparse/elimination_order.h"
+#include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
 
 namespace seamflow {
@@ -22,7 +22,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacia
         faces_ = {};
 }
 
-/// The interior in the order of elimination, then Γ.
+/// The interior in the elimination ordering, then Γ.
 /// @returns the pattern of the upper triangle.
 SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
 {
@@ -42,7 +42,7 @@ SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
         pairs_of_unknowns(matrix_.laplacian->pairs(), unknown_of, static_cast<Index>(vertices.size()));
     std::vector<Index> order(vertices.size());
     std::iota(order.begin(), order.end(), 0);
-    order = elimination_order(upper_pattern(pairs_of, order).pattern, is_last);
+    order = elimination_ordering(upper_pattern(pairs_of, order).pattern, is_last);
     std::erase_if(order, [&](Index u) { return is_last[u]; });
     for (const Index v : sub_mesh.interface.vertices)
         order.push_back(unknown_of[v]);

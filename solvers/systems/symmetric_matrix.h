@@ -49,7 +49,7 @@ struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
     /// Of the sub-mesh, its halo included.
     Index n_vertices = 0;
-    /// Per unknown, in the order of elimination.
+    /// Per unknown, in the elimination ordering.
     std::vector<Index> vertex_of{};
     /// Of the pattern of the upper triangle, whose rows the solver has.
     std::vector<Index> column_offsets{};

@@ -5,7 +5,7 @@
 
 #include "solvers/conditions/remainder.h"
 #include "solvers/direct/columns.h"
-#include "solvers/sparse/elimination_order.h"
+#include "solvers/sparse/elimination_ordering.h"
 #include "solvers/systems/checks.h"
 
 namespace seamflow {
@@ -47,13 +47,13 @@ void SymmetricSystem::number_unknowns(SymmetricRows rows, std::vector<Index>& un
         }
 }
 
-/// Renumbers the unknowns in the order of elimination.
+/// Renumbers the unknowns in the elimination ordering.
 SparsePattern SymmetricSystem::list_entries(const std::vector<VertexPair>& pairs, std::vector<Index>& unknown_of,
                                             EliminationTree& tree)
 {
     const auto n = static_cast<Index>(matrix_.vertex_of.size());
     const PairsOfUnknowns pairs_of = pairs_of_unknowns(pairs, unknown_of, n);
-    Elimination elimination = eliminate(neighbours_of(pairs_of));
+    EliminationOrdering elimination = order_elimination(neighbours_of(pairs_of));
     tree = std::move(elimination.tree);
     const std::vector<Index>& order = elimination.order;
     std::vector<Index> vertex_of(n);

@@ -82,6 +82,8 @@ destdir)
     with_find_package "$work/dest dir/opt/seamflow" "of destdir" "$@"
     ;;
 add_subdirectory)
+    # Objects that are taken over have no dependencies: none is left from the time before.
+    rm -rf "$work/with sources"
     mapfile -t unity < <(sed -n 's/^\(CMAKE_UNITY_BUILD[A-Z_]*:[A-Z]*=.*\)/-D\1/p' "$build/CMakeCache.txt")
     configure_consumer "with sources" -DSEAMFLOW_SOURCE="$root" "${unity[@]}" "$@" \
         -DCMAKE_CXX_FLAGS="-O0" -DCMAKE_CXX_COMPILER_LAUNCHER="$sources/reuse.sh;$(realpath "$build")"

@@ -8,7 +8,7 @@ if(CMAKE_CXX_COMPILER_LAUNCHER)
     list(APPEND arguments "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")
 endif()
 foreach(way IN ITEMS install headers find_package pkg-config destdir add_subdirectory shared)
-    # shared compiles the whole library once more: tests/run.sh runs it, and `ctest -C All`.
+    # shared compiles the whole library once more: `tests/run.sh --all` runs it.
     set(configurations "")
     if(way STREQUAL shared)
         set(configurations CONFIGURATIONS All)

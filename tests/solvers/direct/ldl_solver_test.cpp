@@ -211,7 +211,7 @@ TEST_CASE("from the second time on nothing is allocated")
 }
 
 TEST_CASE(
-    "systems are solved with the tree that comes with the order of elimination, or with none where there is a hub")
+    "systems are solved with the tree that comes with the elimination ordering, or with none where there is a hub")
 {
     RandomNumbers random(6);
     LdlWorkspace workspace;
@@ -225,7 +225,7 @@ TEST_CASE(
                 entries.insert(entries.end(), {{v, triangles.n()}, {triangles.n(), v}});
         }
         const SparsePattern neighbours = make_pattern(triangles.n() + 1, entries);
-        const auto [order, tree] = eliminate(neighbours);
+        const auto [order, tree] = order_elimination(neighbours);
         CHECK(tree.parent.empty() == has_hub);
         const SparsePattern upper = upper_in(neighbours, order);
         const Index n = upper.n();

@@ -32,7 +32,7 @@ struct Entry {
 };
 
 /// Whether the diagonal of a matrix will do whose first columns and rows have these entries. Rows and columns are
-/// numbered in the order of elimination; the rest of the matrix is the identity.
+/// numbered in the elimination ordering; the rest of the matrix is the identity.
 bool will_do(std::initializer_list<Entry> entries)
 {
     constexpr Index n = 5;
@@ -41,7 +41,7 @@ bool will_do(std::initializer_list<Entry> entries)
         for (Index j = 0; j < n; ++j)
             all.push_back({i, j});
     const SparsePattern pattern = make_pattern(n, all);
-    const std::vector<Index> position = make_factor_pattern(pattern).position;
+    const std::vector<Index> position = make_symbolic_factor(pattern).position;
     std::vector<Index> unknown(n);
     for (Index v = 0; v < n; ++v)
         unknown[position.empty() ? v : position[v]] = v;

@@ -1,10 +1,10 @@
-#include "solvers/sparse/factor_pattern.h"
+#include "solvers/sparse/symbolic_factor.h"
 
 #include <algorithm>
 #include <cassert>
 #include <numeric>
 
-#include "solvers/sparse/elimination_order.h"
+#include "solvers/sparse/elimination_ordering.h"
 
 namespace seamflow {
 
@@ -50,8 +50,9 @@ bool belong_together(const EliminationTree& tree, Index column)
     return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
 }
 
-/// The last of the columns that have the same rows as the first one but for each other; the last n_last are one block.
-Index end_of_block(const EliminationTree& tree, Index first, Index n_last)
+/// The last of the columns that have the same rows as the first one but for each other; the last n_last are one
+/// supernode.
+Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
     Index last = first == n - n_last ? n - 1 : first;
@@ -60,20 +61,20 @@ Index end_of_block(const EliminationTree& tree, Index first, Index n_last)
     return last;
 }
 
-/// Wider blocks are not made of narrower ones.
+/// Wider supernodes are not made of narrower ones.
 constexpr Index most_relaxed_columns = 32;
 
-/// Whether a block of so many columns, and rows below them, is worth having so many entries that stay zero: fewer and
-/// wider blocks are faster (measured on triangle meshes; more zeros save no more time, but take memory).
+/// Whether a supernode of so many columns, and rows below them, is worth having so many entries that stay zero: fewer
+/// and wider supernodes are faster (measured on triangle meshes; more zeros save no more time, but take memory).
 bool is_worth(double zeros, Index width, Index n_rows)
 {
     const double size = 0.5 * width * (width + 1.0) + 1.0 * width * n_rows;
     return (width <= 8 && zeros <= 0.4 * size) || (width <= most_relaxed_columns && zeros <= 0.15 * size);
 }
 
-/// The furthest end of a block without zeros that is worth it and to which parents lead from all columns before it in
-/// the block: none of those has a row outside that the last one does not have.
-Index end_of_relaxed_block(const EliminationTree& tree, Index first, Index last, Index n_last)
+/// The furthest end of a supernode without zeros that is worth it and to which parents lead from all columns before it
+/// in the supernode: none of those has a row outside that the last one does not have.
+Index end_of_relaxed_supernode(const EliminationTree& tree, Index first, Index last, Index n_last)
 {
     const auto n = static_cast<Index>(tree.parent.size());
     double entries_before = 0.0;
@@ -96,27 +97,27 @@ Index end_of_relaxed_block(const EliminationTree& tree, Index first, Index last,
     return last;
 }
 
-/// Which entries of L that stay zero blocks may have.
+/// Which entries of L that stay zero supernodes may have.
 enum class Zeros {
     None,
     Few,
 };
 
-/// Fills in the blocks. Calls on_row(row, block, place) for each row that a block has outside itself, rows ascending;
-/// `place` is where the row stands among those of the block. Calls on_entry(slot, place) for each entry of the matrix
-/// in order; there `place` is where its column stands among the rows of the block of its row.
+/// Fills in the supernodes. Calls on_row(row, supernode, place) for each row that a supernode has outside itself, rows
+/// ascending; `place` is where the row stands among those of the supernode. Calls on_entry(slot, place) for each entry
+/// of the matrix in order; there `place` is where its column stands among the rows of the supernode of its row.
 template <class OnRow, class OnEntry>
-void list_blocks(const SparsePattern& upper, const EliminationTree& tree, Zeros zeros, Index n_last,
-                 FactorPattern& factor, OnRow on_row, OnEntry on_entry)
+void list_supernodes(const SparsePattern& upper, const EliminationTree& tree, Zeros zeros, Index n_last,
+                     SymbolicFactor& factor, OnRow on_row, OnEntry on_entry)
 {
     const Index n = upper.n();
-    std::vector<Index> block_of(n);
+    std::vector<Index> supernode_of(n);
     std::vector<Index> parent;
     for (Index first = 0, last = 0; first < n; first = ++last) {
-        last = end_of_block(tree, first, n_last);
+        last = end_of_supernode(tree, first, n_last);
         if (zeros == Zeros::Few)
-            last = end_of_relaxed_block(tree, first, last, n_last);
-        std::fill(block_of.begin() + first, block_of.begin() + last + 1, factor.n_blocks());
+            last = end_of_relaxed_supernode(tree, first, last, n_last);
+        std::fill(supernode_of.begin() + first, supernode_of.begin() + last + 1, factor.n_supernodes());
         parent.push_back(tree.parent[last]);
         factor.first.push_back(last + 1);
         for (Index u = first; u <= last; ++u)
@@ -126,45 +127,46 @@ void list_blocks(const SparsePattern& upper, const EliminationTree& tree, Zeros 
     }
     factor.first.shrink_to_fit();
     factor.rows.shrink_to_fit();
-    std::vector<Index> next(factor.n_blocks());
-    for (Index b = 0; b < factor.n_blocks(); ++b)
+    std::vector<Index> next(factor.n_supernodes());
+    for (Index b = 0; b < factor.n_supernodes(); ++b)
         next[b] = factor.rows.offsets[b] + factor.width(b);
-    std::vector<Index> visited(factor.n_blocks(), -1);
+    std::vector<Index> visited(factor.n_supernodes(), -1);
     for (Index row = 0; row < n; ++row) {
-        const Index own = block_of[row];
+        const Index own = supernode_of[row];
         visited[own] = row;
         for (Index k = upper.column_offsets[row]; k < upper.column_offsets[row + 1]; ++k) {
-            const Index block = block_of[upper.rows[k]];
-            for (Index b = block; visited[b] != row; b = block_of[parent[b]]) {
+            const Index supernode = supernode_of[upper.rows[k]];
+            for (Index b = supernode; visited[b] != row; b = supernode_of[parent[b]]) {
                 visited[b] = row;
                 factor.rows.values[next[b]] = row;
                 on_row(row, b, next[b]++ - factor.rows.offsets[b]);
             }
-            on_entry(k, block == own ? row - factor.first[own] : next[block] - 1 - factor.rows.offsets[block]);
+            on_entry(k,
+                     supernode == own ? row - factor.first[own] : next[supernode] - 1 - factor.rows.offsets[supernode]);
         }
     }
     assert(std::equal(next.begin(), next.end(), factor.rows.offsets.begin() + 1) &&
-           "blocks have as many rows as the tree says");
+           "supernodes have as many rows as the tree says");
 }
 
 }  // namespace
 
-FactorPattern make_factor_pattern(const SparsePattern& pattern)
+SymbolicFactor make_symbolic_factor(const SparsePattern& pattern)
 {
     const Index n = pattern.n();
-    FactorPattern factor;
+    SymbolicFactor factor;
     factor.position.resize(n);
     std::iota(factor.position.begin(), factor.position.end(), 0);
-    const std::vector<Index> order = elimination_order(symmetrised(pattern, factor.position));
+    const std::vector<Index> order = elimination_ordering(symmetrised(pattern, factor.position));
     for (Index i = 0; i < n; ++i)
         factor.position[order[i]] = i;
 
     factor.update_offsets.assign(at(n) + 1, 0);
     const SparsePattern upper = symmetrised(pattern, factor.position);
-    list_blocks(
+    list_supernodes(
         upper, make_tree(upper), Zeros::None, 0, factor,
-        [&](Index row, Index block, Index place) {
-            factor.updates.push_back({block, place});
+        [&](Index row, Index supernode, Index place) {
+            factor.updates.push_back({supernode, place});
             ++factor.update_offsets[row + 1];
         },
         [](Index, Index) {});
@@ -172,14 +174,14 @@ FactorPattern make_factor_pattern(const SparsePattern& pattern)
     return factor;
 }
 
-FactorPattern make_symmetric_factor_pattern(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
-                                            std::vector<Index>& places)
+SymbolicFactor make_symmetric_symbolic_factor(const SparsePattern& upper, Index n_last, const EliminationTree& tree,
+                                              std::vector<Index>& places)
 {
     assert((tree.parent.empty() || n_last == 0) && "the tree knows of no last unknowns");
     const EliminationTree own_tree = tree.parent.empty() ? make_tree(upper) : EliminationTree{};
-    FactorPattern factor;
+    SymbolicFactor factor;
     places.resize(upper.rows.size());
-    list_blocks(
+    list_supernodes(
         upper, tree.parent.empty() ? own_tree : tree, Zeros::Few, n_last, factor, [](Index, Index, Index) {},
         [&](Index entry, Index place) { places[entry] = place; });
     return factor;

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <doctest/doctest.h>
 
-#include "solvers/sparse/factor_pattern.h"
+#include "solvers/sparse/symbolic_factor.h"
 #include "tests/support/random_graphs.h"
 #include "tests/support/random_matrices.h"
 
@@ -33,10 +33,10 @@ Eigen::MatrixXi eliminated(const SparsePattern& pattern, const std::vector<Index
 }
 
 /// The entries of L as the blocks have them.
-Eigen::MatrixXi from_blocks(const FactorPattern& factor)
+Eigen::MatrixXi from_blocks(const SymbolicFactor& factor)
 {
     Eigen::MatrixXi filled = Eigen::MatrixXi::Zero(factor.n(), factor.n());
-    for (Index b = 0; b < factor.n_blocks(); ++b)
+    for (Index b = 0; b < factor.n_supernodes(); ++b)
         for (Index c = 0; c < factor.width(b); ++c)
             for (const Index row : factor.rows[b].subspan(c))
                 filled(row, factor.first[b] + c) = 1;
@@ -44,7 +44,7 @@ Eigen::MatrixXi from_blocks(const FactorPattern& factor)
 }
 
 /// Every entry's column stands where it is said among the rows of its row's block.
-void check_places(const SparsePattern& upper, const FactorPattern& factor, const std::vector<Index>& places)
+void check_places(const SparsePattern& upper, const SymbolicFactor& factor, const std::vector<Index>& places)
 {
     REQUIRE(places.size() == upper.rows.size());
     for (Index column = 0; column < upper.n(); ++column)
@@ -63,23 +63,23 @@ TEST_CASE("the blocks have exactly the entries that elimination fills in")
     RandomNumbers random(1);
     for (const Index n : {1, 2, 9, 60}) {
         const SparsePattern pattern = random_pattern(n, random);
-        const FactorPattern factor = make_factor_pattern(pattern);
+        const SymbolicFactor factor = make_symbolic_factor(pattern);
         std::vector<Index> position = factor.position;
         CHECK(from_blocks(factor) == eliminated(pattern, position));
         std::sort(position.begin(), position.end());
         for (Index i = 0; i < n; ++i)
             CHECK(position[i] == i);
         if (n > 2)
-            CHECK(factor.n_blocks() < n);
+            CHECK(factor.n_supernodes() < n);
     }
 }
 
 TEST_CASE("an unknown is updated once by each earlier block that has a row there")
 {
     RandomNumbers random(2);
-    const FactorPattern factor = make_factor_pattern(random_pattern(60, random));
+    const SymbolicFactor factor = make_symbolic_factor(random_pattern(60, random));
     std::size_t n_expected = 0;
-    for (Index b = 0; b < factor.n_blocks(); ++b) {
+    for (Index b = 0; b < factor.n_supernodes(); ++b) {
         CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end()));
         n_expected += factor.rows[b].size() - at(factor.width(b));
     }
@@ -97,7 +97,7 @@ TEST_CASE("an unknown is updated once by each earlier block that has a row there
 
 TEST_CASE("a pattern without unknowns has no blocks")
 {
-    CHECK(make_factor_pattern(SparsePattern{}).n_blocks() == 0);
+    CHECK(make_symbolic_factor(SparsePattern{}).n_supernodes() == 0);
 }
 
 TEST_CASE("in a given order the last unknowns are one block, and the others have the entries that elimination fills "
@@ -115,7 +115,7 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
         }
         const SparsePattern upper = make_pattern(30, entries);
         std::vector<Index> places;
-        const FactorPattern factor = make_symmetric_factor_pattern(upper, n_last, {}, places);
+        const SymbolicFactor factor = make_symmetric_symbolic_factor(upper, n_last, {}, places);
         std::vector<Index> as_they_are(30);
         std::iota(as_they_are.begin(), as_they_are.end(), 0);
         Eigen::MatrixXi expected = eliminated(upper, as_they_are);
@@ -124,13 +124,13 @@ TEST_CASE("in a given order the last unknowns are one block, and the others have
         CHECK((found.array() >= expected.array()).all());
         CHECK(found.sum() <= 2 * expected.sum());
         if (n_last > 0)
-            CHECK(factor.width(factor.n_blocks() - 1) == n_last);
+            CHECK(factor.width(factor.n_supernodes() - 1) == n_last);
         CHECK(factor.updates.empty());
         check_places(upper, factor, places);
     }
 }
 
-TEST_CASE("with the tree that comes with an order of elimination, blocks have the entries that are filled in, and few "
+TEST_CASE("with the tree that comes with an elimination ordering, blocks have the entries that are filled in, and few "
           "more")
 {
     RandomNumbers random(4);
@@ -138,18 +138,18 @@ TEST_CASE("with the tree that comes with an order of elimination, blocks have th
          {random_neighbours(1, 0, random), random_neighbours(40, 0, random), random_neighbours(60, 60, random),
           random_neighbours(200, 350, random), triangle_neighbours(15, random), star_neighbours(60, 5, random),
           star_neighbours(200, 12, random), tree_neighbours(150, random)}) {
-        const Elimination elimination = eliminate(neighbours);
+        const EliminationOrdering elimination = order_elimination(neighbours);
         const SparsePattern upper = upper_in(neighbours, elimination.order);
         REQUIRE(elimination.tree.parent.size() == at(neighbours.n()));
         std::vector<Index> places;
-        const FactorPattern factor = make_symmetric_factor_pattern(upper, 0, elimination.tree, places);
+        const SymbolicFactor factor = make_symmetric_symbolic_factor(upper, 0, elimination.tree, places);
         std::vector<Index> as_they_are(upper.n());
         std::iota(as_they_are.begin(), as_they_are.end(), 0);
         const Eigen::MatrixXi expected = eliminated(upper, as_they_are);
         const Eigen::MatrixXi found = from_blocks(factor);
         CHECK((found.array() >= expected.array()).all());
         CHECK(found.sum() <= 2.5 * expected.sum());
-        for (Index b = 0; b < factor.n_blocks(); ++b)
+        for (Index b = 0; b < factor.n_supernodes(); ++b)
             CHECK(std::is_sorted(factor.rows[b].begin(), factor.rows[b].end(), std::less_equal<>()));
         check_places(upper, factor, places);
     }
@@ -173,14 +173,14 @@ TEST_CASE("subtrees of the elimination tree are made one block where that takes 
                                                  {5, 4},
                                                  {5, 5}});
     std::vector<Index> places;
-    const FactorPattern factor = make_symmetric_factor_pattern(upper, 0, {}, places);
+    const SymbolicFactor factor = make_symmetric_symbolic_factor(upper, 0, {}, places);
     CHECK(factor.first == std::vector<Index>{0, 6});
     check_places(upper, factor, places);
 
     // What leads to the third is not together: column 1 has nothing to do with it.
     const SparsePattern apart = make_pattern(
         7, {{0, 0}, {1, 1}, {2, 2}, {3, 0}, {3, 2}, {3, 3}, {4, 3}, {4, 4}, {5, 3}, {5, 4}, {5, 5}, {6, 1}, {6, 6}});
-    const FactorPattern blocks = make_symmetric_factor_pattern(apart, 0, {}, places);
+    const SymbolicFactor blocks = make_symmetric_symbolic_factor(apart, 0, {}, places);
     CHECK(blocks.first == std::vector<Index>{0, 1, 2, 6, 7});
     check_places(apart, blocks, places);
 }
@@ -194,7 +194,7 @@ TEST_CASE("subtrees remain apart where one block of them would have many zeros, 
                 if (row == column || row >= begin)
                     entries.push_back({column, row});
         const SparsePattern upper = make_pattern(n, entries);
-        FactorPattern factor = make_symmetric_factor_pattern(upper, 0, {}, places);
+        SymbolicFactor factor = make_symmetric_symbolic_factor(upper, 0, {}, places);
         check_places(upper, factor, places);
         return factor.first;
     };

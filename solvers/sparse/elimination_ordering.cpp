@@ -1,4 +1,4 @@
-#include "solvers/sparse/elimination_order.h"
+#include "solvers/sparse/elimination_ordering.h"
 
 #include <limits>
 #include <utility>
@@ -94,7 +94,7 @@ EliminationTree tree_of(const AmdResult& amd)
 
 }  // namespace
 
-Elimination eliminate(SparsePattern neighbours)
+EliminationOrdering order_elimination(SparsePattern neighbours)
 {
     if (neighbours.n() == 0)
         return {};
@@ -103,7 +103,7 @@ Elimination eliminate(SparsePattern neighbours)
     return {std::move(amd.order), std::move(tree)};
 }
 
-std::vector<Index> elimination_order(const SparsePattern& upper)
+std::vector<Index> elimination_ordering(const SparsePattern& upper)
 {
     std::vector<Index> order(upper.n());
     if (!order.empty())
@@ -112,11 +112,11 @@ std::vector<Index> elimination_order(const SparsePattern& upper)
     return order;
 }
 
-std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last)
+std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last)
 {
     // CAMD has as many groups as there are unknowns at most: a single one cannot be in the second.
     if (is_last.size() < 2)
-        return elimination_order(upper);
+        return elimination_ordering(upper);
     std::vector<Index> order(is_last.size());
     const std::vector<Index> groups(is_last.begin(), is_last.end());
     require_ok(camd_order(upper.n(), upper.column_offsets.data(), upper.rows.data(), order.data(), nullptr, nullptr,

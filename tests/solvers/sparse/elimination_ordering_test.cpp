@@ -3,18 +3,18 @@
 
 #include <doctest/doctest.h>
 
-#include "solvers/sparse/elimination_order.h"
+#include "solvers/sparse/elimination_ordering.h"
 #include "tests/support/random_graphs.h"
 #include "tests/support/symmetric_matrices.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
 
-TEST_CASE("the order of elimination is a permutation with less fill-in than the rows' own order")
+TEST_CASE("the elimination ordering is a permutation with less fill-in than the rows' own order")
 {
     RandomNumbers random(3);
     const SymmetricMatrix matrix = grid_matrix(20, 1.0, random);
-    std::vector<Index> order = elimination_order(matrix.upper);
+    std::vector<Index> order = elimination_ordering(matrix.upper);
     const auto fill_in = [&](const std::vector<Index>& eliminated) {
         Eigen::MatrixXd filled = matrix.dense;
         for (std::size_t i = 0; i < eliminated.size(); ++i)
@@ -39,19 +39,19 @@ TEST_CASE("unknowns that are asked to be last are the last")
     std::vector<bool> is_last;
     for (Index u = 0; u < matrix.upper.n(); ++u)
         is_last.push_back(random.below(4) == 0);
-    std::vector<Index> order = elimination_order(matrix.upper, is_last);
+    std::vector<Index> order = elimination_ordering(matrix.upper, is_last);
     CHECK(std::is_sorted(order.begin(), order.end(), [&](Index a, Index b) { return !is_last[a] && is_last[b]; }));
     std::sort(order.begin(), order.end());
     for (Index u = 0; u < matrix.upper.n(); ++u)
         CHECK(order[u] == u);
-    CHECK(elimination_order(SparsePattern{}).empty());
+    CHECK(elimination_ordering(SparsePattern{}).empty());
 }
 
 TEST_CASE("a single unknown that is asked to be last is the first as well")
 {
     const SparsePattern one = make_pattern(1, {{0, 0}});
     for (int i = 0; i < 100; ++i)
-        CHECK(elimination_order(one, {true}) == std::vector<Index>{0});
+        CHECK(elimination_ordering(one, {true}) == std::vector<Index>{0});
 }
 
 TEST_CASE("the tree that comes with an order has the rows of the columns that end blocks, and leads past none of them")
@@ -62,7 +62,7 @@ TEST_CASE("the tree that comes with an order has the rows of the columns that en
           random_neighbours(200, 600, random), triangle_neighbours(10, random), triangle_neighbours(25, random),
           star_neighbours(60, 5, random), star_neighbours(200, 12, random), tree_neighbours(150, random)}) {
         const Index n = neighbours.n();
-        const auto [order, tree] = eliminate(neighbours);
+        const auto [order, tree] = order_elimination(neighbours);
         std::vector<Index> sorted = order;
         std::sort(sorted.begin(), sorted.end());
         for (Index u = 0; u < n; ++u)
@@ -102,9 +102,9 @@ TEST_CASE("unknowns with very many neighbours are last, and the tree is not know
     std::vector<MatrixEntry> entries;
     for (Index u = 1; u < 300; ++u)
         entries.insert(entries.end(), {{0, u}, {u, 0}});
-    const auto [order, tree] = eliminate(make_pattern(300, entries));
+    const auto [order, tree] = order_elimination(make_pattern(300, entries));
     CHECK(order.back() == 0);
     CHECK(tree.parent.empty());
     CHECK(tree.count.empty());
-    CHECK(eliminate(SparsePattern{}).order.empty());
+    CHECK(order_elimination(SparsePattern{}).order.empty());
 }

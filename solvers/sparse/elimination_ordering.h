@@ -6,7 +6,7 @@
 
 namespace seamflow {
 
-/// Per column of the factor L of a symmetric matrix whose unknowns are numbered in the order of elimination: how many
+/// Per column of the factor L of a symmetric matrix whose unknowns are numbered in the elimination ordering: how many
 /// rows it has below the diagonal, and which column after it has all of them but itself, or -1 where there are none.
 /// Entries that stay zero may count, where that gives columns the same rows, and the parent need not have to do with
 /// the column: hardly ever in a mesh, but in graphs like stars.
@@ -15,8 +15,8 @@ struct EliminationTree {
     std::vector<Index> count;
 };
 
-/// An order of elimination with little fill-in.
-struct Elimination {
+/// An elimination ordering with little fill-in.
+struct EliminationOrdering {
     /// Entry i is the i-th unknown to be eliminated.
     std::vector<Index> order;
     /// What is known of the factor then; empty where that is nothing.
@@ -27,16 +27,16 @@ struct Elimination {
 /// last without looking.
 /// @param neighbours of a symmetric matrix, all entries off the diagonal; rows in any order.
 /// @throws ComputationError if there is too little memory for it.
-Elimination eliminate(SparsePattern neighbours);
+EliminationOrdering order_elimination(SparsePattern neighbours);
 
-/// An order of elimination with little fill-in for symmetric matrices of this pattern (approximate minimum degree,
+/// An elimination ordering with little fill-in for symmetric matrices of this pattern (approximate minimum degree,
 /// postordered): entry i is the i-th unknown to be eliminated.
 /// @param upper the entries on and above the diagonal.
 /// @throws ComputationError if there is too little memory for it.
-std::vector<Index> elimination_order(const SparsePattern& upper);
+std::vector<Index> elimination_ordering(const SparsePattern& upper);
 
 /// The same with some unknowns last.
 /// @param is_last one per unknown.
-std::vector<Index> elimination_order(const SparsePattern& upper, const std::vector<bool>& is_last);
+std::vector<Index> elimination_ordering(const SparsePattern& upper, const std::vector<bool>& is_last);
 
 }  // namespace seamflow
