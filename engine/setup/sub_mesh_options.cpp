@@ -36,7 +36,8 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vect
     case Conditions::Schwarz:
         return make_following_system(std::move(parts), workspace);
     }
-    return predicts(options) ? make_predicted_system(std::move(parts), workspace) : with(make_adapted_ventcell(sub_mesh));
+    return predicts(options) ? make_predicted_system(std::move(parts), workspace)
+                             : with(make_adapted_ventcell(sub_mesh));
 }
 
 namespace {

@@ -10,7 +10,8 @@
 namespace seamflow {
 
 /// The copies that sub-meshes have of Γ where each has one of its own: how far they are apart, what stands for all of
-/// them, and the sub-meshes, each with its own. Runs in parallel, sums in order: the bits do not depend on the number of threads.
+/// them, and the sub-meshes, each with its own. Runs in parallel, sums in order: the bits do not depend on the number
+/// of threads.
 class InterfaceGaps {
   public:
     /// @param decomposition must outlive this.

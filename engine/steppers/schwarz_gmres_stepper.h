@@ -12,9 +12,9 @@
 
 namespace seamflow {
 
-/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for Laplacians without symmetry, whose rows may reach
-/// two rings far: Δ_P. Sub-meshes overlap; what they have to agree about are the positions where each ends within the
-/// others. One task graph, run once per step:
+/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for Laplacians without symmetry, whose rows
+/// may reach two rings far: Δ_P. Sub-meshes overlap; what they have to agree about are the positions where each ends
+/// within the others. One task graph, run once per step:
 ///
 ///     assemble and factorise (each sub-mesh) ──► solve for these traces (see TraceEquation)
 class SchwarzGmresStepper final : public ConvergedStepper {

@@ -183,7 +183,8 @@ TEST_CASE("equations that are not finite are refused, and the system goes on wit
     const Decomposition whole = seamflow::decompose(mesh, topology, std::vector<Index>(mesh.n_faces(), 0), 1);
     SolverWorkspace workspace;
     const SubMesh& sub_mesh = whole.sub_meshes.front();
-    const auto system = make_system(parts_of(sub_mesh, Laplacian::Fujiwara), make_adapted_ventcell(sub_mesh), workspace);
+    const auto system =
+        make_system(parts_of(sub_mesh, Laplacian::Fujiwara), make_adapted_ventcell(sub_mesh), workspace);
     const auto factorise = [&](const Points& positions) {
         const auto equations = system->assemble(positions, positions, system_time_step, system_p, {}, workspace);
         static_cast<void>(system->factorise(equations, heap(), workspace));
