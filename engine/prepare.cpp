@@ -38,7 +38,7 @@ const SubdomainNeeds& needs_of(const FlowOptions& options)
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
              const Loop& loop, const Alongside& alongside)
 {
-    if (options.scheme == Scheme::ExplicitEuler)
+    if (options.scheme == Scheme::ExplicitEuler || options.accuracy.approach == Approach::ConjugateGradients)
         return cut_into(mesh, topology, 1, loop);
     if (!options.cut.labels.empty())
         return cut_by_labels(mesh, topology, options.cut.labels, loop);

@@ -56,22 +56,43 @@ void require_valid_tolerance(const FlowOptions& options)
 {
     require(options.accuracy.converge_iterations >= 0, "converge_iterations", options.accuracy.converge_iterations,
             "at least 0");
+    const bool asks_for_convergence = options.accuracy.tolerance || options.accuracy.approach == Approach::Converged;
+    if (asks_for_convergence &&
+        (options.interface.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler))
+        throw OptionError(std::string(options.accuracy.tolerance ? "tolerance is given" : "approach is converged") +
+                          ", which leaves no room for other conditions or an explicit scheme");
     if (!options.accuracy.tolerance)
         return;
     require(positive_and_finite(*options.accuracy.tolerance) && *options.accuracy.tolerance < 1.0, "tolerance",
             *options.accuracy.tolerance, "positive and below 1 (residual against that at the beginning of a step)");
-    if (options.interface.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler)
-        throw OptionError("tolerance is given, which leaves no room for other conditions or an explicit scheme");
 }
 
 /// Without a tolerance converged steps are not chosen (see choose_tolerance).
 void require_valid_factorisation(const FlowOptions& options)
 {
-    if (is_foreign(options.resources.factorisation) && options.accuracy.tolerance && is_symmetric(options.laplacian))
+    if (is_foreign(options.resources.factorisation) && is_symmetric(options.laplacian) &&
+        (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
         throw OptionError(
             "factorisation is that of another library, but converged steps of the Laplacians fujiwara and "
             "alexa-wardetzky need the Schur complements that the library's own gives: take sweeps "
             "(Approach::Sweep, --converge never), or leave the factorisation automatic");
+}
+
+void require_valid_approach(const FlowOptions& options)
+{
+    if (options.accuracy.approach != Approach::ConjugateGradients)
+        return;
+    if (!is_symmetric(options.laplacian))
+        throw OptionError("approach is by conjugate gradients, but the Laplacian ptackova-velho is not symmetric: use "
+                          "fujiwara or alexa-wardetzky, or leave the approach automatic");
+    if (options.interface != InterfaceOptions{} || options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("approach is by conjugate gradients, which leaves no room for options of sweeps or an "
+                          "explicit scheme");
+    if (options.cut.subdomains > 1 || !options.cut.labels.empty())
+        throw OptionError("approach is by conjugate gradients, which take the whole mesh: leave out the sub-meshes");
+    if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic)
+        throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit and "
+                          "the factorisation");
 }
 
 void require_valid_constraints(const FlowOptions& options)
@@ -135,6 +156,7 @@ void require_valid(const FlowOptions& options)
     require_valid_copies(options);
     require_valid_constraints(options);
     require_valid_tolerance(options);
+    require_valid_approach(options);
     require_valid_factorisation(options);
     const auto negative =
         std::find_if(options.cut.labels.begin(), options.cut.labels.end(), [](Index label) { return label < 0; });

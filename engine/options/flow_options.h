@@ -104,12 +104,18 @@ enum class Rescale {
     Volume,
 };
 
-/// How a backward Euler step is taken where no tolerance is asked for.
+/// How a backward Euler step is taken.
 enum class Approach {
-    /// Converged to a loose tolerance where that is worth it (see choose_tolerance), else a sweep.
+    /// Converged where a tolerance is asked for, or to a loose one where that is worth it (see choose_tolerance); else
+    /// a sweep.
     Automatic,
-    /// One sweep over the colours.
+    /// One sweep over the colours, where no tolerance is asked for.
     Sweep,
+    /// Converged sub-mesh by sub-mesh, to AccuracyOptions::tolerance or a loose one.
+    Converged,
+    /// The whole mesh by conjugate gradients, to AccuracyOptions::tolerance or a loose one: no sub-meshes, no
+    /// factorisation, and of all ways the least set-up. For Δ_F and Δ_A.
+    ConjugateGradients,
 };
 
 /// Which sub-meshes there are.
@@ -154,12 +160,13 @@ struct InterfaceOptions {
 /// How near steps come to the undecomposed ones, and when a flow is given up.
 struct AccuracyOptions {
     /// Asks for the undecomposed step itself, in place of what InterfaceOptions says: to this residual, relative to
-    /// that of the positions before the step. For Δ_F and Δ_A it is the residual on Γ. For Δ_P it is the distance
+    /// that of the positions before the step. For Δ_F and Δ_A it is the residual on Γ, or of all rows with
+    /// Approach::ConjugateGradients. For Δ_P it is the distance
     /// between the positions that overlapping sub-meshes take from each other and those that they find. Where the
     /// equations of Δ_P are indefinite (it grows spikes then, undecomposed too), there are many iterations, fewer with
     /// fewer sub-meshes. Empty: `approach` says.
     std::optional<double> tolerance = {};
-    /// How steps are taken without a tolerance.
+    /// How steps are taken.
     Approach approach = Approach::Automatic;
     /// Most iterations of a step to reach the tolerance.
     int converge_iterations = 1000;

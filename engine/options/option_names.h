@@ -79,7 +79,10 @@ struct OptionNames<Rescale> {
 
 template <>
 struct OptionNames<Approach> {
-    static constexpr NamedOption<Approach> list[]{{"auto", Approach::Automatic}, {"sweep", Approach::Sweep}};
+    static constexpr NamedOption<Approach> list[]{{"auto", Approach::Automatic},
+                                                  {"sweep", Approach::Sweep},
+                                                  {"converged", Approach::Converged},
+                                                  {"cg", Approach::ConjugateGradients}};
 };
 
 template <>

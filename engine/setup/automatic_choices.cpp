@@ -65,6 +65,8 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
 {
     if (options.accuracy.tolerance)
         return {options.accuracy.tolerance, ""};
+    if (options.accuracy.approach == Approach::Converged || options.accuracy.approach == Approach::ConjugateGradients)
+        return {loose_tolerance, ""};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||

@@ -52,6 +52,9 @@ class ConvergedStepper : public Stepper {
         describe_steps(advice, report);
     }
 
+    /// The same without the parts.
+    void describe_steps(const std::string& advice, FlowReport& report) const;
+
     Workspaces workspaces_;
     double time_step_;
     /// #V by 3: Vᵏ, during a step.
@@ -77,7 +80,6 @@ class ConvergedStepper : public Stepper {
     };
 
     void solve();
-    void describe_steps(const std::string& advice, FlowReport& report) const;
 
     IterationStop stop_;
     /// Of the iteration.

@@ -1,5 +1,6 @@
 #include "engine/steppers/stepper.h"
 
+#include "engine/steppers/conjugate_gradient_stepper.h"
 #include "engine/steppers/explicit_stepper.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/schwarz_gmres_stepper.h"
@@ -14,6 +15,8 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
 {
     if (options.scheme == Scheme::ExplicitEuler)
         return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
+    if (options.accuracy.approach == Approach::ConjugateGradients)
+        return std::make_unique<ConjugateGradientStepper>(mesh, topology, options, progress);
     if (options.accuracy.tolerance && is_symmetric(options.laplacian))
         return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
     if (options.accuracy.tolerance)

@@ -108,6 +108,11 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         app, options,
         "the undecomposed step itself, to this relative residual; never: one sweep each step; auto: to 1e-2 where "
         "sweeps would stray, unless another option speaks of sweeps [auto]");
+    add_choice(
+        app, "--approach", options.accuracy.approach,
+        "how a step is taken; sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
+        "step; cg: the whole mesh by conjugate gradients, which need hardly any set-up; the last two to --converge "
+        "or 1e-2; auto: as --converge says [auto]");
     add_integer(app, "--converge-iterations", options.accuracy.converge_iterations, 0,
                 "most iterations of a converged step [1000]");
     add_choice(app, "--factorisation", options.resources.factorisation,
@@ -163,6 +168,25 @@ std::string first_given(const CLI::App& app, std::initializer_list<const char*> 
     return {};
 }
 
+/// @param of_sweeps an option that is about sweeps; may be empty.
+void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
+{
+    if (app.count("--approach") == 0 || command.options.accuracy.approach == Approach::Automatic)
+        return;
+    const Approach approach = command.options.accuracy.approach;
+    const std::string name = fmt::format("--approach {}", option_name(approach));
+    if (approach == Approach::Sweep && command.options.accuracy.tolerance)
+        throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
+    if (approach != Approach::Sweep && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
+    const std::string of_sub_meshes = first_given(
+        app, {"--subdomains", "--labels", "--parts", "--task-graph", "--trace", "--memory-limit", "--factorisation"});
+    if (approach == Approach::ConjugateGradients && !of_sub_meshes.empty())
+        throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
+                          " takes the whole mesh: leave one of "
+                          "them out");
+}
+
 /// Options that would have no effect are a mistake of the user's.
 void require_effective(const CLI::App& app, const SmoothCommand& command)
 {
@@ -171,6 +195,7 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
                           "--no-correction", "--sweep", "--coloring", "--plain"});
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
+    require_consistent_approach(app, command, of_sweeps);
     if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep &&
         command.limits_iterations)
         throw OptionError("--converge-iterations is for converged steps, but --converge never takes none");
@@ -264,7 +289,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     command.arguments.assign(argv + 1, argv + argc);
     command.limits_iterations = app.count("--converge-iterations") > 0;
     for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
-        if (app.count(of_sweeps) > 0)
+        if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)
             command.options.accuracy.approach = Approach::Sweep;
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())

@@ -39,6 +39,10 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(of + " by Schwarz",
             [&](FlowOptions& o) { o.laplacian = laplacian, o.interface.conditions = Conditions::Schwarz; });
     }
+    for (const Laplacian laplacian : symmetric_laplacians)
+        add(std::string(name_of(laplacian)) + " by conjugate gradients", [&](FlowOptions& o) {
+            o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
+        });
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
     add("chosen", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });
     add("rescaled", [](FlowOptions& o) {

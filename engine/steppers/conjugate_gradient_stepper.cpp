@@ -1,0 +1,30 @@
+#include "engine/steppers/conjugate_gradient_stepper.h"
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology,
+                                                   const FlowOptions& options, Progress& progress)
+    : ConvergedStepper(mesh, 0, options, 1.0, progress)
+    , mesh_(&mesh)
+    , system_(mesh, topology, options.laplacian, progress.loop())
+{
+}
+
+InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& stop, const Loop& loop)
+{
+    const WholeMeshSystem::Result result = system_.step(*before_, time_step_, stop, positions_, loop);
+    if (!positions_.allFinite())
+        throw ComputationError("the result is not finite");
+    return {result, result.distance};
+}
+
+void ConjugateGradientStepper::describe(FlowReport& report) const
+{
+    if (mesh_->n_faces() > 0)
+        report.cut.sub_meshes = {{mesh_->n_faces(), mesh_->n_vertices()}};
+    describe_steps({}, report);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engine/steppers/converged_stepper.h"
+#include "solvers/systems/whole_mesh_system.h"
+
+namespace seamflow {
+
+/// Takes the undecomposed backward Euler step of Δ_F and Δ_A by conjugate gradients on the whole mesh, whose rows the
+/// threads share (see WholeMeshSystem): no cut, no factorisation, hardly any set-up. The way to go for short steps, and
+/// for few.
+class ConjugateGradientStepper final : public ConvergedStepper {
+  public:
+    /// @param mesh, topology, progress must outlive the stepper.
+    ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                             Progress& progress);
+
+    using ConvergedStepper::describe;
+    void describe(FlowReport& report) const override;
+
+  private:
+    InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) override;
+
+    const PolygonMesh* mesh_;
+    WholeMeshSystem system_;
+};
+
+}  // namespace seamflow

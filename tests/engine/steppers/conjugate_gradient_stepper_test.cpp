@@ -1,0 +1,141 @@
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "samples/common/meshes.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::flowed;
+
+namespace {
+
+FlowOptions by_conjugate_gradients(Laplacian laplacian, double tolerance)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = 0.002;
+    options.steps = 3;
+    options.accuracy = {.tolerance = tolerance, .approach = Approach::ConjugateGradients};
+    return options;
+}
+
+FlowOptions undecomposed(FlowOptions options)
+{
+    options.cut.subdomains = 1;
+    options.accuracy = {.approach = Approach::Sweep};
+    return options;
+}
+
+std::vector<PolygonMesh> meshes()
+{
+    return {make_triangles(900), make_quads(900), make_hexagons(900), make_mixed_polygons(900), make_noisy_sphere(900)};
+}
+
+}  // namespace
+
+TEST_CASE("conjugate gradients take the undecomposed step, in double precision, too")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const Laplacian laplacian : test::symmetric_laplacians)
+            for (const Boundary boundary : {Boundary::Fixed, Boundary::Free}) {
+                CAPTURE(name_of(laplacian));
+                FlowOptions options = by_conjugate_gradients(laplacian, 1e-12);
+                options.motion.boundary = boundary;
+                options.motion.fixed_vertices = {7, 31};
+                const Points expected = flowed(mesh, undecomposed(options));
+                PolygonMesh moved = mesh;
+                const FlowReport report = mean_curvature_flow(moved, options);
+                CHECK(test::largest_difference(moved.vertices, expected) < 1e-11);
+                CHECK(moved.vertices.row(7) == mesh.vertices.row(7));
+                for (const StepReport& step : report.steps)
+                    CHECK(step.residual.value() <= 1e-12);
+            }
+}
+
+TEST_CASE("without a tolerance conjugate gradients end at a hundredth of the residual")
+{
+    FlowOptions options = by_conjugate_gradients(Laplacian::Fujiwara, 1e-2);
+    const PolygonMesh mesh = make_triangles(900);
+    const Points expected = flowed(mesh, options);
+    options.accuracy.tolerance.reset();
+    CHECK(flowed(mesh, options) == expected);
+}
+
+TEST_CASE("the estimated distance of conjugate gradients is near the true one, and rather above it")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const Laplacian laplacian : test::symmetric_laplacians)
+            for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-8}) {
+                CAPTURE(name_of(laplacian));
+                CAPTURE(tolerance);
+                FlowOptions options = by_conjugate_gradients(laplacian, tolerance);
+                options.steps = 1;
+                PolygonMesh moved = mesh;
+                const FlowReport report = mean_curvature_flow(moved, options);
+                const Points expected = flowed(mesh, undecomposed(options));
+                const double distance = (moved.vertices - expected).rowwise().norm().maxCoeff();
+                const double estimated =
+                    report.steps[0].estimated_v_max.value() * mean_edge_length(mesh, moved.vertices);
+                CHECK(estimated > 0.5 * distance);
+                CHECK(estimated < 20.0 * distance);
+            }
+}
+
+TEST_CASE("single precision does not limit the size of a mesh, nor how little there is to smooth")
+{
+    for (const Laplacian laplacian : test::symmetric_laplacians)
+        for (const double size : {1e-60, 1e60}) {
+            const PolygonMesh mesh = make_noisy_sphere(900);
+            const FlowOptions options = by_conjugate_gradients(laplacian, 1e-6);
+            const Points expected = flowed(mesh, options);
+            PolygonMesh scaled = mesh;
+            scaled.vertices *= size;
+            FlowOptions of_scaled = options;
+            of_scaled.time_step *= size * size;
+            CHECK(test::largest_difference(flowed(scaled, of_scaled) / size, expected) < 1e-7);
+        }
+    // Almost flat: bumps of 1e-30.
+    PolygonMesh flat = make_quads(900);
+    flat.vertices.col(2) *= 1e-30;
+    const FlowOptions options = by_conjugate_gradients(Laplacian::AlexaWardetzky, 1e-10);
+    const Points expected = flowed(flat, undecomposed(options));
+    CHECK((flowed(flat, options) - expected).col(2).cwiseAbs().maxCoeff() < 1e-36);
+}
+
+TEST_CASE("what has no meaning with conjugate gradients is refused")
+{
+    const auto refuses = [](const std::function<void(FlowOptions&)>& change) {
+        FlowOptions options = by_conjugate_gradients(Laplacian::Fujiwara, 1e-2);
+        change(options);
+        PolygonMesh mesh = make_quads(100);
+        CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    };
+    refuses([](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; });
+    refuses([](FlowOptions& o) { o.cut.subdomains = 2; });
+    refuses([](FlowOptions& o) { o.cut.labels.assign(81, 0); });
+    refuses([](FlowOptions& o) { o.interface.conditions = Conditions::Robin; });
+    refuses([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; });
+    refuses([](FlowOptions& o) { o.resources.memory_limit = 1'000'000'000; });
+    refuses([](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; });
+}
+
+TEST_CASE("few iterations are told as such, and iterations that lead nowhere as stagnation")
+{
+    FlowOptions options = by_conjugate_gradients(Laplacian::Fujiwara, 1e-9);
+    options.accuracy.converge_iterations = 3;
+    PolygonMesh mesh = make_noisy_sphere(900);
+    FlowReport report = mean_curvature_flow(mesh, options);
+    CHECK(report.convergence.steps_short_of_tolerance == 3);
+    CHECK(report.convergence.steps_stagnated == 0);
+    CHECK(report.steps[0].iterations == 3);
+    options.accuracy = {.tolerance = 1e-18, .approach = Approach::ConjugateGradients};
+    mesh = make_noisy_sphere(900);
+    report = mean_curvature_flow(mesh, options);
+    CHECK(report.convergence.steps_stagnated == 3);
+    CHECK(report.steps[0].residual.value() < 1e-13);
+}
