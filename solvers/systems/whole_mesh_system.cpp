@@ -308,12 +308,15 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
             after.row(v) += length * increment_[v].head<3>().cast<double>().matrix().transpose();
         });
         const double before_pass = std::exchange(left, left * pass.residual);
-        if (left > stop.tolerance || pass.residual <= most_reduction_at_once) {
+        // The first residual is that of the rounded matrix: what single precision makes of it can be relied on.
+        const bool is_first = before_pass == 1.0;
+        if (!is_first || left > stop.tolerance || pass.residual <= most_reduction_at_once) {
             measure(before, after, loop);
             left = std::sqrt(squared_residual(loop).sum()) / first;
         }
-        distance = pass.residual > shortest_pass && distance > 0.0 ? distance * left / before_pass
-                                                                   : length * distance_after(pass);
+        distance = pass.residual > shortest_pass && distance > 0.0
+                       ? distance * left / before_pass
+                       : length * distance_after(pass) * left / (before_pass * pass.residual);
         criterion.note(pass.iterations, left, left / before_pass);
     }
     return {criterion.result(left), distance};
