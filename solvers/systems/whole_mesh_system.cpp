@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -136,11 +138,9 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     , laplacian_(laplacian)
     , offsets_(at(mesh.n_vertices()) + 1, 0)
     , diagonal_(mesh.n_vertices(), 1.0F)
-    , residual_(mesh.n_vertices(), Row::Zero())
-    , direction_(mesh.n_vertices(), Row::Zero())
-    , product_(mesh.n_vertices(), Row::Zero())
-    , increment_(mesh.n_vertices(), Row::Zero())
 {
+    for (Rows* rows : {&iterates_.residual, &iterates_.direction, &iterates_.product, &iterates_.increment})
+        rows->assign(mesh.n_vertices(), Row::Zero());
     const Reach reach = traits_of(laplacian).reach;
     for (const bool fill : {false, true}) {
         for_each_block(loop, mesh.n_vertices(), [&](Index, Index begin, Index end) {
@@ -157,6 +157,9 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
         });
         if (fill)
             break;
+        if (std::accumulate(offsets_.begin(), offsets_.end(), std::int64_t{0}) > std::numeric_limits<Index>::max())
+            throw ComputationError("the equations of the whole mesh have more than 2147483647 coefficients: take "
+                                   "sub-meshes instead of conjugate gradients");
         std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
         columns_.resize(offsets_.back());
         values_.resize(offsets_.back());
@@ -184,7 +187,7 @@ void WholeMeshSystem::assemble(const Points& before, const Loop& loop)
                     residual -= entry * (before.row(columns[i]) - before.row(v));
                 });
                 diagonal_[v] = static_cast<float>(units_.mass * mass + diagonal);
-                residual_[v] = to_row(units_.length * residual);
+                iterates_.residual[v] = to_row(units_.length * residual);
             }
         });
     });
@@ -195,11 +198,11 @@ void WholeMeshSystem::assemble(const Points& before, const Loop& loop)
 Eigen::Array4d WholeMeshSystem::multiply(const Loop& loop)
 {
     return sum_of<Eigen::Array4d>(loop, mesh_->n_vertices(), [&](Index v) -> Eigen::Array4d {
-        const Row& p = direction_[v];
+        const Row& p = iterates_.direction[v];
         Row q = diagonal_[v] * p;
         for (Index i = offsets_[v]; i < offsets_[v + 1]; ++i)
-            q += values_[i] * direction_[columns_[i]];
-        product_[v] = q;
+            q += values_[i] * iterates_.direction[columns_[i]];
+        iterates_.product[v] = q;
         return (p * q).cast<double>();
     });
 }
@@ -219,7 +222,7 @@ void WholeMeshSystem::measure(const Points& before, const Points& after, const L
                     residual -= units_.stiffness * k * (after.row(columns[i]) - after.row(v));
                 });
                 residual -= units_.mass * mass * (after.row(v) - before.row(v));
-                residual_[v] = to_row(units_.length * residual);
+                iterates_.residual[v] = to_row(units_.length * residual);
             }
         });
     });
@@ -230,7 +233,7 @@ void WholeMeshSystem::measure(const Points& before, const Points& after, const L
 Eigen::Array4d WholeMeshSystem::squared_residual(const Loop& loop) const
 {
     return sum_of<Eigen::Array4d>(loop, mesh_->n_vertices(), [&](Index v) -> Eigen::Array4d {
-        return residual_[v].cast<double>().square() / static_cast<double>(diagonal_[v]);
+        return iterates_.residual[v].cast<double>().square() / static_cast<double>(diagonal_[v]);
     });
 }
 
@@ -248,17 +251,17 @@ WholeMeshSystem::Pass WholeMeshSystem::iterate(double goal, int most_iterations,
     squared *= result.scale * result.scale;
     const double first = squared.sum();
     for_each(loop, n, [&](Index v) {
-        residual_[v] *= scale;
-        direction_[v] = residual_[v] / diagonal_[v];
-        increment_[v].setZero();
+        iterates_.residual[v] *= scale;
+        iterates_.direction[v] = iterates_.residual[v] / diagonal_[v];
+        iterates_.increment[v].setZero();
     });
     result.residual = 1.0;
     while (result.iterations < most_iterations && result.residual > goal) {
         const Row alpha = quotients(squared, multiply(loop));
         const Eigen::Array4d squared_before = squared;
         squared = sum_of<Eigen::Array4d>(loop, n, [&](Index v) -> Eigen::Array4d {
-            Row& r = residual_[v];
-            r -= alpha * product_[v];
+            Row& r = iterates_.residual[v];
+            r -= alpha * iterates_.product[v];
             return (r * r / diagonal_[v]).cast<double>();
         });
         const Row beta = quotients(squared, squared_before);
@@ -267,11 +270,11 @@ WholeMeshSystem::Pass WholeMeshSystem::iterate(double goal, int most_iterations,
         std::vector<float> farthest(at(n / block_size) + 1, 0.0F);
         for_each_block(loop, n, [&](Index block, Index begin, Index end) {
             for (Index v = begin; v < end; ++v) {
-                Row& p = direction_[v];
+                Row& p = iterates_.direction[v];
                 const Row change = alpha * p;
                 farthest[block] = std::max(farthest[block], change.square().sum());
-                increment_[v] += change;
-                p = residual_[v] / diagonal_[v] + beta * p;
+                iterates_.increment[v] += change;
+                p = iterates_.residual[v] / diagonal_[v] + beta * p;
             }
         });
         result.last_update = std::sqrt(*std::max_element(farthest.begin(), farthest.end()));
@@ -305,10 +308,10 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
             iterate(std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), loop);
         const double length = root / pass.scale;
         for_each(loop, mesh_->n_vertices(), [&](Index v) {
-            after.row(v) += length * increment_[v].head<3>().cast<double>().matrix().transpose();
+            after.row(v) += length * iterates_.increment[v].head<3>().cast<double>().matrix().transpose();
         });
         const double before_pass = std::exchange(left, left * pass.residual);
-        // The first residual is that of the rounded matrix: what single precision makes of it can be relied on.
+        // What the first pass leaves is known well enough; later ones begin near what rounding leaves.
         const bool is_first = before_pass == 1.0;
         if (!is_first || left > stop.tolerance || pass.residual <= most_reduction_at_once) {
             measure(before, after, loop);

@@ -20,6 +20,7 @@ namespace seamflow {
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
+    /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for a Laplacian without symmetry.
     WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
     WholeMeshSystem& operator=(const WholeMeshSystem&) = delete;
@@ -40,6 +41,13 @@ class WholeMeshSystem {
     /// Three columns, and one that is zero, so that a row is a register.
     using Row = Eigen::Array4f;
     using Rows = std::vector<Row>;
+    /// Of the iteration: the residual, the direction, its product with the matrix, the solution.
+    struct Iterates {
+        Rows residual;
+        Rows direction;
+        Rows product;
+        Rows increment;
+    };
     /// Factors that make numbers without dimension, near 1, which single precision can hold: √dt is the unit of length.
     struct Units {
         double stiffness = 0.0;
@@ -71,11 +79,7 @@ class WholeMeshSystem {
     std::vector<Index> columns_;
     std::vector<float> values_;
     std::vector<float> diagonal_;
-    /// The residual, the direction, its product with the matrix, the solution.
-    Rows residual_;
-    Rows direction_;
-    Rows product_;
-    Rows increment_;
+    Iterates iterates_;
 };
 
 }  // namespace seamflow
