@@ -38,14 +38,14 @@ class SchurStepper final : public ConvergedStepper {
 
   private:
     /// What steps need of a sub-mesh (see SubMesh).
-    struct Piece {
+    struct OwnVertices {
         std::vector<Index> faces;
         Index n_vertices = 0;
         std::vector<Index> local_to_global;
         std::vector<std::uint8_t> owned;
     };
     struct Part {
-        Piece sub_mesh;
+        OwnVertices sub_mesh;
         std::unique_ptr<NeumannSystem> system;
         /// From condensation to back substitution, where it is kept.
         std::optional<LdlSolver::Factor> factor;

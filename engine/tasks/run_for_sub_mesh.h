@@ -10,8 +10,8 @@ namespace seamflow {
 
 /// Runs `body` for sub-mesh s, in one thread; failures come out with its name.
 /// @param sub_mesh a SubMesh, or what else has `faces` and `n_vertices`.
-template <class Piece, class Body>
-void run_for_sub_mesh(const Piece& sub_mesh, Index s, Body&& body)
+template <class SubMeshLike, class Body>
+void run_for_sub_mesh(const SubMeshLike& sub_mesh, Index s, Body&& body)
 {
     const auto name = [&] {
         return "sub-mesh " + std::to_string(s) + " (" + std::to_string(sub_mesh.n_vertices) +

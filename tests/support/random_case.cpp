@@ -45,7 +45,7 @@ std::vector<Index> vertices_that_stay(const PolygonMesh& mesh, const FlowOptions
 {
     std::map<std::pair<Index, Index>, int> edges;
     std::vector<int> has_face(mesh.n_vertices(), 0);
-    // Pieces have all faces.
+    // Sub-meshes with copies of Γ of their own have all faces.
     const PolygonMesh left = options.report.keep_gaps ? mesh : without_repetitions(mesh);
     for (Index f = 0; f < left.n_faces(); ++f)
         for (std::size_t k = 0; k < left.face(f).size(); ++k) {
