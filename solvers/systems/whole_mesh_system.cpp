@@ -167,30 +167,36 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
-void WholeMeshSystem::assemble(const Points& before, const Loop& loop)
+/// @returns of each column, the squared norm of what of the residual may be rounding.
+Eigen::Array4d WholeMeshSystem::assemble(const Points& before, const Loop& loop)
 {
     const RowGeometry geometry{*mesh_, *topology_, before, offsets_, columns_};
+    Eigen::Array4d squared_sizes;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
-        for_each_block(loop, mesh_->n_vertices(), [&](Index, Index begin, Index end) {
-            for (Index v = begin; v < end; ++v) {
-                if (!topology_->moves(v))
-                    continue;
-                float* const values = values_.data() + offsets_[v];
-                const Index* const columns = columns_.data() + offsets_[v];
-                std::fill(values, values_.data() + offsets_[v + 1], 0.0F);
-                double diagonal = 0.0;
-                Point residual = Point::Zero();
-                const double mass = visit(v, [&](std::ptrdiff_t i, double k) {
-                    const double entry = units_.stiffness * k;
-                    values[i] += static_cast<float>(entry);
-                    diagonal -= entry;
-                    residual -= entry * (before.row(columns[i]) - before.row(v));
-                });
-                diagonal_[v] = static_cast<float>(units_.mass * mass + diagonal);
-                iterates_.residual[v] = to_row(units_.length * residual);
-            }
+        squared_sizes = sum_of<Eigen::Array4d>(loop, mesh_->n_vertices(), [&](Index v) -> Eigen::Array4d {
+            if (!topology_->moves(v))
+                return Eigen::Array4d::Zero();
+            float* const values = values_.data() + offsets_[v];
+            const Index* const columns = columns_.data() + offsets_[v];
+            std::fill(values, values_.data() + offsets_[v + 1], 0.0F);
+            double diagonal = 0.0;
+            Eigen::Array4d size = Eigen::Array4d::Zero();
+            Point residual = Point::Zero();
+            const double mass = visit(v, [&](std::ptrdiff_t i, double k) {
+                const double entry = units_.stiffness * k;
+                const Point share = entry * (before.row(columns[i]) - before.row(v));
+                values[i] += static_cast<float>(entry);
+                diagonal -= entry;
+                residual -= share;
+                size.head<3>() += share.array().abs().transpose();
+            });
+            diagonal_[v] = static_cast<float>(units_.mass * mass + diagonal);
+            iterates_.residual[v] = to_row(units_.length * residual);
+            return size.square() / (units_.mass * mass + diagonal);
         });
     });
+    const double unit = 4.0 * std::numeric_limits<double>::epsilon() * units_.length;
+    return unit * unit * squared_sizes;
 }
 
 /// product = A direction.
@@ -295,11 +301,13 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
-    assemble(before, loop);
-    const double first = std::sqrt(squared_residual(loop).sum());
+    const Eigen::Array4d rounding = assemble(before, loop);
+    const Eigen::Array4d squared = squared_residual(loop);
     after = before;
-    if (first == 0.0)
+    // There is nothing to smooth.
+    if ((squared <= rounding).all())
         return {};
+    const double first = std::sqrt(squared.sum());
     StoppingCriterion criterion(stop, most_left, 1.0);
     double left = 1.0;
     double distance = 0.0;

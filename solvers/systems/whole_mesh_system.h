@@ -62,7 +62,7 @@ class WholeMeshSystem {
         double scale = 1.0;
     };
 
-    void assemble(const Points& before, const Loop& loop);
+    Eigen::Array4d assemble(const Points& before, const Loop& loop);
     void measure(const Points& before, const Points& after, const Loop& loop);
     [[nodiscard]] Eigen::Array4d squared_residual(const Loop& loop) const;
     Eigen::Array4d multiply(const Loop& loop);

@@ -13,6 +13,12 @@ namespace seamflow::test {
 struct FlowKind {
     std::string name;
     FlowOptions options;
+
+    /// Whether there are systems of sub-meshes, to be factorised in a task each.
+    [[nodiscard]] bool factorises() const
+    {
+        return options.scheme == Scheme::BackwardEuler && options.accuracy.approach != Approach::ConjugateGradients;
+    }
 };
 
 /// One of each kind that hands something of its own from step to step, for meshes of some hundred vertices: four steps

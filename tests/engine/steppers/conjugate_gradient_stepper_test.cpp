@@ -139,3 +139,15 @@ TEST_CASE("few iterations are told as such, and iterations that lead nowhere as 
     CHECK(report.convergence.steps_stagnated == 3);
     CHECK(report.steps[0].residual.value() < 1e-13);
 }
+
+TEST_CASE("where there is nothing to smooth, conjugate gradients are at once as near as asked")
+{
+    // A flat mesh that is not parallel to an axis: its residual is rounding.
+    PolygonMesh mesh = make_triangles(900);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        mesh.vertices(v, 2) = 0.3 * mesh.vertices(v, 0) - 0.7 * mesh.vertices(v, 1);
+    const Points before = mesh.vertices;
+    const FlowReport report = mean_curvature_flow(mesh, by_conjugate_gradients(Laplacian::AlexaWardetzky, 1e-8));
+    CHECK(report.convergence.steps_short_of_tolerance == 0);
+    CHECK(test::largest_difference(mesh.vertices, before) < 1e-12);
+}
