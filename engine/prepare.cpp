@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include <fmt/format.h>
+
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
@@ -131,9 +133,10 @@ void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport&
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
         const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)
-            report.remarks.push_back("The sub-meshes are narrow against √dt (" + std::to_string(width).substr(0, 4) +
-                                     " √dt on average, 10 are good): the result may drift from the undecomposed flow; "
-                                     "use fewer sub-meshes.");
+            report.remarks.push_back(fmt::format(
+                "The sub-meshes are narrow against √dt ({:.2f} √dt on average, 10 are good): the result may "
+                "drift from the undecomposed flow; use fewer sub-meshes.",
+                width));
     }
 }
 

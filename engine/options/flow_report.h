@@ -121,8 +121,8 @@ struct ConvergenceReport {
 /// What the flow used of the machine.
 struct ResourceReport {
     int threads = 0;
-    /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for those made by
-    /// Cholesky's method.
+    /// How many factorisations of sub-meshes may live at once, and the bytes that were set aside for the
+    /// library's own; CHOLMOD's and UMFPACK's are not counted.
     Index live_factors = 0;
     std::size_t factor_memory_bytes = 0;
 };

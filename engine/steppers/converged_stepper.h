@@ -13,8 +13,9 @@
 
 namespace seamflow {
 
-/// What steps that take the undecomposed step itself, sub-mesh by sub-mesh, have in common: an iteration solves the
-/// equation for what sub-meshes share to a tolerance, with tasks of the sub-meshes before it, and maybe after it.
+/// What steps that take the undecomposed step itself have in common: an iteration solves an equation to a tolerance. It
+/// is that for what sub-meshes share, with tasks of the sub-meshes before it and maybe after it, or that of the whole
+/// mesh.
 class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;

@@ -20,7 +20,8 @@ struct SweepTasks {
     Task accept;
 };
 
-/// Adds one sweep over all sub-meshes to a graph, with a root of its own. Per sub-mesh it has three tasks:
+/// Adds one sweep over all sub-meshes to a graph, with a root of its own. Without predictions it has three tasks for
+/// each sub-mesh:
 ///
 ///     assemble and factorise ──► solve ──► accept
 ///                                  ▲         ▲
@@ -28,8 +29,8 @@ struct SweepTasks {
 ///        sub-meshes that lead                      adjacent sub-meshes
 ///        it on Γ
 ///
-/// With predictions a fourth, predict, stands between the first two of each sub-mesh that follows another; a sub-mesh
-/// that leads uses the predictions of those that it leads before it solves. With the classical conditions nobody leads,
+/// With predictions there are two more: predict stands between the first two of each sub-mesh that follows another, and
+/// use predictions before the solve of each sub-mesh that leads. With the classical conditions nobody leads,
 /// and solve waits for the adjacent sub-meshes of lower colour. So that few factors live at once, assemble and
 /// factorise also waits for a solve some places before it (see FactorWindow). No barrier stands between colours.
 /// @param plan is not looked at after the call.

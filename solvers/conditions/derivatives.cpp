@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "partition/index_lists.h"
+
 namespace seamflow {
 
 namespace {
@@ -43,8 +45,7 @@ DerivativeStencils make_derivative_stencils(const SubMesh& sub_mesh)
         std::vector<Index> columns;
         for (const Index f : interface.own_faces[i])
             columns.insert(columns.end(), sub_mesh.face_vertices[f].begin(), sub_mesh.face_vertices[f].end());
-        std::sort(columns.begin(), columns.end());
-        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+        sort_unique(columns);
         for (const Index f : interface.own_faces[i])
             for (const Index v : sub_mesh.face_vertices[f])
                 stencils.corner_places.values.push_back(place_in(columns, v));

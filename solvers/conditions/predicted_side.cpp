@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "partition/index_lists.h"
 #include "solvers/conditions/adapted_robin.h"
 #include "solvers/conditions/remainder.h"
 #include "solvers/conditions/star_laplacian.h"
@@ -91,8 +92,7 @@ class PredictedSide final : public TransmissionCondition {
         for (const Index column : star_.columns()[i])
             if (column < sub_mesh_->n_vertices)
                 columns.push_back(column);
-        std::sort(columns.begin(), columns.end());
-        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+        sort_unique(columns);
         columns_.values.insert(columns_.values.end(), columns.begin(), columns.end());
         columns_.close();
     }

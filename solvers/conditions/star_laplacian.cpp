@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "partition/index_lists.h"
+
 namespace seamflow {
 
 namespace {
@@ -11,8 +13,7 @@ PolygonMesh faces_around_interface(const SubMesh& sub_mesh)
 {
     const auto& interface = sub_mesh.interface;
     std::vector<Index> own = interface.own_faces.values;
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
+    sort_unique(own);
     PolygonMesh mesh;
     mesh.vertices.setZero(sub_mesh.n_vertices + sub_mesh.n_halo, 3);
     for (const Index f : own)
@@ -47,8 +48,7 @@ void StarLaplacian::make_slots(const SubMeshInterface& interface)
         if (const Index row = row_of(entry.row); row >= 0)
             columns[row].push_back(entry.column);
     for (auto& of_row : columns) {
-        std::sort(of_row.begin(), of_row.end());
-        of_row.erase(std::unique(of_row.begin(), of_row.end()), of_row.end());
+        sort_unique(of_row);
         columns_.values.insert(columns_.values.end(), of_row.begin(), of_row.end());
         columns_.close();
     }

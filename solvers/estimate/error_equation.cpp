@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "partition/index_lists.h"
 #include "solvers/estimate/error_row.h"
 
 namespace seamflow {
@@ -104,8 +105,7 @@ void ErrorEquation::make_whole_rows(const PolygonMesh& mesh, const Topology& top
             for (const Index w : mesh.face(topology.face_of[corner]))
                 if (kinds[w] == off_interface)
                     around.push_back(w);
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
+        sort_unique(around);
         for (const Index w : around) {
             if (number[w] < 0) {
                 number[w] = static_cast<Index>(n_shared.size());

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "partition/index_lists.h"
 #include "solvers/direct/simd.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/sparse/elimination_ordering.h"
@@ -163,8 +164,7 @@ void CoarseSpace::list_functions()
         for (Index copy = copies_.first[s]; copy < copies_.first[s + 1]; ++copy)
             for (const Index other : copies_.of_vertex[copies_.vertex[copy]])
                 found.push_back(function_[other]);
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
+        sort_unique(found);
         functions_at_.values.insert(functions_at_.values.end(), found.begin(), found.end());
         functions_at_.close();
     }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -113,8 +114,7 @@ std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology&
             append_vertices_around(mesh, topology, laplacian, f, vertices);
     }
     std::erase_if(vertices, [&](Index v) { return !topology.moves(v); });
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
 }
 

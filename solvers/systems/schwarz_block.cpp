@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "partition/index_lists.h"
 #include "solvers/systems/checks.h"
 
 namespace seamflow {
@@ -12,8 +13,7 @@ namespace {
 template <class Value>
 void keep_one_of_each(std::vector<Value>& values)
 {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
+    sort_unique(values);
 }
 
 template <class Value>

@@ -19,7 +19,7 @@ enum class SymmetricRows {
 };
 
 /// The equations of a sub-mesh where all of them, the rows on Γ included, are (M + dt K) V = M Vᵏ with the symmetric
-/// matrices of a SymmetricLaplacian over the faces on both sides of Γ, by a Cholesky factorisation. What is known goes
+/// matrices of a SymmetricLaplacian over the faces on both sides of Γ, by L D Lᵀ or CHOLMOD. What is known goes
 /// to the right-hand side: fixed vertices, Γ where the sub-mesh follows, the other side as predicted.
 class SymmetricSystem final : public SubMeshSystem {
   public:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 #include "solvers/krylov/sums.h"
 #include "solvers/laplacian/kernels.h"
 
@@ -106,8 +107,7 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Reach re
         const auto face = mesh.face(topology.face_of[corner]);
         neighbours.insert(neighbours.end(), face.begin(), face.end());
     }
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    sort_unique(neighbours);
     std::erase(neighbours, v);
 }
 
