@@ -150,6 +150,7 @@ void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
 FlowState FlowRun::capture(const FlowState* resume) const
 {
     FlowState state{.identity = prepared_->identity,
+                    .approach = options().accuracy.approach,
                     .cut = checksum_of(report_.cut.labels),
                     .steps = report_.steps,
                     .seconds = {.step = report_.seconds.step,

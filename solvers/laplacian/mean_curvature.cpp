@@ -22,6 +22,9 @@ Point curvature_by(const Surface& s, Index v)
     double degree = 0.0;
     double mass = 0.0;
     const Point here = s.positions.row(v);
+    // Where faces are oriented alike, each edge of an interior vertex begins one of its half-edges. Elsewhere those of
+    // two faces are met twice, which is half of each of degree, mass and product.
+    const bool once = s.topology.oriented && s.topology.kind[v] == VertexKind::Interior;
     const auto add = [&](Index end) {
         const Point difference = here - s.positions.row(s.mesh.face_vertices[end]);
         const typename Kernel::Edge edge(difference);
@@ -29,14 +32,12 @@ Point curvature_by(const Surface& s, Index v)
         mass += edge.mass();
         degree += 1.0;
     };
-    // Where faces are oriented alike, each edge of an interior vertex begins one of its half-edges; elsewhere all edges
-    // are met twice, which is half of each of degree, mass and product.
     for (const Index corner : s.topology.corners_at(v)) {
         add(s.topology.next(s.mesh, corner));
-        if (!s.topology.oriented)
+        if (!once)
             add(s.topology.previous(s.mesh, corner));
     }
-    return (degree / mass) * (s.topology.oriented ? 1.0 : 0.5) * product;
+    return (degree / mass) * (once ? 1.0 : 0.5) * product;
 }
 
 template <FaceKernel Kernel>
