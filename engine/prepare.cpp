@@ -69,13 +69,20 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 /// METIS has one thread: the others measure in the meantime; where it has nothing to do measuring comes afterwards.
 void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& progress)
 {
+    bool is_measured = false;
     const auto measure = [&] {
-        prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, prepared.options.laplacian);
-        prepared.meter.emplace(mesh, prepared.topology);
+        is_measured = true;
+        const FlowOptions& options = prepared.options;
+        // Colours are ordered by it.
+        const bool is_ordering = options.accuracy.approach == Approach::Sweep;
+        if (options.report.measures || is_ordering)
+            prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, options.laplacian);
+        if (options.report.measures)
+            prepared.meter.emplace(mesh, prepared.topology);
     };
     prepared.cut = make_cut(mesh, prepared.size, prepared.topology, prepared.options, progress.loop(),
                             [&](const std::function<void()>& serial) { run_both(serial, measure); });
-    if (!prepared.meter)
+    if (!is_measured)
         measure();
 }
 

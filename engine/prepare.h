@@ -28,9 +28,9 @@ struct PreparedFlow {
     Topology topology;
     /// The sub-mesh of every face.
     Cut cut;
-    /// #V: ‖ΔV⁰‖, in 1/length.
+    /// #V: ‖ΔV⁰‖, in 1/length; empty where nobody needs it.
     std::vector<double> curvature;
-    /// Refers to the topology.
+    /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
     /// About the mesh and the cut.
     std::vector<std::string> remarks;
