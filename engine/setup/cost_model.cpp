@@ -66,9 +66,9 @@ PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optiona
         break;
     default:
         cost.setup = setup_of_sweeps.of(size) * (size.vertices < large_mesh ? 1.0 : part_of_setup_if_large);
-        cost.step = tolerance ? step_of_converged.of(size) +
-                                    interface_iterations * reduction * interface_iteration.of(size)
-                              : step_of_sweeps.of(size);
+        cost.step = tolerance
+                        ? step_of_converged.of(size) + interface_iterations * reduction * interface_iteration.of(size)
+                        : step_of_sweeps.of(size);
         break;
     }
     return cost;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/measure/surface_measures.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
@@ -54,10 +55,7 @@ LengthOnMesh parse_length(std::string_view text)
 
 MeshScale measure_scale(const PolygonMesh& mesh)
 {
-    MeshScale scale{.mean_edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel)};
-    if (mesh.n_vertices() > 0)
-        scale.diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
-    return scale;
+    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel), .diagonal = extent_of(mesh.vertices)};
 }
 
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps)
