@@ -9,9 +9,13 @@
 
 #include "partition/formats/palette.h"
 #include "partition/io/fault_log.h"
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
+
+// All functions that read or write a mesh do so slice by slice on the threads of a loop (see Loop; engine/tasks has
+// run_in_parallel). What is read and written never depends on it.
 
 /// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
 enum class FileFormat { Obj, Off, Ply, Stl };
@@ -64,12 +68,12 @@ struct MeshFile {
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
 /// @throws ComputationError naming the file, or std::bad_alloc, if there is not enough memory.
-MeshFile read_mesh(const std::filesystem::path& path);
+MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_serially);
 
 /// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
 /// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
 /// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
-MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults);
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
 
 /// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
 /// same format, else binary little-endian where the format has it.
@@ -84,7 +88,8 @@ FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& sou
 ///         more than three sides, vertices without faces, two corners of a face in one place, and in binary files
 ///         also coordinates beyond single precision).
 /// @throws OptionError for an encoding that the format does not have.
-void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind);
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
+                const Loop& loop = run_serially);
 
 /// Writes the file that was read with the positions of `mesh` in place of its own: texture coordinates, materials,
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
@@ -98,7 +103,7 @@ void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, cons
 /// @throws InputError if that file has been changed in place since. That it has been replaced or removed does not
 /// matter.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh);
+                                         const PolygonMesh& mesh, const Loop& loop = run_serially);
 
 /// What the file holds besides a surface, which write_mesh does not write, in a few words each: "normals", "groups".
 /// Comments do not count.

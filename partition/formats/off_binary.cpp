@@ -124,7 +124,7 @@ std::optional<Layout> layout_of(std::string_view data)
 }  // namespace
 
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
-                            FaultLog* faults)
+                            const Slicing&, FaultLog* faults)
 {
     if (const auto layout = layout_of(file.substr(offset)))
         return read_as(*layout, path, file, offset, faults);
@@ -134,7 +134,8 @@ PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view 
               "than coordinates and faces: convert the mesh to text OFF or to PLY");
 }
 
-bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh)
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,
+                        const Slicing&)
 {
     const std::endian order = layout_of(file.substr(offset)).value_or(Layout{}).order;
     const std::size_t first = offset + 3 * word_size;

@@ -31,14 +31,23 @@ bool has_long_face(const PolygonMesh& mesh)
     return false;
 }
 
+/// What there is to write.
+struct PlyContent {
+    const PolygonMesh& mesh;
+    Encoding encoding;
+    const PlyExtras& extras;
+    bool long_faces;
+};
+
+/// Writes a file, or a slice of one.
 class PlyWriter {
   public:
-    PlyWriter(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
+    PlyWriter(ByteWriter& file, const PlyContent& content)
         : file_(file)
-        , mesh_(mesh)
-        , encoding_(encoding)
-        , extras_(extras)
-        , long_faces_(has_long_face(mesh))
+        , mesh_(content.mesh)
+        , encoding_(content.encoding)
+        , extras_(content.extras)
+        , long_faces_(content.long_faces)
     {
     }
 
@@ -67,7 +76,7 @@ class PlyWriter {
         file_.number(value);
     }
 
-    OutputFile& file_;
+    ByteWriter& file_;
     const PolygonMesh& mesh_;
     Encoding encoding_;
     const PlyExtras& extras_;
@@ -124,14 +133,17 @@ void PlyWriter::write_face(Index f)
 
 }  // namespace
 
-void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
+               const PlyExtras& extras)
 {
-    PlyWriter writer(file, mesh, encoding, extras);
-    writer.write_header();
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        writer.write_vertex(v);
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        writer.write_face(f);
+    const PlyContent content{mesh, encoding, extras, has_long_face(mesh)};
+    PlyWriter(file, content).write_header();
+    constexpr std::size_t element_bytes = 32;
+    const Index per_slice = elements_per_slice(slicing, element_bytes);
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+                   [&](ByteWriter& slice, Index v) { PlyWriter(slice, content).write_vertex(v); });
+    write_elements(file, mesh.n_faces(), per_slice, slicing.loop,
+                   [&](ByteWriter& slice, Index f) { PlyWriter(slice, content).write_face(f); });
 }
 
 }  // namespace seamflow

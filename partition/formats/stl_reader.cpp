@@ -260,7 +260,7 @@ bool is_text_stl(std::string_view file)
 
 }  // namespace
 
-MeshFile read_stl(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing&, FaultLog* faults)
 {
     if (is_text_stl(file))
         return {TextReader(path, file, faults).read(), {FileFormat::Stl, Encoding::Ascii}};

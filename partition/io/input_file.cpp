@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -78,9 +79,25 @@ std::size_t OpenFile::read(char* bytes, std::size_t n, std::size_t offset) const
     }
 }
 
+const char* OpenFile::map(std::size_t n) const
+{
+    void* const mapped = ::mmap(nullptr, n, PROT_READ, MAP_PRIVATE, descriptor_, 0);
+    if (mapped == MAP_FAILED)
+        return nullptr;
+    static_cast<void>(::madvise(mapped, n, MADV_SEQUENTIAL));
+    return static_cast<const char*>(mapped);
+}
+
 InputFile::InputFile(const OpenFile& file)
 {
     const std::size_t expected = file.size();
+    constexpr std::size_t worth_mapping = std::size_t{1} << 20;
+    if (expected >= worth_mapping)
+        mapped_ = file.map(expected);
+    if (mapped_ != nullptr) {
+        size_ = expected;
+        return;
+    }
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
     constexpr std::size_t block = std::size_t{1} << 26;
     while (size_ < expected) {
@@ -89,6 +106,19 @@ InputFile::InputFile(const OpenFile& file)
             break;
         size_ += n;
     }
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : mapped_(std::exchange(other.mapped_, nullptr))
+    , bytes_(std::move(other.bytes_))
+    , size_(std::exchange(other.size_, 0))
+{
+}
+
+InputFile::~InputFile()
+{
+    if (mapped_ != nullptr)
+        ::munmap(const_cast<char*>(mapped_), size_);
 }
 
 }  // namespace seamflow

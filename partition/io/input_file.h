@@ -25,6 +25,10 @@ class OpenFile {
     /// @throws InputError
     [[nodiscard]] std::size_t size() const;
 
+    /// Maps the first n bytes into memory, for reading from front to back.
+    /// @returns null if the system cannot do that.
+    [[nodiscard]] const char* map(std::size_t n) const;
+
     /// Reads n bytes from `offset` on, or a few less; 0 at the end of the file.
     /// @throws InputError
     std::size_t read(char* bytes, std::size_t n, std::size_t offset) const;
@@ -34,16 +38,23 @@ class OpenFile {
     int descriptor_ = -1;
 };
 
-/// The whole of a file in memory.
+/// The whole of a file in memory. A large one is mapped: while it is, another program that cuts it off ends this one.
 class InputFile {
   public:
     /// @throws InputError
     explicit InputFile(const OpenFile& file);
+    InputFile(InputFile&& other) noexcept;
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(InputFile&&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile();
 
     /// The bytes of the file; valid as long as this object.
-    [[nodiscard]] std::string_view content() const { return {bytes_.get(), size_}; }
+    [[nodiscard]] std::string_view content() const { return {mapped_ != nullptr ? mapped_ : bytes_.get(), size_}; }
 
   private:
+    /// Null: `bytes_` has the content.
+    const char* mapped_ = nullptr;
     std::unique_ptr<char[]> bytes_;
     std::size_t size_ = 0;
 };

@@ -21,6 +21,15 @@ MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number)
 {
 }
 
+MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number, const MeshSlice& slice)
+    : position_(position)
+    , first_number_(first_number)
+    , n_vertices_(slice.first_vertex)
+    , vertices_(&slice.vertices)
+    , mesh_(slice.faces)
+{
+}
+
 void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
 {
     coordinates_.reserve(3 * n_vertices);
@@ -30,9 +39,13 @@ void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
 
 void MeshBuilder::add_vertex(const std::array<double, 3>& position)
 {
-    if (coordinates_.size() >= 3 * most)
+    if (at(n_vertices_) >= most)
         position_.fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
-    coordinates_.insert(coordinates_.end(), position.begin(), position.end());
+    if (vertices_ != nullptr)
+        vertices_->row(n_vertices_) << position[0], position[1], position[2];
+    else
+        coordinates_.insert(coordinates_.end(), position.begin(), position.end());
+    ++n_vertices_;
 }
 
 Index MeshBuilder::vertex(std::int64_t index, std::int64_t n) const

@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,6 +18,8 @@
 namespace seamflow {
 
 namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
 std::filesystem::path folder_of(const std::filesystem::path& file)
 {
@@ -83,9 +86,9 @@ std::filesystem::path file_behind(const std::filesystem::path& path)
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path)
+    : ByteWriter(buffer_bytes)
+    , path_(path)
     , target_(file_behind(path))
-    , buffer_(std::size_t{1} << 20)
 {
     struct stat old = {};
     const bool replaces = ::stat(target_.c_str(), &old) == 0;
@@ -128,26 +131,59 @@ void OutputFile::fail(int error) const
                       "; check that the folder exists, that you may write there, and that there is room left");
 }
 
-void OutputFile::text(std::string_view text)
+void OutputFile::overflow(std::string_view text)
 {
-    while (!text.empty()) {
-        make_room(1);
-        const std::size_t n = std::min(text.size(), buffer_.size() - used_);
-        std::copy_n(text.data(), n, buffer_.data() + used_);
-        used_ += n;
-        text.remove_prefix(n);
+    flush();
+    if (text.size() > buffer_bytes) {
+        write(text, n_written_);
+        n_written_ += text.size();
+    } else {
+        this->text(text);
+    }
+}
+
+void OutputFile::write(std::string_view bytes, std::size_t offset) const
+{
+    while (!bytes.empty()) {
+        const ssize_t n = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (n < 0 && errno != EINTR)
+            fail(errno);
+        offset += n > 0 ? static_cast<std::size_t>(n) : 0;
+        bytes.remove_prefix(n > 0 ? static_cast<std::size_t>(n) : 0);
     }
 }
 
 void OutputFile::flush()
 {
-    for (std::size_t done = 0; done < used_;) {
-        const ssize_t n = ::write(descriptor_, buffer_.data() + done, used_ - done);
-        if (n < 0 && errno != EINTR)
-            fail(errno);
-        done += n > 0 ? static_cast<std::size_t>(n) : 0;
+    write(kept(), n_written_);
+    n_written_ += kept().size();
+    give_up();
+}
+
+void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Index, OutputBuffer&)>& make)
+{
+    struct Slice {
+        OutputBuffer made;
+        OutputBuffer to_write;
+        std::size_t offset = 0;
+    };
+    flush();
+    constexpr Index at_once = 32;
+    std::vector<Slice> round(at(std::min(n, at_once)));
+    // Each round writes what the one before has made, for only then it is known where that belongs.
+    for (Index begin = 0; begin < n + at_once; begin += at_once) {
+        for_each(loop, static_cast<Index>(round.size()), [&](Index i) {
+            write(round[i].to_write.content(), round[i].offset);
+            round[i].to_write.clear();
+            if (begin + i < n)
+                make(begin + i, round[i].made);
+        });
+        for (Slice& slice : round) {
+            std::swap(slice.made, slice.to_write);
+            slice.offset = n_written_;
+            n_written_ += slice.to_write.content().size();
+        }
     }
-    used_ = 0;
 }
 
 /// A temporary one: only by being renamed can a file replace another. Once it has it, nothing may fail before that is
