@@ -3,6 +3,7 @@
 #include <iostream>
 #include <limits>
 
+#include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/common/command_line.h"
 #include "samples/common/meshes.h"
@@ -44,7 +45,7 @@ ExitStatus generate(int argc, char** argv)
     require_writable(output);
 
     const PolygonMesh mesh = make_mesh(kind, vertices, variation);
-    write_mesh(output, mesh, file_kind);
+    write_mesh(output, mesh, file_kind, Workers(0).loop());
     std::cout << output.string() << ": " << mesh.n_vertices() << " vertices, " << mesh.n_faces() << " faces"
               << std::endl;
     return ExitStatus::Success;

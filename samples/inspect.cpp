@@ -2,7 +2,6 @@
 
 #include <iostream>
 
-#include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
@@ -28,9 +27,10 @@ ExitStatus inspect_file(int argc, char** argv)
         return *end;
 
     FaultLog faults;
-    const PolygonMesh mesh = read_faulty_mesh(input, faults).mesh;
-    MeshInspection found;
-    Workers(0).execute([&] { found = inspect(mesh, make_topology(mesh, run_in_parallel), run_in_parallel); });
+    Workers workers(0);
+    const Loop loop = workers.loop();
+    const PolygonMesh mesh = read_faulty_mesh(input, faults, loop).mesh;
+    const MeshInspection found = inspect(mesh, make_topology(mesh, loop), loop);
     if (as_json)
         std::cout << inspection_json(input.string(), faults, found);
     else

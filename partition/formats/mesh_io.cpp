@@ -343,29 +343,30 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
     return remarks;
 }
 
-std::vector<std::string> extras_of(const MeshSource& source)
+std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop)
 {
     const Format& format = format_of(source.kind());
-    const InputFile input = source.read_again(run_serially);
+    const InputFile input = source.read_again(loop);
     return format.extras != nullptr ? format.extras(source.path(), input.content()) : std::vector<std::string>{};
 }
 
-void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels)
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
+                        const Loop& loop)
 {
-    require_readable(path, mesh, run_serially);
+    require_readable(path, mesh, loop);
     if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
         throw OutputError(
             fmt::format("{}: cannot be written: there are {} labels for {} faces; give one label for each face",
                         path.string(), labels.size(), mesh.n_faces()));
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {}, {.face_labels = labels});
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {loop}, {.face_labels = labels});
     file.commit();
 }
 
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
-                      std::span<const VertexValues> values)
+                      std::span<const VertexValues> values, const Loop& loop)
 {
-    require_readable(path, mesh, run_serially);
+    require_readable(path, mesh, loop);
     const auto require_each = [&](std::size_t count, const std::string& what) {
         if (count != at(mesh.n_vertices()))
             throw OutputError(
@@ -376,7 +377,7 @@ void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh
     for (const VertexValues& list : values)
         require_each(list.values.size(), "values of '" + list.name + "'");
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {}, {.vertex_colours = colours, .vertex_values = values});
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {loop}, {.vertex_colours = colours, .vertex_values = values});
     file.commit();
 }
 

@@ -108,14 +108,15 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
 /// What the file holds besides a surface, which write_mesh does not write, in a few words each: "normals", "groups".
 /// Comments do not count.
 /// @throws InputError if the file has been changed since it was read.
-std::vector<std::string> extras_of(const MeshSource& source);
+std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop = run_serially);
 
 /// As write_mesh, with one colour and one label per face, for looking at a cut. Each face gets the properties red,
 /// green, blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the
 /// golden section, so that they differ clearly; negative labels are grey. The file is binary little-endian.
 /// @param labels #F; the label of every face.
 /// @throws OutputError naming the file.
-void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels);
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
+                        const Loop& loop = run_serially);
 
 /// A number for each vertex of a mesh, with a name.
 struct VertexValues {
@@ -131,6 +132,6 @@ struct VertexValues {
 /// @param colours #V.
 /// @throws OutputError naming the file; also if there are not as many colours or values as vertices.
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
-                      std::span<const VertexValues> values);
+                      std::span<const VertexValues> values, const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -11,6 +11,7 @@
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_plain.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/mesh_builder.h"
@@ -19,16 +20,6 @@
 namespace seamflow {
 
 namespace {
-
-/// What a property means to the mesh; the numbers of the first three are those of the coordinates.
-enum class Role : std::size_t {
-    X,
-    Y,
-    Z,
-    Corners,
-    /// Nothing that this reader has a use for.
-    Other
-};
 
 /// Reads the elements that follow the header, or those of a slice, in their order.
 template <class Source>
@@ -60,7 +51,7 @@ class ElementReader {
     }
 
   private:
-    void read_property(const PlyProperty& property, Role role);
+    void read_property(const PlyProperty& property, PlyRole role);
     void read_corners(const PlyProperty& property);
 
     Source& source_;
@@ -70,27 +61,10 @@ class ElementReader {
     std::vector<Index> corners_;
 };
 
-std::vector<Role> roles_of(const PlyElement& element)
-{
-    std::vector<Role> roles;
-    for (const PlyProperty& property : element.properties) {
-        Role role = Role::Other;
-        if (element.name == "vertex")
-            role = property.name == "x"   ? Role::X
-                   : property.name == "y" ? Role::Y
-                   : property.name == "z" ? Role::Z
-                                          : Role::Other;
-        else if (element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index"))
-            role = Role::Corners;
-        roles.push_back(role);
-    }
-    return roles;
-}
-
 template <class Source>
 void ElementReader<Source>::read(const PlyElement& element, std::uint64_t begin, std::uint64_t end)
 {
-    const std::vector<Role> roles = roles_of(element);
+    const std::vector<PlyRole> roles = roles_of(element);
     const bool is_vertex = element.name == "vertex";
     const bool is_face = element.name == "face";
     for (std::uint64_t i = begin; i < end; ++i) {
@@ -106,18 +80,18 @@ void ElementReader<Source>::read(const PlyElement& element, std::uint64_t begin,
 }
 
 template <class Source>
-void ElementReader<Source>::read_property(const PlyProperty& property, Role role)
+void ElementReader<Source>::read_property(const PlyProperty& property, PlyRole role)
 {
     switch (role) {
-    case Role::X:
-    case Role::Y:
-    case Role::Z:
+    case PlyRole::X:
+    case PlyRole::Y:
+    case PlyRole::Z:
         point_[static_cast<std::size_t>(role)] = source_.real(property.type);
         break;
-    case Role::Corners:
+    case PlyRole::Corners:
         read_corners(property);
         break;
-    case Role::Other:
+    case PlyRole::Other:
         pass_over(source_, property);
         break;
     }
@@ -143,11 +117,11 @@ void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
     if (vertices == nullptr || vertices->count == 0)
         scanner.fail("the file has no vertices; export the mesh again");
     std::size_t n_found = 0;
-    for (std::size_t p = 0; const Role role : roles_of(*vertices)) {
+    for (std::size_t p = 0; const PlyRole role : roles_of(*vertices)) {
         const PlyProperty& property = vertices->properties[p++];
-        if (role != Role::Other && property.length_type)
+        if (role != PlyRole::Other && property.length_type)
             refuse(scanner, property.line, "a coordinate must be one number, not a list; correct the header");
-        n_found += role != Role::Other ? 1 : 0;
+        n_found += role != PlyRole::Other ? 1 : 0;
     }
     if (n_found < 3)
         refuse(scanner, vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
@@ -156,9 +130,9 @@ void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
 void require_corners(const TextScanner& scanner, const PlyElement& faces)
 {
     std::size_t n_found = 0;
-    for (std::size_t p = 0; const Role role : roles_of(faces)) {
+    for (std::size_t p = 0; const PlyRole role : roles_of(faces)) {
         const PlyProperty& property = faces.properties[p++];
-        if (role != Role::Corners)
+        if (role != PlyRole::Corners)
             continue;
         if (!property.length_type || !is_integer(property.type))
             refuse(
@@ -207,9 +181,10 @@ std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::stri
 
 /// @param source_of called with the bytes of a slice.
 /// @throws InputError if there is any fault, not necessarily naming it.
-template <class SourceOf>
+/// @param reads_plain called with a slice and where it belongs, reads it in another way if it returns true.
+template <class SourceOf, class ReadsPlain>
 PolygonMesh read_slices(const PlyHeader& header, std::span<const PlySlice> slices, const Loop& loop,
-                        const SourceOf& source_of)
+                        const SourceOf& source_of, const ReadsPlain& reads_plain)
 {
     const auto n_vertices = static_cast<Index>(header.element("vertex")->count);
     PolygonMesh mesh;
@@ -217,9 +192,12 @@ PolygonMesh read_slices(const PlyHeader& header, std::span<const PlySlice> slice
     if (const PlyElement* const faces = header.element("face"))
         mesh.face_offsets.reserve(faces->count + 1);
     append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
-        auto source = source_of(slices[i].bytes);
         const auto first = static_cast<Index>(count_before(slices[i].begin, header, "vertex"));
-        ElementReader<decltype(source)> reader(source, n_vertices, {mesh.vertices, first, faces});
+        const MeshSlice place{mesh.vertices, first, faces};
+        if (reads_plain(slices[i], place))
+            return;
+        auto source = source_of(slices[i].bytes);
+        ElementReader<decltype(source)> reader(source, n_vertices, place);
         for_each_kind(header.elements, slices[i],
                       [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
                           reader.read(element, begin, end);
@@ -238,16 +216,22 @@ PolygonMesh read_slices(const TextScanner& after_header, const std::filesystem::
         throw InputError("too many vertices");
     const std::vector<PlySlice> slices = slice_ply(file, after_header, header.encoding, header.elements, slicing);
     if (header.encoding != Encoding::Ascii)
-        return read_slices(header, slices, slicing.loop, [&](std::string_view bytes) {
-            return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()), header.encoding);
-        });
+        return read_slices(
+            header, slices, slicing.loop,
+            [&](std::string_view bytes) {
+                return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()),
+                                       header.encoding);
+            },
+            [&](const PlySlice& slice, const MeshSlice& place) { return read_plain_slice(header, slice, place); });
     std::uint64_t n_elements = 0;
     for (const PlyElement& element : header.elements)
         n_elements += element.count;
     if (slices.empty() || slices.back().end != n_elements)
         throw InputError("the file ends too early, or goes on");
-    return read_slices(header, slices, slicing.loop,
-                       [&](std::string_view bytes) { return PlyTextSource(TextScanner(after_header, bytes)); });
+    return read_slices(
+        header, slices, slicing.loop,
+        [&](std::string_view bytes) { return PlyTextSource(TextScanner(after_header, bytes)); },
+        [](const PlySlice&, const MeshSlice&) { return false; });
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ std::vector<Field> fields_of(const PlyElement& element)
             fields.back().n_bytes += size_in_bytes(property.type);
             continue;
         }
+        if (!is_integer(*property.length_type))
+            refuse();
         fields.back().length_type = *property.length_type;
         fields.back().number_bytes = size_in_bytes(property.type);
         fields.emplace_back();

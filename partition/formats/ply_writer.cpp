@@ -1,10 +1,11 @@
-#include <bit>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "partition/formats/ply.h"
+#include "partition/formats/ply_source.h"
 
 namespace seamflow {
 
@@ -64,12 +65,19 @@ class PlyWriter {
         begins_line_ = true;
     }
 
+    template <class Number>
+    void write(std::span<const Number> values)
+    {
+        if (encoding_ != Encoding::Ascii)
+            return file_.binary(values, order_of(encoding_));
+        for (const Number value : values)
+            write(value);
+    }
+
     void write(auto value)
     {
-        if (encoding_ != Encoding::Ascii) {
-            file_.binary(value, encoding_ == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little);
-            return;
-        }
+        if (encoding_ != Encoding::Ascii)
+            return file_.binary(value, order_of(encoding_));
         if (!begins_line_)
             file_.text(" ");
         begins_line_ = false;
@@ -106,8 +114,7 @@ void PlyWriter::write_colour(const Colour& colour)
 
 void PlyWriter::write_vertex(Index v)
 {
-    for (Index k = 0; k < 3; ++k)
-        write(mesh_.vertices(v, k));
+    write(std::span<const double>(mesh_.vertices.row(v).data(), 3));
     if (!extras_.vertex_colours.empty())
         write_colour(extras_.vertex_colours[v]);
     for (const VertexValues& list : extras_.vertex_values)
@@ -122,8 +129,7 @@ void PlyWriter::write_face(Index f)
         write(static_cast<std::int32_t>(corners.size()));
     else
         write(static_cast<std::uint8_t>(corners.size()));
-    for (const Index v : corners)
-        write(v);
+    write(corners);
     if (!extras_.face_labels.empty()) {
         write_colour(colour_of(extras_.face_labels[f]));
         write(extras_.face_labels[f]);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "partition/io/byte_order.h"
@@ -58,6 +59,16 @@ class ByteWriter {
     {
         const auto bytes = to_bytes(value, order);
         text({bytes.data(), bytes.size()});
+    }
+
+    /// The bytes of several numbers.
+    template <class Number>
+    void binary(std::span<const Number> values, std::endian order)
+    {
+        if (order == std::endian::native)
+            return text({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+        for (const Number value : values)
+            binary(value, order);
     }
 
   protected:

@@ -48,16 +48,13 @@ void MeshBuilder::add_vertex(const std::array<double, 3>& position)
     ++n_vertices_;
 }
 
-Index MeshBuilder::vertex(std::int64_t index, std::int64_t n) const
+Index MeshBuilder::refuse_vertex(std::int64_t index, std::int64_t n) const
 {
-    if (index < 0 || index >= n) {
-        const std::string there =
-            n == 0 ? "no vertices" : fmt::format("only the vertices {} to {}", first_number_, n - 1 + first_number_);
-        position_.fault(fmt::format("names vertex {}, but the file has {}; correct the face or export the mesh again",
-                                    index + first_number_, there));
-        return -1;
-    }
-    return static_cast<Index>(index);
+    const std::string there =
+        n == 0 ? "no vertices" : fmt::format("only the vertices {} to {}", first_number_, n - 1 + first_number_);
+    position_.fault(fmt::format("names vertex {}, but the file has {}; correct the face or export the mesh again",
+                                index + first_number_, there));
+    return -1;
 }
 
 bool MeshBuilder::are_distinct(std::span<const Index> corners)

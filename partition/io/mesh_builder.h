@@ -53,13 +53,17 @@ class MeshBuilder {
     /// @param n number of vertices that there are to choose from.
     /// @throws InputError
     /// @returns the index; -1 if that is not so and faults are noted.
-    [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const;
+    [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const
+    {
+        return index >= 0 && index < n ? static_cast<Index>(index) : refuse_vertex(index, n);
+    }
 
     /// The mesh; the builder is empty afterwards.
     /// @throws InputError if there is no vertex.
     PolygonMesh finish();
 
   private:
+    [[nodiscard]] Index refuse_vertex(std::int64_t index, std::int64_t n) const;
     [[nodiscard]] bool are_distinct(std::span<const Index> corners);
     void leave_out_faces_without_vertices();
 

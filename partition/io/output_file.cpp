@@ -183,6 +183,9 @@ void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Inde
             slice.offset = n_written_;
             n_written_ += slice.to_write.content().size();
         }
+#ifdef SYNC_FILE_RANGE_WRITE
+        static_cast<void>(::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE));
+#endif
     }
 }
 

@@ -83,13 +83,14 @@ Points uninitialised_points(Index n)
 }
 
 void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
-                  const std::function<void(Index slice, PolygonMesh& faces)>& read)
+                  const std::function<void(Index slice, PolygonMesh& faces)>& read,
+                  const std::function<void(Index slice, PolygonMesh& faces)>& finish)
 {
     // So many that few threads wait, and so few that they need little memory.
     constexpr Index at_once = 64;
     std::vector<PolygonMesh> parts(at(std::min(n, at_once)));
-    for (Index begin = 0; begin < n; begin += static_cast<Index>(parts.size())) {
-        parts.resize(std::min(parts.size(), at(n - begin)));
+    for (Index begin = 0; begin < n; begin += at_once) {
+        parts.resize(at(std::min(at_once, n - begin)));
         for_each(loop, static_cast<Index>(parts.size()), [&](Index i) {
             parts[i].face_offsets.resize(1);
             parts[i].face_vertices.clear();
@@ -98,8 +99,11 @@ void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
         const Index n_to_follow = n - begin - static_cast<Index>(parts.size());
         make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
         make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
-        for (const PolygonMesh& part : parts)
-            append(mesh, part);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (finish)
+                finish(begin + static_cast<Index>(i), parts[i]);
+            append(mesh, parts[i]);
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -55,9 +56,17 @@ Points uninitialised_points(Index n);
 
 /// Reads the faces of n slices, several at a time, and appends them to those of the mesh.
 /// @param read called with a slice and an empty mesh, which gets the faces of the slice.
+/// @param finish called with the same, one slice after another, before its faces are appended.
 /// @throws InputError if there are more than 2^31 - 1 corners.
 void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
-                  const std::function<void(Index slice, PolygonMesh& faces)>& read);
+                  const std::function<void(Index slice, PolygonMesh& faces)>& read,
+                  const std::function<void(Index slice, PolygonMesh& faces)>& finish = {});
+
+/// For faults of slices: nobody gets to read of them (see read_in_slices_if_faultless).
+class NoPosition final : public InputPosition {
+  private:
+    [[nodiscard]] std::string position() const override { return {}; }
+};
 
 /// Reads a file slice by slice. Which slice finds fault first is a matter of luck: a file with a fault is read again in
 /// one go, which complains about the first, and knows its line.

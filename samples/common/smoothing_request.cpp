@@ -51,9 +51,9 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
-MeshScale measure_scale(const PolygonMesh& mesh)
+MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
 {
-    MeshScale scale{.mean_edge = mean_edge_length(mesh)};
+    MeshScale scale{.mean_edge = mean_edge_length(mesh, mesh.vertices, loop)};
     if (mesh.n_vertices() > 0)
         scale.diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
     return scale;
