@@ -20,7 +20,9 @@ ExitStatus inspect_file(int argc, char** argv)
     std::filesystem::path input;
     bool as_json = false;
     int most_listed = 10;
-    app.add_option("INPUT", input, "mesh: " + extensions_of())->required()->type_name("");
+    app.add_option("INPUT", input, "mesh: " + extensions_of() + ", .gz behind it or not; - for standard input")
+        ->required()
+        ->type_name("");
     app.add_flag("--json", as_json, "write everything as JSON, with all elements");
     add_integer(app, "--list", most_listed, 0, "how many elements of each kind are named without --json [10]");
     if (const auto end = parse_command_line(app, argc, argv))

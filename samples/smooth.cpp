@@ -21,6 +21,7 @@
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
@@ -139,7 +140,7 @@ ExitStatus smooth(int argc, char** argv)
         return *end;
     Interruption interruption("smooth");
     std::ostream silence(nullptr);
-    std::ostream& out = command.quiet ? silence : std::cout;
+    std::ostream& out = command.quiet ? silence : is_standard_stream(command.output) ? std::cerr : std::cout;
     RunRecord run{.input = command.input.string(),
                   .output = command.output.string(),
                   .arguments = command.arguments,
@@ -159,7 +160,8 @@ ExitStatus smooth(int argc, char** argv)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
+    const std::vector<std::string> losses =
+        remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
     std::optional<PageFlow> page = make_page(command, file.mesh);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =

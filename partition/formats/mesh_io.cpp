@@ -19,6 +19,7 @@
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
+#include "partition/io/text_scanner.h"
 
 namespace seamflow {
 
@@ -54,8 +55,7 @@ std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Loop& loop)
 class MeshSource {
   public:
     /// @param content of the file. @param mesh, kind what was read from it.
-    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind,
-               const Loop& loop)
+    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind, const Loop& loop)
         : file_(std::move(file))
         , kind_(kind)
         , content_checksum_(checksum(content, loop))
@@ -99,8 +99,7 @@ InputFile MeshSource::read_again(const Loop& loop) const
     return input;
 }
 
-void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                    const Loop& loop) const
+void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop) const
 {
     const auto refuse = [&](std::string_view why) {
         throw OutputError(
@@ -201,10 +200,21 @@ const Format* find_format(Value Format::*member, const Value& value)
 
 const Format* format_named_by(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return find_format(&Format::extension, std::string_view(extension));
+    const std::filesystem::path unpacked = is_gzip_name(path) ? path.stem() : path;
+    return find_format(&Format::extension, std::string_view(lower_case(unpacked.extension().string())));
+}
+
+/// The format of what has no name. OBJ has no mark of its own.
+FileFormat recognised_format(std::string_view content)
+{
+    constexpr std::size_t head = 4096;
+    TextScanner scanner({}, content.substr(0, head));
+    const std::string_view word = scanner.next_line() ? scanner.token() : std::string_view();
+    if (word == "ply")
+        return FileFormat::Ply;
+    if (is_stl(content))
+        return FileFormat::Stl;
+    return word.ends_with("OFF") ? FileFormat::Off : FileFormat::Obj;
 }
 
 const Format& format_of(const FileKind& kind)
@@ -232,22 +242,24 @@ const Format& require_format(const std::filesystem::path& path)
                             path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
 }
 
-MeshFile read_known(const std::filesystem::path& path, const Format& format, const Loop& loop)
+/// @param faults null: they are thrown. Else the file is no source for others.
+MeshFile read_open(OpenFile open, const Format* format, const Loop& loop, FaultLog* faults)
 {
-    OpenFile open(path);
     const InputFile input(open);
-    MeshFile file = format.read(path, input.content(), {loop}, nullptr);
-    file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, loop);
+    if (format == nullptr)
+        format = find_format(&Format::format, recognised_format(input.content()));
+    MeshFile file = format->read(open.path(), input.content(), {loop}, faults);
+    if (faults == nullptr)
+        file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, loop);
     return file;
 }
 
 /// Finds the format and reads; a lack of memory comes out with the name of the file.
-template <class Read>
-MeshFile read_with(const std::filesystem::path& path, Read&& read)
+MeshFile read(const std::filesystem::path& path, const Loop& loop, FaultLog* faults)
 {
-    const Format& format = require_format<InputError>(path);
+    const Format* const format = is_standard_stream(path) ? nullptr : &require_format<InputError>(path);
     try {
-        return read(format);
+        return read_open(OpenFile(path), format, loop, faults);
     } catch (const std::bad_alloc&) {
         throw ComputationError(path.string() +
                                ": there is not enough memory for this mesh; close other programs, raise "
@@ -284,6 +296,20 @@ std::optional<FileFormat> format_of(const std::filesystem::path& path)
     return format != nullptr ? std::optional(format->format) : std::nullopt;
 }
 
+std::filesystem::path before_extension(const std::filesystem::path& path)
+{
+    std::string name = path.string();
+    name.resize(name.size() - path.extension().string().size());
+    if (is_gzip_name(path))
+        name.resize(name.size() - path.stem().extension().string().size());
+    return name;
+}
+
+std::string extension_of(FileFormat format)
+{
+    return std::string(find_format(&Format::format, format)->extension);
+}
+
 std::string extensions_of(FormatGroup group)
 {
     std::vector<std::string_view> extensions;
@@ -296,18 +322,18 @@ std::string extensions_of(FormatGroup group)
 
 MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop)
 {
-    return read_with(path, [&](const Format& format) { return read_known(path, format, loop); });
+    return read(path, loop, nullptr);
 }
 
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop)
 {
-    return read_with(path, [&](const Format& format) {
-        return format.read(path, InputFile(OpenFile(path)).content(), {loop}, &faults);
-    });
+    return read(path, loop, &faults);
 }
 
 FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source)
 {
+    if (is_standard_stream(path))
+        return source;
     const Format& format = require_format<OptionError>(path);
     if (format.format == source.format)
         return source;

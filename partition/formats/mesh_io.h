@@ -44,8 +44,15 @@ enum class FormatGroup {
 /// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
 std::string extensions_of(FormatGroup group = FormatGroup::All);
 
-/// The format that the extension of a path names, in upper or lower case; nothing if it names none.
+/// The format that the extension of a path names, in upper or lower case and perhaps with `.gz` behind it; nothing if
+/// it names none.
 std::optional<FileFormat> format_of(const std::filesystem::path& path);
+
+/// ".obj" and so on.
+std::string extension_of(FileFormat format);
+
+/// A path without the extension of its format, and without `.gz` behind that.
+std::filesystem::path before_extension(const std::filesystem::path& path);
 
 /// A mesh file that has been read, as the form for others; see write_mesh_like.
 class MeshSource;
@@ -63,7 +70,8 @@ struct MeshFile {
 /// become one vertex, numbered in order of appearance. What a file holds besides a surface (texture coordinates,
 /// normals, colours, materials, groups, points and lines) is passed over here, but write_mesh_like copies it. A file
 /// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
-/// memory.
+/// memory. A file that gzip has compressed is unpacked, whatever its name is; `.gz` may follow the extension. `-` is
+/// standard input, whose format is recognised from its content. Only these two are kept, unpacked, in memory.
 /// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
@@ -76,13 +84,14 @@ MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_ser
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
 
 /// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
-/// same format, else binary little-endian where the format has it.
+/// same format, else binary little-endian where the format has it. For `-`, standard output, the kind of the source.
 /// @throws OptionError for an extension that names no format.
 FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source);
 
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
 /// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
-/// a temporary name beside `path` and renamed.
+/// a temporary name beside `path` and renamed. It is compressed where `.gz` follows the extension. `-` is standard
+/// output.
 /// @param mesh valid (see require_valid) and not without vertices.
 /// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
 ///         more than three sides, vertices without faces, two corners of a face in one place, and in binary files

@@ -145,9 +145,8 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
     const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
     std::vector<std::vector<Index>> of_slice(slices.size());
-    for_each(slicing.loop, static_cast<Index>(slices.size()), [&](Index i) {
-        of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i].n_normals);
-    });
+    for_each(slicing.loop, static_cast<Index>(slices.size()),
+             [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i].n_normals); });
     const Index n = counts.back().n_normals;
     return make_lists(n, [&](auto&& add) {
         Index corner = 0;
@@ -173,8 +172,8 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     std::vector<StayingNormals> staying(slices.size());
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
-        staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i],
-                                   counts[i + 1], mesh, normals ? &*normals : nullptr);
+        staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
+                                   mesh, normals ? &*normals : nullptr);
     });
     return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
 }

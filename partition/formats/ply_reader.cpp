@@ -248,9 +248,8 @@ MeshFile read_ply(const std::filesystem::path& path, std::string_view file, cons
     const FileKind kind{FileFormat::Ply, header.encoding};
     if (scanner.rest().size() <= slicing.bytes)
         return {in_one_go(), kind};
-    return {
-        read_in_slices_if_faultless([&] { return read_slices(scanner, path, file, header, slicing); }, in_one_go),
-        kind};
+    return {read_in_slices_if_faultless([&] { return read_slices(scanner, path, file, header, slicing); }, in_one_go),
+            kind};
 }
 
 }  // namespace seamflow

@@ -247,8 +247,8 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     Splicer splicer(file, content.substr(0, content.size() - scanner.rest().size()));
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
     splicer.finish();
-    const bool rounded = rewrite_elements(file, scanner, path, content, header, changes, mesh,
-                                          normals ? &*normals : nullptr, slicing);
+    const bool rounded =
+        rewrite_elements(file, scanner, path, content, header, changes, mesh, normals ? &*normals : nullptr, slicing);
     if (normals_of(vertices) == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

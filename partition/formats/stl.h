@@ -21,6 +21,9 @@ namespace seamflow {
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
 
+/// Whether `read_stl` can make anything of it: the size is that of a binary file, or the text begins with `solid`.
+bool is_stl(std::string_view file);
+
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, no two corners of a face in the same
 /// place, and for the binary encoding all coordinates within, and corners distinct in, single precision.
 /// Vertices that coincide without having a face in common are one vertex when the file is read again: STL has points

@@ -365,19 +365,24 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
     const auto n = all.read<std::uint32_t>();
     const auto per_slice = static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
     ByteScanner(path, file, header_bytes + facet_bytes * n, std::endian::little).require_end();
-    return read_slices(
-        static_cast<Index>((n + per_slice - 1) / per_slice), slicing.loop, [&](Index i, const MeshSlice& place) {
-            const std::uint64_t begin = at(i) * per_slice;
-            ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
-            FacetCollector collector(scanner, place);
-            read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
-            return collector.take_points();
-        });
+    return read_slices(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.loop,
+                       [&](Index i, const MeshSlice& place) {
+                           const std::uint64_t begin = at(i) * per_slice;
+                           ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
+                           FacetCollector collector(scanner, place);
+                           read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
+                           return collector.take_points();
+                       });
+}
+
+bool has_size_of_binary(std::string_view file)
+{
+    return file.size() >= header_bytes && file.size() == header_bytes + facet_bytes * declared_facets(file);
 }
 
 bool is_text_stl(std::string_view file)
 {
-    if (file.size() >= header_bytes && file.size() == header_bytes + facet_bytes * declared_facets(file))
+    if (has_size_of_binary(file))
         return false;
     TextScanner scanner({}, file.substr(0, 1024));
     const bool solid = scanner.next_line() && is_keyword(scanner.token(), "solid");
@@ -386,14 +391,19 @@ bool is_text_stl(std::string_view file)
 
 }  // namespace
 
+bool is_stl(std::string_view file)
+{
+    return has_size_of_binary(file) || is_text_stl(file);
+}
+
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
     const bool is_small = file.size() <= slicing.bytes;
     if (!is_text_stl(file)) {
         const auto in_one_go = [&] { return read_binary(path, file, faults); };
-        return {is_small ? in_one_go()
-                         : read_in_slices_if_faultless([&] { return read_binary_slices(path, file, slicing); },
-                                                       in_one_go),
+        return {is_small
+                    ? in_one_go()
+                    : read_in_slices_if_faultless([&] { return read_binary_slices(path, file, slicing); }, in_one_go),
                 {FileFormat::Stl, Encoding::BinaryLittleEndian}};
     }
     const TextScanner whole(path, file, {.comment = '\0'});

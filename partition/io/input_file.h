@@ -7,9 +7,18 @@
 
 namespace seamflow {
 
-/// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed.
+/// Whether a path is `-`, which stands for standard input or output.
+inline bool is_standard_stream(const std::filesystem::path& path)
+{
+    return path == "-";
+}
+
+/// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed. A file
+/// that is compressed by gzip (whatever its name is) is unpacked first, and what comes through standard input is
+/// collected, both in memory.
 class OpenFile {
   public:
+    /// @param path `-` for standard input.
     /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
     explicit OpenFile(const std::filesystem::path& path);
     OpenFile(OpenFile&& other) noexcept;
@@ -18,7 +27,7 @@ class OpenFile {
     OpenFile& operator=(const OpenFile&) = delete;
     ~OpenFile();
 
-    /// As it was opened, for messages.
+    /// As it was opened, for messages; "standard input" for that.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     /// In bytes, as it is now.
@@ -34,6 +43,8 @@ class OpenFile {
     std::size_t read(char* bytes, std::size_t n, std::size_t offset) const;
 
   private:
+    void unpack();
+
     std::filesystem::path path_;
     int descriptor_ = -1;
 };

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "partition/errors.h"
+#include "partition/io/input_file.h"
 
 namespace seamflow {
 
@@ -87,9 +88,18 @@ std::filesystem::path file_behind(const std::filesystem::path& path)
 
 OutputFile::OutputFile(const std::filesystem::path& path)
     : ByteWriter(buffer_bytes)
-    , path_(path)
-    , target_(file_behind(path))
+    , path_(is_standard_stream(path) ? "standard output" : path)
+    , is_stream_(is_standard_stream(path))
 {
+    if (is_gzip_name(path))
+        gzip_ = std::make_unique<GzipMember>();
+    if (is_stream_) {
+        descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+        if (descriptor_ < 0)
+            fail(errno);
+        return;
+    }
+    target_ = file_behind(path);
     struct stat old = {};
     const bool replaces = ::stat(target_.c_str(), &old) == 0;
     if (replaces && S_ISDIR(old.st_mode))
@@ -134,30 +144,47 @@ void OutputFile::fail(int error) const
 void OutputFile::overflow(std::string_view text)
 {
     flush();
-    if (text.size() > buffer_bytes) {
-        write(text, n_written_);
-        n_written_ += text.size();
-    } else {
+    if (text.size() > buffer_bytes)
+        put(text);
+    else
         this->text(text);
+}
+
+void OutputFile::flush()
+{
+    put(kept());
+    give_up();
+}
+
+void OutputFile::put(std::string_view bytes)
+{
+    if (gzip_ == nullptr)
+        return put_unpacked(bytes);
+    if (n_written_ == 0)
+        put_unpacked(GzipMember::head());
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), buffer_bytes))) {
+        const PackedPiece piece = pack_piece(bytes.substr(0, buffer_bytes));
+        gzip_->add(piece);
+        put_unpacked(piece.bytes);
     }
+}
+
+void OutputFile::put_unpacked(std::string_view bytes)
+{
+    write(bytes, n_written_);
+    n_written_ += bytes.size();
 }
 
 void OutputFile::write(std::string_view bytes, std::size_t offset) const
 {
     while (!bytes.empty()) {
-        const ssize_t n = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        const ssize_t n = is_stream_ ? ::write(descriptor_, bytes.data(), bytes.size())
+                                     : ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (n < 0 && errno != EINTR)
             fail(errno);
         offset += n > 0 ? static_cast<std::size_t>(n) : 0;
         bytes.remove_prefix(n > 0 ? static_cast<std::size_t>(n) : 0);
     }
-}
-
-void OutputFile::flush()
-{
-    write(kept(), n_written_);
-    n_written_ += kept().size();
-    give_up();
 }
 
 void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Index, OutputBuffer&)>& make)
@@ -166,6 +193,7 @@ void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Inde
         OutputBuffer made;
         OutputBuffer to_write;
         std::size_t offset = 0;
+        PackedPiece packed;
     };
     flush();
     constexpr Index at_once = 32;
@@ -173,17 +201,32 @@ void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Inde
     // Each round writes what the one before has made, for only then it is known where that belongs.
     for (Index begin = 0; begin < n + at_once; begin += at_once) {
         for_each(loop, static_cast<Index>(round.size()), [&](Index i) {
-            write(round[i].to_write.content(), round[i].offset);
-            round[i].to_write.clear();
-            if (begin + i < n)
-                make(begin + i, round[i].made);
+            Slice& slice = round[i];
+            write(slice.to_write.content(), slice.offset);
+            slice.to_write.clear();
+            slice.packed = {};
+            if (begin + i >= n)
+                return;
+            make(begin + i, slice.made);
+            if (gzip_ != nullptr) {
+                slice.packed = pack_piece(slice.made.content());
+                slice.made.clear();
+                slice.made.text(slice.packed.bytes);
+            }
         });
         for (Slice& slice : round) {
-            std::swap(slice.made, slice.to_write);
+            if (gzip_ != nullptr)
+                gzip_->add(slice.packed);
             slice.offset = n_written_;
-            n_written_ += slice.to_write.content().size();
+            n_written_ += slice.made.content().size();
+            if (is_stream_) {
+                write(slice.made.content(), 0);
+                slice.made.clear();
+            }
+            std::swap(slice.made, slice.to_write);
         }
 #ifdef SYNC_FILE_RANGE_WRITE
+        // So that there is less left for `commit` to wait for.
         static_cast<void>(::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE));
 #endif
     }
@@ -210,6 +253,10 @@ void OutputFile::commit()
     // What takes memory comes first: with its name the file is there, and nothing may fail any more.
     const std::filesystem::path folder = folder_of(target_);
     flush();
+    if (gzip_ != nullptr)
+        put_unpacked(gzip_->tail());
+    if (is_stream_)
+        return;
     if (const int error = synchronise(descriptor_); error != 0)
         fail(error);
     if (temporary_.empty())

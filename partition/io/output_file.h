@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include "partition/io/byte_writer.h"
+#include "partition/io/gzip.h"
 #include "partition/loop.h"
 
 namespace seamflow {
@@ -17,16 +19,18 @@ std::filesystem::path file_behind(const std::filesystem::path& path);
 /// A file that appears whole or not at all: written without a name, or under a temporary one where the file system
 /// cannot do that, in the folder of its target, and given its name by `commit`. Without `commit` nothing remains of it,
 /// and a file that was there before remains as it was. A file that is replaced hands on its permissions; a symbolic
-/// link stays, and the file it points to is replaced. All functions throw OutputError if the file cannot be written.
+/// link stays, and the file it points to is replaced. Where the extension is `.gz` the file is packed. All functions
+/// throw OutputError if the file cannot be written.
 class OutputFile final : public ByteWriter {
   public:
+    /// @param path `-` for standard output, which gets everything at once, and none of it back.
     /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
     explicit OutputFile(const std::filesystem::path& path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();
 
-    /// As it was named, for messages.
+    /// As it was named, for messages; "standard output" for that.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     /// Writes n slices, one behind the other, each of which `make` puts into a buffer: several at a time are made and
@@ -41,6 +45,8 @@ class OutputFile final : public ByteWriter {
     void open();
     void give_name();
     void flush();
+    void put(std::string_view bytes);
+    void put_unpacked(std::string_view bytes);
     void write(std::string_view bytes, std::size_t offset) const;
     void overflow(std::string_view text) override;
 
@@ -49,6 +55,9 @@ class OutputFile final : public ByteWriter {
     /// Empty as long as the file has no name.
     std::filesystem::path temporary_;
     int descriptor_ = -1;
+    bool is_stream_ = false;
+    /// Null: nothing is packed.
+    std::unique_ptr<GzipMember> gzip_;
     /// So many bytes have been handed to the system.
     std::size_t n_written_ = 0;
 };

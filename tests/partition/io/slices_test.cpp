@@ -75,8 +75,9 @@ Reading outcome_of(FileFormat format, std::string_view content, const Slicing& s
 bool same_bits(const PolygonMesh& a, const PolygonMesh& b)
 {
     return a.n_vertices() == b.n_vertices() && a.face_offsets == b.face_offsets && a.face_vertices == b.face_vertices &&
-           std::equal(a.vertices.data(), a.vertices.data() + a.vertices.size(), b.vertices.data(),
-                      [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+           std::equal(
+               a.vertices.data(), a.vertices.data() + a.vertices.size(), b.vertices.data(),
+               [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
 }
 
 void check_reading(FileFormat format, std::string_view content, std::size_t bytes)
@@ -135,10 +136,11 @@ std::vector<File> good_files()
                           "3 0 1 2 255 0 0\n\n4 0 1 3 2\n"},
         {FileFormat::Ply, ply_header + "2 1 2\n1 5\n0 0 0 0 0 1\n1 0 0 0 0 1\n\n0 0 1 0 0 1\n1 0 1 0 0 1\n7 3 0 1 2\n"
                                        "8 4 0 1 3 2\n9 3 1 2 3\n"},
-        {FileFormat::Stl, "solid facet a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
-                          "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 -0\nvertex 1 1 0\n\n"
-                          "vertex 0 1 0\nendloop\nendfacet\nendsolid a\nsolid b\nendsolid\nsolid c\n FACET normal 0 0 1\n"
-                          "outer loop\nvertex -0 -0 0\nvertex 1 0 0\nvertex 5 5 5\nendloop\nendfacet\nendsolid c\n"},
+        {FileFormat::Stl,
+         "solid facet a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+         "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 -0\nvertex 1 1 0\n\n"
+         "vertex 0 1 0\nendloop\nendfacet\nendsolid a\nsolid b\nendsolid\nsolid c\n FACET normal 0 0 1\n"
+         "outer loop\nvertex -0 -0 0\nvertex 1 0 0\nvertex 5 5 5\nendloop\nendfacet\nendsolid c\n"},
     };
 }
 
