@@ -53,9 +53,9 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
-MeshScale measure_scale(const PolygonMesh& mesh)
+MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
 {
-    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel), .diagonal = extent_of(mesh.vertices)};
+    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, loop), .diagonal = extent_of(mesh.vertices)};
 }
 
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps)
