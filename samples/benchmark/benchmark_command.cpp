@@ -21,12 +21,16 @@ struct Peer {
     Method method;
 };
 
-constexpr std::array<Peer, 6> all_peers{{{"cholmod", Method::Cholmod},
-                                         {"umfpack", Method::Umfpack},
-                                         {"cg", Method::Krylov},
-                                         {"cg-ic", Method::KrylovIncomplete},
-                                         {"amg", Method::Amg},
-                                         {"cgal", Method::SmoothShape}}};
+constexpr std::array<Peer, 10> known_peers{{{"cholmod", Method::Cholmod},
+                                            {"umfpack", Method::Umfpack},
+                                            {"cg", Method::Krylov},
+                                            {"cg-ic", Method::KrylovIncomplete},
+                                            {"amg", Method::Amg},
+                                            {"cgal", Method::SmoothShape},
+                                            {"sweep", Method::OurSweep},
+                                            {"converged", Method::OurConverged},
+                                            {"our-cg", Method::OurCg},
+                                            {"undecomposed", Method::Undecomposed}}};
 
 constexpr Index smallest_of_scaling = 10'000;
 constexpr Index largest_of_scaling = 10'000'000;
@@ -104,25 +108,26 @@ void prepare_simulation(const CLI::App& app, std::string_view threads, Benchmark
 
 std::vector<Method> peers_named(std::string_view word)
 {
-    std::array<bool, all_peers.size()> wanted{};
-    if (word == "all")
-        wanted.fill(true);
+    std::array<bool, known_peers.size()> wanted{};
+    std::transform(known_peers.begin(), known_peers.end(), wanted.begin(),
+                   [&](const Peer& peer) { return word == "all" && !is_ours(peer.method); });
     for (std::string_view rest = word; word != "all" && word != "none";) {
         const std::string_view name = rest.substr(0, rest.find(','));
         const auto found =
-            std::find_if(all_peers.begin(), all_peers.end(), [&](const Peer& p) { return p.name == name; });
-        if (found == all_peers.end())
+            std::find_if(known_peers.begin(), known_peers.end(), [&](const Peer& p) { return p.name == name; });
+        if (found == known_peers.end())
             throw OptionError("--peers: \"" + std::string(name) +
-                              "\" is none of cholmod, umfpack, cg, cg-ic, amg, cgal; or all, or none");
-        wanted[static_cast<std::size_t>(found - all_peers.begin())] = true;
+                              "\" is none of cholmod, umfpack, cg, cg-ic, amg, cgal, sweep, converged, our-cg, "
+                              "undecomposed; or all, or none");
+        wanted[static_cast<std::size_t>(found - known_peers.begin())] = true;
         if (name.size() == rest.size())
             break;
         rest.remove_prefix(name.size() + 1);
     }
     std::vector<Method> peers;
-    for (std::size_t i = 0; i < all_peers.size(); ++i)
+    for (std::size_t i = 0; i < known_peers.size(); ++i)
         if (wanted[i])
-            peers.push_back(all_peers[i].method);
+            peers.push_back(known_peers[i].method);
     return peers;
 }
 
@@ -157,7 +162,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     add_mesh_options(app, command);
     add_flow_options(app, command);
     app.add_option("--peers", peers,
-                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal [all; none with --scaling, "
+                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is "
+                   "named: sweep,converged,our-cg,undecomposed [all but the last four; none with --scaling, "
                    "--threads-sweep and --simulate-threads]")
         ->type_name("LIST");
     auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,

@@ -39,8 +39,8 @@ struct BenchmarkCommand {
     std::filesystem::path export_folder;
 };
 
-/// The peers that a word stands for: "all", "none", or names with commas between them (cholmod, umfpack, cg, cg-ic,
-/// amg, cgal), each one once, in that order.
+/// The peers that a word stands for: "none", names with commas between them (cholmod, umfpack, cg, cg-ic, amg, cgal,
+/// and of ours sweep, converged, our-cg, undecomposed), each one once, in that order; or "all" that are not ours.
 /// @throws OptionError for another word.
 std::vector<Method> peers_named(std::string_view word);
 

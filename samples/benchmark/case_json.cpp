@@ -21,11 +21,12 @@ Json row_json(const Row& row)
         json["v_mean"] = *row.v_mean;
         json["v_max"] = *row.v_max;
     }
-    if (is_iterative(row.task.method)) {
+    if (is_iterative(row.task.method))
         json["tolerance"] = row.task.tolerance;
+    if (row.result.iterations > 0)
         json["iterations"] = row.result.iterations;
-    }
-    if (row.task.method == Method::Ours) {
+    if (is_ours(row.task.method)) {
+        json["approach"] = row.result.approach;
         json["subdomains"] = row.result.subdomains;
         json["remarks"] = row.result.remarks;
     }

@@ -98,6 +98,7 @@ MethodJson result_json(const MethodResult& result)
             {"phases", seconds_json(result.phases)},
             {"iterations", result.iterations},
             {"subdomains", result.subdomains},
+            {"approach", result.approach},
             {"simulations", simulations},
             {"peak_memory_bytes", result.peak_memory_bytes},
             {"remarks", result.remarks}};
@@ -113,6 +114,7 @@ MethodResult result_of(const MethodJson& json)
     result.phases = seconds_of(json.at("phases"));
     json.at("iterations").get_to(result.iterations);
     json.at("subdomains").get_to(result.subdomains);
+    json.at("approach").get_to(result.approach);
     for (const MethodJson& simulation : json.at("simulations"))
         result.simulations.push_back(simulation_of(simulation));
     json.at("peak_memory_bytes").get_to(result.peak_memory_bytes);
