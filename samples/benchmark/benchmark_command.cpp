@@ -39,8 +39,8 @@ constexpr Index most_vertices = 100'000'000;
 void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
 {
     auto* vertices = add_integer(app, "--vertices", command.vertices, 100,
-                                 "about so many, of the mesh that is made; with --scaling of the largest one "
-                                 "[100000; with --scaling 10000000]");
+                                 "about so many, of the mesh that is made; with --scaling and --grid of the largest "
+                                 "one [100000; with --scaling 10000000]");
     std::vector<std::pair<std::string, std::string>> kinds;
     for (const MeshKind& kind : mesh_kinds())
         kinds.emplace_back(kind.name, kind.name);
@@ -75,9 +75,12 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
 void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
 {
     require_valid(command.options.flow);
-    if (app.count("--scaling") > 0 && app.count("--vertices") > 0 && command.vertices < smallest_of_scaling)
-        throw OptionError("--scaling begins with " + std::to_string(smallest_of_scaling) +
+    const bool has_sizes = command.mode == BenchmarkMode::Scaling || command.mode == BenchmarkMode::Grid;
+    if (has_sizes && app.count("--vertices") > 0 && command.vertices < smallest_of_scaling)
+        throw OptionError("--scaling and --grid begin with " + std::to_string(smallest_of_scaling) +
                           " vertices; --vertices is the largest number and must be no less");
+    if (command.mode == BenchmarkMode::Grid && command.options.reference == Reference::None)
+        throw OptionError("--grid needs a reference to compare at equal accuracy");
     if (command.vertices > most_vertices)
         throw OptionError("--vertices must be at most " + std::to_string(most_vertices));
     if (!command.json.empty())
@@ -102,6 +105,28 @@ void prepare_simulation(const CLI::App& app, std::string_view threads, Benchmark
         flow.resources.threads = 1;
     if (!flow.resources.memory_limit)
         flow.resources.memory_limit = std::numeric_limits<std::size_t>::max();
+}
+
+/// A single value takes the place of an axis.
+void prepare_grid(const CLI::App& app, BenchmarkCommand& command)
+{
+    command.mode = BenchmarkMode::Grid;
+    // Without a file the library gives one without a name.
+    std::erase(command.grid.files, std::filesystem::path());
+    if (app.count("--kind") > 0)
+        command.grid.kinds = {command.kind};
+    if (app.count("--time-step-edges") > 0)
+        command.grid.time_steps_edges = {command.time_step_edges};
+    if (app.count("--steps") > 0)
+        command.grid.steps = {command.options.flow.steps};
+}
+
+/// Who is compared with ours where --peers does not say.
+const char* usual_peers(BenchmarkMode mode)
+{
+    if (mode == BenchmarkMode::Grid)
+        return "cholmod,cg,amg";
+    return mode == BenchmarkMode::Case ? "all" : "none";
 }
 
 }  // namespace
@@ -163,8 +188,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     add_flow_options(app, command);
     app.add_option("--peers", peers,
                    "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is "
-                   "named: sweep,converged,our-cg,undecomposed [all but the last four; none with --scaling, "
-                   "--threads-sweep and --simulate-threads]")
+                   "named: sweep,converged,our-cg,undecomposed [all but the last four; with --grid cholmod,cg,amg; "
+                   "none with --scaling, --threads-sweep and --simulate-threads]")
         ->type_name("LIST");
     auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
                                             {{"auto", Reference::Automatic},
@@ -196,15 +221,31 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes("--peers")
         ->excludes(export_folder)
         ->type_name("LIST");
+    app.add_option("--grid", command.grid.files,
+                   "who is the fastest at equal accuracy, set-up included: triangles, quads, hexagons and mixed "
+                   "polygons (or --kind) of 10^4, 10^5, … vertices, and these meshes; dt 1, 5, 50 and 500 (or "
+                   "--time-step-edges); 1, 3 and 10 steps (or --steps)")
+        ->expected(0, -1)
+        ->excludes(scaling)
+        ->excludes(sweep)
+        ->excludes("--simulate-threads")
+        ->excludes("--mesh")
+        ->excludes(export_folder)
+        ->type_name("[FILE ...]");
+    add_integer(app, "--turns", command.turns, 1,
+                "how often ours and peers that come near it are run, in turns; the least times count [3]")
+        ->needs("--grid");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     if (app.count("--simulate-threads") > 0)
         prepare_simulation(app, simulated_threads, command);
     if (app.count("--conditions") > 0)
         command.options.flow.accuracy.approach = Approach::Sweep;
-    const bool sweeps = command.mode != BenchmarkMode::Case;
-    command.options.peers = peers_named(!peers.empty() ? peers : sweeps ? "none" : "all");
-    if (sweeps && command.options.peers.empty() && reference->count() == 0)
+    if (app.count("--grid") > 0)
+        prepare_grid(app, command);
+    command.options.peers = peers_named(!peers.empty() ? peers : usual_peers(command.mode));
+    const bool may_lack_reference = command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid;
+    if (may_lack_reference && command.options.peers.empty() && reference->count() == 0)
         command.options.reference = Reference::None;
     if (command.mode == BenchmarkMode::Scaling && app.count("--vertices") == 0)
         command.vertices = largest_of_scaling;

@@ -6,6 +6,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json simulation_json(const Simulation& simulation)
+{
+    return {{"threads", simulation.workers},
+            {"makespan_s", simulation.makespan},
+            {"work_s", simulation.work},
+            {"speed_up", simulation.speed_up()},
+            {"efficiency", simulation.efficiency()},
+            {"critical_path_s", simulation.critical_path_seconds},
+            {"critical_path_tasks", simulation.critical_path.size()}};
+}
+
+}  // namespace
+
 Json row_json(const Row& row)
 {
     if (!row.succeeded())
@@ -32,19 +45,6 @@ Json row_json(const Row& row)
     }
     return json;
 }
-
-Json simulation_json(const Simulation& simulation)
-{
-    return {{"threads", simulation.workers},
-            {"makespan_s", simulation.makespan},
-            {"work_s", simulation.work},
-            {"speed_up", simulation.speed_up()},
-            {"efficiency", simulation.efficiency()},
-            {"critical_path_s", simulation.critical_path_seconds},
-            {"critical_path_tasks", simulation.critical_path.size()}};
-}
-
-}  // namespace
 
 Json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options, const CaseResult& result)
 {

@@ -10,6 +10,8 @@
 #include "partition/topology.h"
 #include "samples/benchmark/case_json.h"
 #include "samples/benchmark/case_text.h"
+#include "samples/benchmark/grid_cell.h"
+#include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/common/meshes.h"
 #include "samples/common/report_text.h"
@@ -80,17 +82,24 @@ void print_line(std::ostream& out, const char* format, Numbers... numbers)
     out << text << std::endl;
 }
 
+/// 10⁴, 10⁵, … vertices.
+std::vector<Index> sizes_up_to(Index most)
+{
+    std::vector<Index> sizes{10'000};
+    while (sizes.back() < most)
+        sizes.push_back(std::min(10 * sizes.back(), most));
+    return sizes;
+}
+
 Json run_scaling(const BenchmarkCommand& command, std::ostream& out)
 {
     Json list = Json::array();
     std::vector<CaseResult> results;
-    for (Index vertices = 10'000;; vertices = std::min(10 * vertices, command.vertices)) {
+    for (const Index vertices : sizes_up_to(command.vertices)) {
         const PolygonMesh mesh = load(command, vertices);
         const CaseOptions options = options_for(command, mesh);
         results.push_back(run_table(command, mesh, options, out));
         list.push_back(case_json(name_of_mesh(command), command.time_step_edges, options, results.back()));
-        if (vertices == command.vertices)
-            break;
     }
     out << "  vertices  sub-meshes   step us/vertex  setup us/vertex     bytes/vertex\n";
     for (const CaseResult& result : results) {
@@ -134,6 +143,49 @@ Json run_threads_sweep(const BenchmarkCommand& command, std::ostream& out)
     return {{"threads_sweep", list}};
 }
 
+/// The meshes of a grid, as commands that each name one.
+std::vector<BenchmarkCommand> meshes_of_grid(const BenchmarkCommand& command)
+{
+    std::vector<BenchmarkCommand> commands;
+    BenchmarkCommand one = command;
+    for (const Index vertices : sizes_up_to(command.vertices))
+        for (const std::string& kind : command.grid.kinds) {
+            one.kind = kind;
+            one.vertices = vertices;
+            commands.push_back(one);
+        }
+    for (const std::filesystem::path& file : command.grid.files) {
+        one.mesh = file;
+        commands.push_back(one);
+    }
+    return commands;
+}
+
+Json run_grid(const BenchmarkCommand& command, std::ostream& out)
+{
+    const GridOptions options{command.options.peers, command.options.reference, command.turns};
+    Json list = Json::array();
+    std::vector<GridCell> cells;
+    print_grid_head(out);
+    for (BenchmarkCommand one : meshes_of_grid(command)) {
+        const PolygonMesh mesh = load(one, one.vertices);
+        GridRunner runner(mesh, options);
+        for (const double time_step_edges : command.grid.time_steps_edges)
+            for (const int steps : command.grid.steps) {
+                one.time_step_edges = time_step_edges;
+                one.options.flow.steps = steps;
+                GridCell cell = runner.run(options_for(one, mesh).flow);
+                cell.mesh = one.mesh.empty() ? one.kind : one.mesh.filename().string();
+                cell.time_step_edges = time_step_edges;
+                print_grid_cell(out, cell);
+                list.push_back(grid_cell_json(cell));
+                cells.push_back(std::move(cell));
+            }
+    }
+    print_grid_losses(out, cells);
+    return {{"grid", list}};
+}
+
 }  // namespace
 
 Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
@@ -145,6 +197,8 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_threads_sweep(command, out);
     case BenchmarkMode::SimulateThreads:
         return run_simulation(command, out);
+    case BenchmarkMode::Grid:
+        return run_grid(command, out);
     case BenchmarkMode::Case:
         break;
     }

@@ -84,6 +84,33 @@ TEST_CASE("benchmark sweeps over sizes and over threads")
     CHECK(threads[1]["threads"] == 2);
 }
 
+TEST_CASE("benchmark finds out for a grid of cells who is the fastest at equal accuracy")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK
+                  " --grid mesh.obj --kind triangles --vertices 10000 --time-step-edges 5 --steps 2 --turns 1 "
+                  "--peers cholmod,cg,our-cg,undecomposed --json grid.json") == 0);
+    const Json cells = w.json("grid.json")["grid"];
+    REQUIRE(cells.size() == 2);
+    CHECK(cells[0]["mesh"] == "triangles");
+    CHECK(cells[1]["mesh"] == "mesh.obj");
+    int losses = 0;
+    for (const Json& cell : cells) {
+        CHECK(cell["steps"] == 2);
+        CHECK(cell["dt_over_h2"] == 5.0);
+        const Json& ours = cell["ours"];
+        const Json& fastest = cell["peers"][cell["fastest_peer"].get<std::string>()];
+        CHECK(fastest["v_max"].get<double>() <= std::max(ours["v_max"].get<double>(), 1e-3));
+        CHECK(fastest["v_mean"].get<double>() <= std::max(ours["v_mean"].get<double>(), 1e-4));
+        CHECK(cell["ratio"].get<double>() ==
+              doctest::Approx(fastest["all_s"].get<double>() / ours["all_s"].get<double>()));
+        losses += cell["ratio"].get<double>() < 1.0 ? 1 : 0;
+        CHECK(cell["peers"]["our-cg"]["approach"] == "cg");
+    }
+    CHECK(w.count_lines("said", "ours is not the fastest in " + std::to_string(losses) + " of 2 cells") == 1);
+    CHECK(w.count_lines("said", "  triangles, ") + w.count_lines("said", "  mesh.obj, ") == losses);
+}
+
 TEST_CASE("benchmark replays its tasks with more threads than there are")
 {
     const Workshop w;
@@ -167,6 +194,12 @@ TEST_CASE("benchmark refuses wrong usage and unusable files")
                                   "--simulate-threads 1 --peers cg",
                                   "--simulate-threads 1 --scaling",
                                   "--simulate-threads 1 --threads-sweep",
+                                  "--grid --scaling",
+                                  "--grid --mesh mesh.obj",
+                                  "--grid --vertices 1000",
+                                  "--grid --reference none",
+                                  "--grid --turns 0",
+                                  "--turns 2",
                                   "--conditions ventcell",
                                   "--q 0.1",
                                   "--memory-limit 0",

@@ -12,6 +12,7 @@
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/benchmark/benchmark_command.h"
+#include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/loosest_tolerance.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/benchmark/methods/peer_solver.h"
@@ -365,6 +366,28 @@ TEST_CASE("the loosest tolerance that suffices is found with few questions")
     CHECK_FALSE(loosest_tolerance([](double) { return false; }));
 }
 
+TEST_CASE("the fastest peer of a cell is one that comes as near as ours")
+{
+    const auto row = [](double seconds, double v_max, double v_mean) {
+        Row made{"", {}, {}, v_mean, v_max};
+        made.result.setup_seconds = seconds;
+        return made;
+    };
+    GridCell cell;
+    cell.ours = row(2.0, 0.1, 0.01);
+    CHECK(cell.fastest_peer() == nullptr);
+    CHECK(std::isinf(cell.ratio()));
+    cell.peers = {row(1.0, 0.11, 0.01), row(1.1, 0.1, 0.011), row(4.0, 0.1, 0.01), row(3.0, 0.0, 0.0),
+                  row(0.5, 0.0, 0.0)};
+    cell.peers.back().result.error = "slower";
+    CHECK(cell.fastest_peer() == &cell.peers[3]);
+    CHECK(cell.ratio() == 1.5);
+    // Where ours is exact, what is nearly so is as near.
+    cell.ours = row(2.0, 1e-12, 1e-13);
+    cell.peers = {row(1.0, 1.1e-3, 0.0), row(1.0, 0.0, 1.1e-4), row(3.0, 0.9e-3, 0.9e-4)};
+    CHECK(cell.fastest_peer() == &cell.peers[2]);
+}
+
 TEST_CASE("peers go by names")
 {
     CHECK(peers_named("none").empty());
@@ -394,6 +417,22 @@ TEST_CASE("the command line of benchmark has defaults that fit the mode")
     CHECK(with_peers.options.peers == std::vector{Method::Amg});
     CHECK(with_peers.vertices == 20'000);
     CHECK(with_peers.options.reference == Reference::Automatic);
+    BenchmarkCommand grid;
+    REQUIRE_FALSE(parse({"--grid"}, grid));
+    CHECK(grid.mode == BenchmarkMode::Grid);
+    CHECK(grid.options.peers == std::vector{Method::Cholmod, Method::Krylov, Method::Amg});
+    CHECK(grid.options.reference == Reference::Automatic);
+    CHECK(grid.grid.kinds.size() == 4);
+    CHECK(grid.grid.files.empty());
+    CHECK(grid.grid.steps == std::vector{1, 3, 10});
+    CHECK(grid.vertices == 100'000);
+    BenchmarkCommand row_of_grid;
+    REQUIRE_FALSE(
+        parse({"--grid", "a.ply", "b.ply", "--kind", "quads", "--steps", "2", "--time-step-edges", "7"}, row_of_grid));
+    CHECK(row_of_grid.grid.files.size() == 2);
+    CHECK(row_of_grid.grid.kinds == std::vector<std::string>{"quads"});
+    CHECK(row_of_grid.grid.steps == std::vector{2});
+    CHECK(row_of_grid.grid.time_steps_edges == std::vector{7.0});
     BenchmarkCommand ignored;
     CHECK_THROWS_AS(parse({"--scaling", "--vertices", "500"}, ignored), OptionError);
 }

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/benchmark/grid_cell.h"
+
+namespace seamflow {
+
+/// The table of a grid, a line for each cell as soon as it is known.
+void print_grid_head(std::ostream& out);
+void print_grid_cell(std::ostream& out, const GridCell& cell);
+
+/// The cells in which ours is not the fastest, and by how much.
+void print_grid_losses(std::ostream& out, const std::vector<GridCell>& cells);
+
+nlohmann::ordered_json grid_cell_json(const GridCell& cell);
+
+}  // namespace seamflow
