@@ -75,12 +75,14 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
 void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
 {
     require_valid(command.options.flow);
-    const bool has_sizes = command.mode == BenchmarkMode::Scaling || command.mode == BenchmarkMode::Grid;
+    const bool has_sizes = app.count("--scaling") + app.count("--grid") > 0;
     if (has_sizes && app.count("--vertices") > 0 && command.vertices < smallest_of_scaling)
         throw OptionError("--scaling and --grid begin with " + std::to_string(smallest_of_scaling) +
                           " vertices; --vertices is the largest number and must be no less");
-    if (command.mode == BenchmarkMode::Grid && command.options.reference == Reference::None)
-        throw OptionError("--grid needs a reference to compare at equal accuracy");
+    const bool equals_accuracy =
+        app.count("--grid") > 0 || (app.count("--whole-run") > 0 && !command.options.peers.empty());
+    if (equals_accuracy && command.options.reference == Reference::None)
+        throw OptionError("peers of equal accuracy need a --reference");
     if (command.vertices > most_vertices)
         throw OptionError("--vertices must be at most " + std::to_string(most_vertices));
     if (!command.json.empty())
@@ -126,6 +128,8 @@ const char* usual_peers(BenchmarkMode mode)
 {
     if (mode == BenchmarkMode::Grid)
         return "cholmod,cg,amg";
+    if (mode == BenchmarkMode::WholeRun)
+        return "cholmod,cg";
     return mode == BenchmarkMode::Case ? "all" : "none";
 }
 
@@ -188,8 +192,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     add_flow_options(app, command);
     app.add_option("--peers", peers,
                    "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is "
-                   "named: sweep,converged,our-cg,undecomposed [all but the last four; with --grid cholmod,cg,amg; "
-                   "none with --scaling, --threads-sweep and --simulate-threads]")
+                   "named: sweep,converged,our-cg,undecomposed [all but the last four; with --grid cholmod,cg,amg, "
+                   "with --whole-run cholmod,cg; none with --scaling, --threads-sweep and --simulate-threads]")
         ->type_name("LIST");
     auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
                                             {{"auto", Reference::Automatic},
@@ -232,9 +236,22 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes("--mesh")
         ->excludes(export_folder)
         ->type_name("[FILE ...]");
-    add_integer(app, "--turns", command.turns, 1,
-                "how often ours and peers that come near it are run, in turns; the least times count [3]")
-        ->needs("--grid");
+    auto* whole_run =
+        app.add_flag_callback(
+               "--whole-run", [&] { command.mode = BenchmarkMode::WholeRun; },
+               "the program smooth from file to file, OBJ and PLY or as --mesh is, beside peers of equal accuracy from "
+               "file to file and one step of cholmod; with --scaling for 10^4, 10^5, … vertices")
+            ->excludes(sweep)
+            ->excludes("--grid")
+            ->excludes("--simulate-threads")
+            ->excludes("--conditions")
+            ->excludes("--q")
+            ->excludes("--memory-limit")
+            ->excludes(export_folder);
+    auto* turns =
+        add_integer(app, "--turns", command.turns, 1,
+                    "with --grid and --whole-run: how often what is compared is run, in turns; --grid goes by "
+                    "the least times [3]");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     if (app.count("--simulate-threads") > 0)
@@ -243,11 +260,15 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         command.options.flow.accuracy.approach = Approach::Sweep;
     if (app.count("--grid") > 0)
         prepare_grid(app, command);
+    if (whole_run->count() > 0)
+        command.mode = scaling->count() > 0 ? BenchmarkMode::WholeRunScaling : BenchmarkMode::WholeRun;
+    if (turns->count() > 0 && app.count("--grid") + whole_run->count() == 0)
+        throw OptionError("--turns belongs to --grid and --whole-run");
     command.options.peers = peers_named(!peers.empty() ? peers : usual_peers(command.mode));
-    const bool may_lack_reference = command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid;
-    if (may_lack_reference && command.options.peers.empty() && reference->count() == 0)
+    if (command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid && command.options.peers.empty() &&
+        reference->count() == 0)
         command.options.reference = Reference::None;
-    if (command.mode == BenchmarkMode::Scaling && app.count("--vertices") == 0)
+    if (scaling->count() > 0 && app.count("--vertices") == 0)
         command.vertices = largest_of_scaling;
     require_consistent(app, command);
     if (command.options.flow.resources.threads == 0)

@@ -23,6 +23,10 @@ enum class BenchmarkMode {
     SimulateThreads,
     /// Many meshes, time steps and numbers of steps: who is the fastest.
     Grid,
+    /// One mesh, from file to file.
+    WholeRun,
+    /// The same of meshes of 10⁴, 10⁵, … vertices.
+    WholeRunScaling,
 };
 
 /// The cells of --grid: each mesh with each time step and each number of steps.

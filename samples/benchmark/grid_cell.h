@@ -51,6 +51,9 @@ class GridRunner {
     /// @throws ComputationError if the undecomposed flow fails.
     GridCell run(const FlowOptions& flow);
 
+    /// With the undecomposed flow of the last cell.
+    [[nodiscard]] const MethodRows& rows() const { return rows_; }
+
   private:
     Row run_peer(Method peer, const GridCell& cell, const FlowOptions& flow);
     Row run_iterative(Method peer, const GridCell& cell, const FlowOptions& flow);

@@ -9,14 +9,10 @@
 
 namespace seamflow {
 
-namespace {
-
 std::string name_with_tolerance(const Row& row)
 {
     return is_iterative(row.task.method) ? fmt::format("{} {:.0e}", row.name, row.task.tolerance) : row.name;
 }
-
-}  // namespace
 
 void print_grid_head(std::ostream& out)
 {

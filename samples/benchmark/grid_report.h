@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +9,9 @@
 #include "samples/benchmark/grid_cell.h"
 
 namespace seamflow {
+
+/// The name of a row, with the tolerance of an iterative method: "cg 1e-03".
+std::string name_with_tolerance(const Row& row);
 
 /// The table of a grid, a line for each cell as soon as it is known.
 void print_grid_head(std::ostream& out);

@@ -62,7 +62,9 @@ MethodJson task_json(const MethodTask& task)
             {"memory_limit", optional_json(options.resources.memory_limit)},
             {"threads", options.resources.threads},
             {"tolerance", task.tolerance},
-            {"simulated_threads", task.simulated_threads}};
+            {"simulated_threads", task.simulated_threads},
+            {"input", task.input.string()},
+            {"output", task.output.string()}};
 }
 
 MethodTask task_of(const MethodJson& json)
@@ -81,6 +83,8 @@ MethodTask task_of(const MethodJson& json)
     json.at("threads").get_to(task.options.resources.threads);
     json.at("tolerance").get_to(task.tolerance);
     json.at("simulated_threads").get_to(task.simulated_threads);
+    task.input = json.at("input").get<std::string>();
+    task.output = json.at("output").get<std::string>();
     return task;
 }
 

@@ -13,6 +13,7 @@
 #include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/matrix_market.h"
+#include "samples/benchmark/whole_run.h"
 #include "samples/common/meshes.h"
 #include "samples/common/report_text.h"
 #include "solvers/laplacian/degenerate.h"
@@ -161,6 +162,42 @@ std::vector<BenchmarkCommand> meshes_of_grid(const BenchmarkCommand& command)
     return commands;
 }
 
+/// Of one mesh in all formats.
+void run_whole_of(const BenchmarkCommand& command, Index vertices, std::ostream& out, std::vector<WholeRun>& runs)
+{
+    const PolygonMesh mesh = load(command, vertices);
+    const FlowOptions flow = options_for(command, mesh).flow;
+    const GridOptions options{command.options.peers, command.options.reference, command.turns};
+    const std::vector<std::string> formats = command.mesh.empty()
+                                                 ? std::vector<std::string>{"obj", "ply"}
+                                                 : std::vector{command.mesh.extension().string().substr(1)};
+    for (const std::string& format : formats) {
+        WholeRun& run =
+            runs.emplace_back(run_whole(mesh, command.mesh, format, flow, command.time_step_edges, options));
+        run.mesh = name_of_mesh(command);
+        print_whole_run(out, run);
+    }
+}
+
+Json run_whole_runs(const BenchmarkCommand& command, std::ostream& out)
+{
+    const bool is_scaling = command.mode == BenchmarkMode::WholeRunScaling;
+    std::vector<WholeRun> runs;
+    for (const Index vertices : is_scaling ? sizes_up_to(command.vertices) : std::vector{command.vertices})
+        run_whole_of(command, vertices, out, runs);
+    if (is_scaling)
+        out << "  vertices  format     us/vertex  bytes/vertex\n";
+    Json list = Json::array();
+    for (const WholeRun& run : runs) {
+        const auto n = static_cast<double>(run.vertices);
+        if (is_scaling)
+            print_line(out, "%10d  %6s  %12.3f  %12.0f", run.vertices, run.format.c_str(),
+                       1e6 * run.smooth.median() / n, static_cast<double>(run.peak_memory_bytes) / n);
+        list.push_back(whole_run_json(run));
+    }
+    return {{"whole_runs", list}};
+}
+
 Json run_grid(const BenchmarkCommand& command, std::ostream& out)
 {
     const GridOptions options{command.options.peers, command.options.reference, command.turns};
@@ -199,6 +236,9 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_simulation(command, out);
     case BenchmarkMode::Grid:
         return run_grid(command, out);
+    case BenchmarkMode::WholeRun:
+    case BenchmarkMode::WholeRunScaling:
+        return run_whole_runs(command, out);
     case BenchmarkMode::Case:
         break;
     }

@@ -18,6 +18,7 @@
 #include "samples/benchmark/methods/peer_solver.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
+#include "samples/benchmark/whole_run.h"
 #include "samples/common/meshes.h"
 #include "tests/support/temporary_directory.h"
 
@@ -248,6 +249,8 @@ TEST_CASE("what processes hand to each other arrives as it was")
     task.options.interface.q = 0.25;
     task.options.resources.memory_limit = std::size_t{1} << 40;
     task.simulated_threads = {1, 1024};
+    task.input = "in.obj";
+    task.output = "out.ply";
     write_task(folder.path(), task);
     const MethodTask task_read = read_task(folder.path());
     CHECK(task_read.method == task.method);
@@ -257,6 +260,8 @@ TEST_CASE("what processes hand to each other arrives as it was")
     CHECK(task_read.options.interface.q == task.options.interface.q);
     CHECK(task_read.options.resources.memory_limit == task.options.resources.memory_limit);
     CHECK(task_read.simulated_threads == task.simulated_threads);
+    CHECK(task_read.input == task.input);
+    CHECK(task_read.output == task.output);
     CHECK(task_read.options.time_step == task.options.time_step);
     CHECK(task_read.options.steps == task.options.steps);
 
@@ -352,6 +357,13 @@ TEST_CASE("the time of a step is the median of those after the first")
     CHECK(result.step_seconds() == 100.0);
 }
 
+TEST_CASE("turns have a least and a median")
+{
+    const Turns turns{{4.0, 1.0, 3.0, 2.0, 9.0}};
+    CHECK(turns.least() == 1.0);
+    CHECK(turns.median() == 3.0);
+}
+
 TEST_CASE("the loosest tolerance that suffices is found with few questions")
 {
     for (const double limit : tolerance_ladder) {
@@ -433,6 +445,16 @@ TEST_CASE("the command line of benchmark has defaults that fit the mode")
     CHECK(row_of_grid.grid.kinds == std::vector<std::string>{"quads"});
     CHECK(row_of_grid.grid.steps == std::vector{2});
     CHECK(row_of_grid.grid.time_steps_edges == std::vector{7.0});
+    BenchmarkCommand whole;
+    REQUIRE_FALSE(parse({"--whole-run"}, whole));
+    CHECK(whole.mode == BenchmarkMode::WholeRun);
+    CHECK(whole.options.peers == std::vector{Method::Cholmod, Method::Krylov});
+    CHECK(whole.options.reference == Reference::Automatic);
+    BenchmarkCommand whole_scaling;
+    REQUIRE_FALSE(parse({"--scaling", "--whole-run"}, whole_scaling));
+    CHECK(whole_scaling.mode == BenchmarkMode::WholeRunScaling);
+    CHECK(whole_scaling.options.peers.empty());
+    CHECK(whole_scaling.vertices == 10'000'000);
     BenchmarkCommand ignored;
     CHECK_THROWS_AS(parse({"--scaling", "--vertices", "500"}, ignored), OptionError);
 }

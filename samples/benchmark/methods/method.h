@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,9 @@ struct MethodTask {
     double tolerance = 0.0;
     /// Of Ours: numbers of threads to replay the median step with (see simulate).
     std::vector<int> simulated_threads;
+    /// Where not empty: the mesh is read from one file, and the result written to the other.
+    std::filesystem::path input = {};
+    std::filesystem::path output = {};
 };
 
 /// Wall-clock time of one step, and where it goes.
@@ -86,6 +90,8 @@ struct MethodResult {
     std::string approach;
     /// One for each of MethodTask::simulated_threads.
     std::vector<Simulation> simulations;
+    /// Wall-clock time of the process that took the steps, from its start to its end.
+    double process_seconds = 0.0;
     /// Of the process that took the steps, the mesh included.
     std::int64_t peak_memory_bytes = 0;
     std::vector<std::string> remarks;
