@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "partition/errors.h"
 #include "samples/benchmark/loosest_tolerance.h"
 
 namespace seamflow {
@@ -64,7 +65,12 @@ GridCell GridRunner::run(const FlowOptions& flow)
     GridCell cell;
     cell.vertices = rows_.mesh().n_vertices();
     cell.steps = flow.steps;
-    rows_.find_reference(options_.reference, flow);
+    try {
+        rows_.find_reference(options_.reference, flow);
+    } catch (const ComputationError& error) {
+        cell.ours.result = failed(std::string("no undecomposed flow: ") + error.what());
+        return cell;
+    }
     cell.ours = run_once(MethodRows::task_of(Method::Ours, flow));
     if (!cell.ours.succeeded())
         return cell;

@@ -17,8 +17,8 @@ struct GridCell {
     double time_step_edges = 0.0;
     int steps = 0;
     Row ours;
-    /// None where ours failed. Of an iterative peer the row of the loosest tolerance with which it is as near to the
-    /// undecomposed flow as ours.
+    /// None where ours or the undecomposed flow failed. Of an iterative peer the row of the loosest tolerance with
+    /// which it is as near to the undecomposed flow as ours.
     std::vector<Row> peers;
 
     /// Of the peers that are as near as ours the one that takes the least time, set-up included; null if there is none.
@@ -47,8 +47,8 @@ class GridRunner {
 
     /// Ours, the undecomposed flow, and the peers. A peer is given up where it is not yet as near and takes twice as
     /// long as the fastest: its row says so.
-    /// @returns a cell without name and dt in edges.
-    /// @throws ComputationError if the undecomposed flow fails.
+    /// @returns a cell without name and dt in edges; without peers where ours or the undecomposed flow fails, and ours
+    ///          says why.
     GridCell run(const FlowOptions& flow);
 
     /// With the undecomposed flow of the last cell.

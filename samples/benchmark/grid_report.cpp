@@ -1,6 +1,7 @@
 #include "samples/benchmark/grid_report.h"
 
 #include <algorithm>
+#include <iterator>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -13,6 +14,53 @@ std::string name_with_tolerance(const Row& row)
 {
     return is_iterative(row.task.method) ? fmt::format("{} {:.0e}", row.name, row.task.tolerance) : row.name;
 }
+
+namespace {
+
+std::string ratio_text(const GridCell& cell)
+{
+    if (!cell.ours.succeeded())
+        return "failed";
+    return cell.fastest_peer() != nullptr ? fmt::format("{:.2f}", cell.ratio()) : "–";
+}
+
+/// A table in Markdown.
+void print_ratios(std::ostream& out, const std::vector<GridCell>& cells)
+{
+    const auto is_same_mesh = [](const GridCell& a, const GridCell& b) {
+        return a.mesh == b.mesh && a.vertices == b.vertices;
+    };
+    out << "\n| mesh | vertices |";
+    for (auto cell = cells.begin(); cell != cells.end() && is_same_mesh(*cell, cells.front()); ++cell)
+        if (cell == cells.begin() || cell->time_step_edges != std::prev(cell)->time_step_edges)
+            out << fmt::format(" dt {} |", cell->time_step_edges);
+    for (auto cell = cells.begin(); cell != cells.end(); ++cell) {
+        const bool is_first = cell == cells.begin();
+        const std::string ratio = ratio_text(*cell);
+        if (is_first || !is_same_mesh(*cell, *std::prev(cell)))
+            out << fmt::format("\n| {} | {} | {}", cell->mesh, cell->vertices, ratio);
+        else
+            out << (cell->time_step_edges == std::prev(cell)->time_step_edges ? ", " : " | ") << ratio;
+        if (std::next(cell) == cells.end() || !is_same_mesh(*cell, *std::next(cell)))
+            out << " |";
+    }
+    out << "\n\n";
+}
+
+void print_losses(std::ostream& out, const std::vector<GridCell>& cells)
+{
+    const auto is_lost = [](const GridCell& cell) { return cell.ratio() < 1.0; };
+    out << fmt::format("ours is not the fastest in {} of {} cells\n",
+                       std::count_if(cells.begin(), cells.end(), is_lost), cells.size());
+    for (const GridCell& cell : cells)
+        if (is_lost(cell))
+            out << fmt::format("  {}, {} vertices, dt {}, {} steps: {} takes {:.2f} of the time of {}\n", cell.mesh,
+                               cell.vertices, cell.time_step_edges, cell.steps,
+                               name_with_tolerance(*cell.fastest_peer()), cell.ratio(), cell.ours.result.approach);
+    out << std::flush;
+}
+
+}  // namespace
 
 void print_grid_head(std::ostream& out)
 {
@@ -37,21 +85,14 @@ void print_grid_cell(std::ostream& out, const GridCell& cell)
     out << std::endl;
 }
 
-void print_grid_losses(std::ostream& out, const std::vector<GridCell>& cells)
+void print_grid_summary(std::ostream& out, const std::vector<GridCell>& cells)
 {
-    const auto is_lost = [](const GridCell& cell) { return cell.ratio() < 1.0; };
     out << "seconds: set-up and all steps, without what is measured of them; dt in squared mean edge lengths\n"
            "fastest peer: of those at least as near to the undecomposed flow as ours, by V_max and V_mean (of mean\n"
            "edges; less than 1e-3 and 1e-4 count as none), with the loosest tolerance that is\n"
-           "ratio: its time in that of ours\n"
-        << fmt::format("ours is not the fastest in {} of {} cells\n",
-                       std::count_if(cells.begin(), cells.end(), is_lost), cells.size());
-    for (const GridCell& cell : cells)
-        if (is_lost(cell))
-            out << fmt::format("  {}, {} vertices, dt {}, {} steps: {} takes {:.2f} of the time of {}\n", cell.mesh,
-                               cell.vertices, cell.time_step_edges, cell.steps,
-                               name_with_tolerance(*cell.fastest_peer()), cell.ratio(), cell.ours.result.approach);
-    out << std::flush;
+           "ratio: its time in that of ours\n";
+    print_ratios(out, cells);
+    print_losses(out, cells);
 }
 
 nlohmann::ordered_json grid_cell_json(const GridCell& cell)

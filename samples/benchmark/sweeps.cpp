@@ -219,7 +219,7 @@ Json run_grid(const BenchmarkCommand& command, std::ostream& out)
                 cells.push_back(std::move(cell));
             }
     }
-    print_grid_losses(out, cells);
+    print_grid_summary(out, cells);
     return {{"grid", list}};
 }
 

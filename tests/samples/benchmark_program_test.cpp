@@ -111,6 +111,15 @@ TEST_CASE("benchmark finds out for a grid of cells who is the fastest at equal a
     CHECK(w.count_lines("said", "  triangles, ") + w.count_lines("said", "  mesh.obj, ") == losses);
 }
 
+TEST_CASE("benchmark goes on where ours fails in a cell of its grid")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --grid --kind quads --vertices 10000 --steps 1 --turns 1 --converge 1e-8 "
+                            "--memory-limit 1K --peers none --json grid.json") == 0);
+    CHECK(w.json("grid.json")["grid"][3]["ours"].contains("error"));
+    CHECK(w.count_lines("said", "| quads | 10000 | failed | failed | failed | failed |") == 1);
+}
+
 TEST_CASE("benchmark runs smooth from file to file beside peers of equal accuracy")
 {
     const Workshop w;

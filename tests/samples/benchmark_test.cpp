@@ -13,6 +13,7 @@
 #include "partition/metrics/vertex_distance.h"
 #include "samples/benchmark/benchmark_command.h"
 #include "samples/benchmark/grid_cell.h"
+#include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/loosest_tolerance.h"
 #include "samples/benchmark/matrix_market.h"
 #include "samples/benchmark/methods/peer_solver.h"
@@ -398,6 +399,34 @@ TEST_CASE("the fastest peer of a cell is one that comes as near as ours")
     cell.ours = row(2.0, 1e-12, 1e-13);
     cell.peers = {row(1.0, 1.1e-3, 0.0), row(1.0, 0.0, 1.1e-4), row(3.0, 0.9e-3, 0.9e-4)};
     CHECK(cell.fastest_peer() == &cell.peers[2]);
+}
+
+TEST_CASE("a grid ends with the ratios of all cells and with those that are lost")
+{
+    std::vector<GridCell> cells;
+    for (const char* mesh : {"quads", "scan.ply"})
+        for (const double time_step_edges : {1.0, 50.0})
+            for (const int steps : {1, 3}) {
+                GridCell& cell = cells.emplace_back();
+                cell.mesh = mesh;
+                cell.vertices = 100;
+                cell.time_step_edges = time_step_edges;
+                cell.steps = steps;
+                cell.ours.result.setup_seconds = 1.0;
+                cell.ours.v_mean = cell.ours.v_max = 0.1;
+                cell.peers = {cell.ours};
+                cell.peers[0].name = "other";
+                cell.peers[0].result.setup_seconds = steps * time_step_edges / 2.0;
+            }
+    cells[3].peers.clear();
+    cells[6].ours.result.error = "no";
+    cells[6].peers.clear();
+    std::ostringstream out;
+    print_grid_summary(out, cells);
+    CHECK(out.str().find("\n| mesh | vertices | dt 1 | dt 50 |\n| quads | 100 | 0.50, 1.50 | 25.00, – |\n"
+                         "| scan.ply | 100 | 0.50, 1.50 | failed, 75.00 |\n") != std::string::npos);
+    CHECK(out.str().find("ours is not the fastest in 2 of 8 cells\n"
+                         "  quads, 100 vertices, dt 1, 1 steps: other takes 0.50 of the time of") != std::string::npos);
 }
 
 TEST_CASE("peers go by names")
