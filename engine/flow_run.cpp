@@ -28,12 +28,28 @@ void named(const std::string& name, Body&& body)
     }
 }
 
+/// About that of all faces: good enough for an estimate.
+double sampled_mean_edge(const PolygonMesh& mesh, const Points& positions)
+{
+    constexpr Index sample_size = 50'000;
+    const Index stride = std::max(mesh.n_faces() / sample_size, Index{1});
+    double length = 0.0;
+    std::size_t n_edges = 0;
+    for (Index f = 0; f < mesh.n_faces(); f += stride) {
+        const auto corners = mesh.face(f);
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            length += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
+        n_edges += corners.size();
+    }
+    return length / static_cast<double>(n_edges);
+}
+
 /// @param estimate in units of length; empty where the edges have no length to measure by.
 void in_mean_edges(std::optional<double>& estimate, const PolygonMesh& mesh, const Points& positions)
 {
     if (!estimate || *estimate == 0.0)
         return;
-    *estimate /= mean_edge_length(mesh, positions, run_in_parallel);
+    *estimate /= sampled_mean_edge(mesh, positions);
     if (!std::isfinite(*estimate))
         estimate.reset();
 }
@@ -141,7 +157,8 @@ void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
     Points rescaled = stepper_->positions();
     rescaling.apply(rescaled);
     mesh_.move_to(rescaled);
-    prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
+    if (prepared_->meter)
+        prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
     report_.steps = state.steps;
     report_.seconds.step = state.seconds.step;
     report_.seconds.total += state.seconds.total;
@@ -150,11 +167,12 @@ void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
 FlowState FlowRun::capture(const FlowState* resume) const
 {
     FlowState state{.identity = prepared_->identity,
+                    .approach = options().accuracy.approach,
                     .cut = checksum_of(report_.cut.labels),
                     .steps = report_.steps,
                     .seconds = {.step = report_.seconds.step,
                                 .total = report_.seconds.total - report_.seconds.cut - report_.seconds.analyse},
-                    .displacement = prepared_->meter->sums()};
+                    .displacement = prepared_->meter ? prepared_->meter->sums() : DisplacementSums{}};
     if (resume != nullptr)
         add_task_seconds(state.seconds, resume->seconds);
     stepper_->add_seconds(state.seconds);
@@ -231,10 +249,12 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
             }
         });
         const Points& after = is_rescaled ? rescaled : stepper_->positions();
-        of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
-        of_step.max_mean_curvature_before = curvature_before_;
-        of_step.max_mean_curvature_after = curvature_before_ =
-            measure_largest_curvature(mesh, prepared_->topology, after, options().laplacian);
+        if (prepared_->meter) {
+            of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
+            of_step.max_mean_curvature_before = curvature_before_;
+            of_step.max_mean_curvature_after = curvature_before_ =
+                measure_largest_curvature(mesh, prepared_->topology, after, options().laplacian);
+        }
         const double measuring = watch.lap();
         if (reference_) {
             compare_with_reference(step, fractions, of_step);
@@ -259,7 +279,8 @@ void FlowRun::finish(double extent_before, const FlowState* resume)
 {
     remark_on_drift(options(), report_);
     remark_on_collapse(extent_before, mesh_.mesh().vertices, report_);
-    report_.displacement = prepared_->meter->total();
+    if (prepared_->meter)
+        report_.displacement = prepared_->meter->total();
     if (stepper_->separated() != nullptr)
         report_.separated = *stepper_->separated();
     stepper_->describe(report_);

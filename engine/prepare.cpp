@@ -30,23 +30,16 @@ FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, 
     return identity;
 }
 
-const SubdomainNeeds& needs_of(const FlowOptions& options)
-{
-    if (is_symmetric(options.laplacian))
-        return options.accuracy.tolerance ? needs_of_converged_steps : needs_of_sweeps;
-    return options.accuracy.tolerance ? needs_of_krylov_steps : needs_of_unsymmetric_sweeps;
-}
-
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
              const Loop& loop, const Alongside& alongside)
 {
-    if (options.scheme == Scheme::ExplicitEuler || options.accuracy.approach == Approach::ConjugateGradients)
+    if (options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
         return cut_into(mesh, topology, 1, loop);
     if (!options.cut.labels.empty())
         return cut_by_labels(mesh, topology, options.cut.labels, loop);
     if (options.cut.subdomains > 0)
         return cut_into(mesh, topology, options.cut.subdomains, loop, alongside);
-    const SubdomainChoice choice = choose_subdomains(size, options.time_step, needs_of(options));
+    const SubdomainChoice choice = choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
     Cut cut = cut_into(mesh, topology, choice.count, loop, alongside);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
@@ -76,13 +69,20 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 /// METIS has one thread: the others measure in the meantime; where it has nothing to do measuring comes afterwards.
 void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& progress)
 {
+    bool is_measured = false;
     const auto measure = [&] {
-        prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, prepared.options.laplacian);
-        prepared.meter.emplace(mesh, prepared.topology);
+        is_measured = true;
+        const FlowOptions& options = prepared.options;
+        // Colours are ordered by it.
+        const bool is_ordering = options.accuracy.approach == Approach::Sweep;
+        if (options.report.measures || is_ordering)
+            prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, options.laplacian);
+        if (options.report.measures)
+            prepared.meter.emplace(mesh, prepared.topology);
     };
     prepared.cut = make_cut(mesh, prepared.size, prepared.topology, prepared.options, progress.loop(),
                             [&](const std::function<void()>& serial) { run_both(serial, measure); });
-    if (!prepared.meter)
+    if (!is_measured)
         measure();
 }
 
@@ -97,19 +97,24 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
     examine(*prepared, mesh, progress);
     progress.count();
     const Topology& topology = prepared->topology;
-    const ToleranceChoice choice =
-        choose_tolerance(mesh.mesh(), prepared->size, prepared->options, boundary_moves(mesh.mesh(), topology));
-    prepared->options.accuracy.tolerance = choice.tolerance;
+    AccuracyOptions& accuracy = prepared->options.accuracy;
+    const ApproachChoice choice =
+        choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
+                        resume != nullptr ? std::optional(resume->approach) : std::nullopt);
+    accuracy.approach = choice.approach;
+    accuracy.tolerance = choice.tolerance;
     progress.count();
     cut_and_measure(*prepared, mesh.mesh(), progress);
     std::vector<std::string>& remarks = prepared->remarks;
     remarks.insert(remarks.begin(), prepared->cut.remarks.begin(), prepared->cut.remarks.end());
-    // A whole mesh is solved exactly either way.
-    if (prepared->cut.n_parts == 1 && !choice.reason.empty())
-        prepared->options.accuracy.tolerance.reset();
-    else if (!choice.reason.empty())
-        remarks.insert(remarks.begin(), "Steps are converged: " + choice.reason + ".");
-    if (!prepared->options.accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
+    // One sub-mesh is solved exactly either way.
+    if (prepared->cut.n_parts == 1 && accuracy.approach == Approach::Converged && !choice.reason.empty()) {
+        accuracy.approach = Approach::Undecomposed;
+        accuracy.tolerance.reset();
+    } else if (!choice.reason.empty()) {
+        remarks.insert(remarks.begin(), choice.reason);
+    }
+    if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(mesh.mesh(), topology, prepared->cut);
     return prepared;
 }
@@ -121,6 +126,7 @@ void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport&
     report.mesh.vertices = mesh.n_vertices();
     report.mesh.faces = mesh.n_faces();
     report.time_step = options.time_step;
+    report.convergence.approach = options.accuracy.approach;
     report.convergence.tolerance = options.accuracy.tolerance;
     report.cut.repaired_faces = prepared.cut.repaired_faces;
     report.remarks = prepared.remarks;

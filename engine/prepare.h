@@ -18,7 +18,7 @@ namespace seamflow {
 
 /// A flow before its first step: all that was decided about it, and what was measured for that.
 struct PreparedFlow {
-    /// What was asked for, with what was chosen where that left it open: the tolerance. Labels are those of the faces
+    /// What was asked for, with what was chosen where that left it open: the approach, the tolerance. Labels are those of the faces
     /// that flow.
     FlowOptions options;
     /// Of the mesh and what was asked for. Empty where nobody needs it.
@@ -28,9 +28,9 @@ struct PreparedFlow {
     Topology topology;
     /// The sub-mesh of every face.
     Cut cut;
-    /// #V: ‖ΔV⁰‖, in 1/length.
+    /// #V: ‖ΔV⁰‖, in 1/length; empty where nobody needs it.
     std::vector<double> curvature;
-    /// Refers to the topology.
+    /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
     /// About the mesh and the cut.
     std::vector<std::string> remarks;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <iterator>
 #include <string>
@@ -37,8 +38,10 @@ struct Spoke {
 };
 
 /// Pairs the half-edges between v and vertices of higher index.
-void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology)
+/// @returns whether those of every pair run in opposite directions.
+bool pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spokes, Topology& topology)
 {
+    bool opposite = true;
     spokes.clear();
     for (const Index h : topology.corners_at(v))
         for (const auto& [neighbour_corner, halfedge] :
@@ -52,12 +55,14 @@ void pair_halfedges_at(const PolygonMesh& mesh, Index v, std::vector<Spoke>& spo
         if (last - first == 2) {
             topology.twin[first[0].halfedge] = first[1].halfedge;
             topology.twin[first[1].halfedge] = first[0].halfedge;
+            opposite &= mesh.face_vertices[first[0].halfedge] != mesh.face_vertices[first[1].halfedge];
         } else if (last - first > 2) {
             for (auto spoke = first; spoke != last; ++spoke)
                 topology.twin[spoke->halfedge] = non_manifold_edge;
         }
         first = last;
     }
+    return opposite;
 }
 
 /// The two half-edges at the vertex of a corner, in its face.
@@ -162,11 +167,16 @@ Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
         else
             topology.twin.assign(mesh.face_vertices.size(), -1);
     });
+    std::atomic<bool> oriented = true;
     loop(mesh.n_vertices(), [&](Index begin, Index end) {
         std::vector<Spoke> spokes;
+        bool opposite = true;
         for (Index v = begin; v < end; ++v)
-            pair_halfedges_at(mesh, v, spokes, topology);
+            opposite &= pair_halfedges_at(mesh, v, spokes, topology);
+        if (!opposite)
+            oriented = false;
     });
+    topology.oriented = oriented;
     topology.kind.resize(mesh.n_vertices());
     topology.fixed.resize(mesh.n_vertices());
     for_each(loop, mesh.n_vertices(), [&](Index v) {

@@ -77,6 +77,8 @@ struct Topology {
     /// #V: 1 where a flow leaves the vertex where it is. At first everywhere but at interior vertices; see
     /// free_boundary and hold.
     std::vector<std::uint8_t> fixed;
+    /// Whether the half-edges of every pair run in opposite directions.
+    bool oriented = true;
 
     /// Whether a flow moves vertex v.
     [[nodiscard]] bool moves(Index v) const { return fixed[v] == 0; }

@@ -18,6 +18,8 @@ using Point = Eigen::RowVector3d;
 inline Point vector_area(std::span<const Index> corners, const Points& positions)
 {
     const Point origin = positions.row(corners[0]);
+    if (corners.size() == 3)
+        return 0.5 * (positions.row(corners[1]) - origin).cross(positions.row(corners[2]) - origin);
     Point sum = Point::Zero();
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
         sum += (positions.row(corners[k]) - origin).cross(positions.row(corners[k + 1]) - origin);

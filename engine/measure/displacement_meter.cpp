@@ -23,7 +23,7 @@ void add(double& sum, double value)
 
 DisplacementMeter::DisplacementMeter(const PolygonMesh& mesh, const Topology& topology)
     : mesh_(mesh)
-    , normals_(mesh, topology, run_in_parallel)
+    , normals_(mesh, topology)
 {
 }
 

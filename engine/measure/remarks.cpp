@@ -47,7 +47,8 @@ void remark_on_factorisation(Factorisation asked, std::span<const Factorisation>
 
 void remark_on_missed_tolerance(int iterations, const std::string& remedy, FlowReport& report)
 {
-    const auto& [tolerance, n_short, n_stagnated] = report.convergence;
+    const int n_short = report.convergence.steps_short_of_tolerance;
+    const int n_stagnated = report.convergence.steps_stagnated;
     if (n_short == 0)
         return;
     std::string remark = fmt::format("The tolerance was not reached in {} {} with {} iterations at most", n_short,

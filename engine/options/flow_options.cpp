@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_names.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -80,16 +81,18 @@ void require_valid_factorisation(const FlowOptions& options)
 
 void require_valid_approach(const FlowOptions& options)
 {
-    if (options.accuracy.approach != Approach::ConjugateGradients)
+    if (!takes_whole_mesh(options.accuracy.approach))
+        return;
+    const std::string approach = fmt::format("approach is {}", option_name(options.accuracy.approach));
+    if (options.interface != InterfaceOptions{} || options.scheme == Scheme::ExplicitEuler)
+        throw OptionError(approach + ", which leaves no room for options of sweeps or an explicit scheme");
+    if (options.cut.subdomains > 1 || !options.cut.labels.empty())
+        throw OptionError(approach + ", which takes the whole mesh: leave out the sub-meshes");
+    if (options.accuracy.approach == Approach::Undecomposed)
         return;
     if (!is_symmetric(options.laplacian))
         throw OptionError("approach is by conjugate gradients, but the Laplacian ptackova-velho is not symmetric: use "
                           "fujiwara or alexa-wardetzky, or leave the approach automatic");
-    if (options.interface != InterfaceOptions{} || options.scheme == Scheme::ExplicitEuler)
-        throw OptionError("approach is by conjugate gradients, which leaves no room for options of sweeps or an "
-                          "explicit scheme");
-    if (options.cut.subdomains > 1 || !options.cut.labels.empty())
-        throw OptionError("approach is by conjugate gradients, which take the whole mesh: leave out the sub-meshes");
     if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic)
         throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit and "
                           "the factorisation");
@@ -113,6 +116,11 @@ bool has_tangential_derivative(Conditions conditions)
 }
 
 }  // namespace
+
+bool takes_whole_mesh(Approach approach)
+{
+    return approach == Approach::ConjugateGradients || approach == Approach::Undecomposed;
+}
 
 bool is_classical(Conditions conditions)
 {

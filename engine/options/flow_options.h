@@ -106,9 +106,12 @@ enum class Rescale {
 
 /// How a backward Euler step is taken.
 enum class Approach {
-    /// Converged where a tolerance is asked for, or to a loose one where that is worth it (see choose_tolerance); else
-    /// a sweep.
+    /// Whatever is fastest by a model of their costs (see choose_approach): Decomposed, ConjugateGradients or
+    /// Undecomposed. Decomposed where another option is about sub-meshes or sweeps, or the Laplacian is not symmetric.
     Automatic,
+    /// In sub-meshes. Converged where a tolerance is asked for, or to a loose one where that is worth it (see
+    /// choose_tolerance); else a sweep.
+    Decomposed,
     /// One sweep over the colours, where no tolerance is asked for.
     Sweep,
     /// Converged sub-mesh by sub-mesh, to AccuracyOptions::tolerance or a loose one.
@@ -116,11 +119,13 @@ enum class Approach {
     /// The whole mesh by conjugate gradients, to AccuracyOptions::tolerance or a loose one: no sub-meshes, no
     /// factorisation, and of all ways the least set-up. For Δ_F and Δ_A.
     ConjugateGradients,
+    /// The whole mesh by one factorisation: exactly.
+    Undecomposed,
 };
 
 /// Which sub-meshes there are.
 struct CutOptions {
-    /// Number of sub-meshes. 1: undecomposed. 0: chosen from the size of the mesh and of √dt. Every component of the
+    /// Number of sub-meshes. 1: undecomposed. 0: chosen, if there are any, from the size of the mesh and of √dt. Every component of the
     /// mesh has at least one sub-mesh of its own, and no sub-mesh is cut too small, so the number used (see FlowReport)
     /// can differ.
     int subdomains = 0;
@@ -220,6 +225,9 @@ struct ReportOptions {
     /// Also give the sub-meshes as they are, each with its own copy of Γ (FlowReport::separated, StepState::separated).
     /// For the classical conditions with Scheme::BackwardEuler alone: with others the copies are the same.
     bool keep_gaps = false;
+    /// Measure mean curvature and displacements after each step, which takes a fifth to two thirds of its time. If not,
+    /// they are 0 in the report.
+    bool measures = true;
 };
 
 /// Everything that decides about a flow: `{.time_step = 0.05, .steps = 5, .cut = {.subdomains = 8}}`.
@@ -249,6 +257,9 @@ struct FlowOptions {
 
 /// Whether every sub-mesh keeps a copy of Γ of its own.
 bool is_classical(Conditions conditions);
+
+/// Whether steps are taken without sub-meshes.
+bool takes_whole_mesh(Approach approach);
 
 /// Checks every field against its limits.
 /// @throws OptionError naming the field, its value and its limits; InputError naming the face for a negative label.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/options/flow_options.h"
 #include "engine/options/schedule.h"
 #include "partition/metrics/displacement.h"
 #include "partition/metrics/length_statistics.h"
@@ -111,6 +112,8 @@ struct CutReport {
 
 /// Whether steps were converged, and how many were not as far as asked.
 struct ConvergenceReport {
+    /// How steps were taken: one of Sweep, Converged, ConjugateGradients and Undecomposed.
+    Approach approach = Approach::Sweep;
     /// What steps were converged to, asked for or chosen; empty: they were sweeps.
     std::optional<double> tolerance;
     /// Converged steps that did not reach the tolerance, and those of them where more iterations would not have helped.

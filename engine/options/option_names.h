@@ -80,9 +80,11 @@ struct OptionNames<Rescale> {
 template <>
 struct OptionNames<Approach> {
     static constexpr NamedOption<Approach> list[]{{"auto", Approach::Automatic},
+                                                  {"decomposed", Approach::Decomposed},
                                                   {"sweep", Approach::Sweep},
                                                   {"converged", Approach::Converged},
-                                                  {"cg", Approach::ConjugateGradients}};
+                                                  {"cg", Approach::ConjugateGradients},
+                                                  {"undecomposed", Approach::Undecomposed}};
 };
 
 template <>

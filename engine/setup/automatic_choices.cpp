@@ -5,9 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "engine/setup/constraints.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
+
+const SubdomainNeeds& needs_of(Laplacian laplacian, bool converged)
+{
+    if (is_symmetric(laplacian))
+        return converged ? needs_of_converged_steps : needs_of_sweeps;
+    return converged ? needs_of_krylov_steps : needs_of_unsymmetric_sweeps;
+}
 
 SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const SubdomainNeeds& needs)
 {
@@ -36,6 +44,26 @@ namespace {
 constexpr double loose_tolerance = 1e-2;
 /// In squared mean edge lengths: with longer steps, what a sweep leaves comes near a mean edge length.
 constexpr double longest_step_of_sweeps = 16.0;
+/// For conjugate gradients, whose residual is that of all vertices: with long steps this leaves as much as loosely
+/// converged sub-meshes do, and with short ones the tolerance above leaves less than sweeps.
+constexpr double tolerance_of_long_steps = 1e-4;
+
+/// How often the predicted number of iterations may come to be needed.
+constexpr double safety_of_prediction = 2.0;
+
+bool is_long(const FlowOptions& options, const MeshSize& size)
+{
+    return options.time_step > longest_step_of_sweeps * size.mean_edge * size.mean_edge;
+}
+
+/// Whether an option is set that means nothing without sub-meshes.
+bool speaks_of_sub_meshes(const FlowOptions& options)
+{
+    const FlowOptions defaults;
+    return options.cut.subdomains > 0 || !options.cut.labels.empty() || options.interface != defaults.interface ||
+           options.resources.factorisation != defaults.resources.factorisation || options.resources.memory_limit ||
+           options.report.keep_gaps;
+}
 
 /// Whether an option is set that means nothing to converged steps.
 bool speaks_of_sweeps(const FlowOptions& options)
@@ -65,14 +93,18 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
 {
     if (options.accuracy.tolerance)
         return {options.accuracy.tolerance, ""};
-    if (options.accuracy.approach == Approach::Converged || options.accuracy.approach == Approach::ConjugateGradients)
+    if (options.accuracy.approach == Approach::ConjugateGradients)
+        return {is_long(options, size) ? tolerance_of_long_steps : loose_tolerance, ""};
+    if (options.accuracy.approach == Approach::Converged)
         return {loose_tolerance, ""};
+    if (options.accuracy.approach == Approach::Undecomposed)
+        return {};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
         mesh.n_faces() == 0)
         return {};
-    if (options.time_step > longest_step_of_sweeps * size.mean_edge * size.mean_edge)
+    if (is_long(options, size))
         return {loose_tolerance, "steps as long as these would stray in single sweeps"};
     if (options.cut.subdomains > 0 &&
         width_in_diffusion_lengths(size.area, options.cut.subdomains, options.time_step) < needs_of_sweeps.width)
@@ -80,6 +112,65 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (traits_of(options.laplacian).reach == Reach::Faces && has_polygons(mesh))
         return {loose_tolerance, "on polygons it costs no more than single sweeps"};
     return {};
+}
+
+namespace {
+
+ApproachChoice in_sub_meshes(const ToleranceChoice& choice)
+{
+    return {.approach = choice.tolerance ? Approach::Converged : Approach::Sweep,
+            .tolerance = choice.tolerance,
+            .reason = choice.reason.empty() ? "" : fmt::format("Steps are converged: {}.", choice.reason)};
+}
+
+std::string reason_for(const PredictedCost& cost)
+{
+    switch (cost.approach) {
+    case Approach::ConjugateGradients:
+        return fmt::format("Conjugate gradients on the whole mesh, to {:g} of the residual, chosen: that is fastest "
+                           "for steps as short and few as these.",
+                           *cost.tolerance);
+    case Approach::Undecomposed:
+        return "One factorisation of the whole mesh chosen: that is fastest for a mesh of this size.";
+    default:
+        return {};
+    }
+}
+
+}  // namespace
+
+ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
+                               const FlowOptions& options, std::optional<Approach> earlier)
+{
+    const ToleranceChoice tolerance = choose_tolerance(mesh, size, options, boundary_moves(mesh, topology));
+    const Approach asked = options.accuracy.approach;
+    if (takes_whole_mesh(asked))
+        return {.approach = asked, .tolerance = tolerance.tolerance};
+    if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
+        options.scheme == Scheme::ExplicitEuler || mesh.n_faces() == 0)
+        return in_sub_meshes(tolerance);
+    const FlowSize flow{.vertices = mesh.n_vertices(),
+                        .rows = average_rows(mesh, topology, options.laplacian),
+                        .time_step = options.time_step,
+                        .steps = options.steps};
+    FlowOptions by_conjugate_gradients = options;
+    by_conjugate_gradients.accuracy.approach = Approach::ConjugateGradients;
+    const ApproachChoice decomposed = in_sub_meshes(tolerance);
+    ApproachChoice choice;
+    choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
+    const double to_reach = choose_tolerance(mesh, size, by_conjugate_gradients).tolerance.value();
+    if (safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
+        choice.costs.push_back(predict_cost(Approach::ConjugateGradients, flow, to_reach));
+    const SubdomainNeeds& needs = needs_of(options.laplacian, decomposed.tolerance.has_value());
+    if (choose_subdomains(size, options.time_step, needs).count > 1)
+        choice.costs.push_back(predict_cost(decomposed.approach, flow, decomposed.tolerance));
+    std::ranges::stable_sort(choice.costs, {}, [&](const PredictedCost& cost) { return cost.of(options.steps); });
+    const auto stays = std::ranges::find(choice.costs, earlier, &PredictedCost::approach);
+    const PredictedCost& taken = stays != choice.costs.end() ? *stays : choice.costs.front();
+    choice.approach = taken.approach;
+    choice.tolerance = taken.tolerance;
+    choice.reason = takes_whole_mesh(taken.approach) ? reason_for(taken) : decomposed.reason;
+    return choice;
 }
 
 }  // namespace seamflow

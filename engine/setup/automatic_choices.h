@@ -2,10 +2,13 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/measure/surface_measures.h"
 #include "engine/options/flow_options.h"
+#include "engine/setup/cost_model.h"
 #include "partition/polygon_mesh.h"
+#include "partition/topology.h"
 
 /// What a flow chooses where its options leave it open.
 namespace seamflow {
@@ -27,6 +30,10 @@ inline constexpr SubdomainNeeds needs_of_converged_steps{2'000, 2.0};
 /// Converged steps of Laplacians without symmetry, whose sub-meshes overlap.
 inline constexpr SubdomainNeeds needs_of_krylov_steps{1'000, 2.0};
 
+/// What sub-meshes of a flow have to be like.
+/// @param converged whether its steps are.
+const SubdomainNeeds& needs_of(Laplacian laplacian, bool converged);
+
 /// A number of sub-meshes and the reason for it.
 struct SubdomainChoice {
     Index count = 1;
@@ -47,11 +54,30 @@ struct ToleranceChoice {
     std::string reason;
 };
 
-/// The tolerance of the options, if they have one. With Approach::Automatic, and unless another option asks for sweeps,
-/// steps are also converged, loosely, where a sweep would drift from the undecomposed step or cost more. So they are
-/// where the boundary moves, which sub-meshes can share only in converged steps.
+/// The tolerance of the options, if they have one. Where they leave open how sub-meshes are used, and unless another
+/// option asks for sweeps, steps are also converged, loosely, where a sweep would drift from the undecomposed step or
+/// cost more. So they are where the boundary moves, which sub-meshes can share only in converged steps.
 /// @param boundary_moves whether any boundary vertex does.
 ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, const FlowOptions& options,
                                  bool boundary_moves = false);
+
+/// How steps are taken: one of Sweep, Converged, ConjugateGradients and Undecomposed.
+struct ApproachChoice {
+    Approach approach = Approach::Sweep;
+    /// Empty: steps are not converged.
+    std::optional<double> tolerance = {};
+    /// A sentence; empty where the options decide.
+    std::string reason = {};
+    /// All ways that would do, the cheapest first; where there was no choice, none.
+    std::vector<PredictedCost> costs = {};
+};
+
+/// What the options ask for. With Approach::Automatic, unless they are about sub-meshes or sweeps, the way that costs
+/// least (see predict_cost), of those that come as near to the undecomposed flow as sub-meshes would by their own
+/// choice.
+/// @param topology with the vertices that move.
+/// @param earlier what was chosen for the steps that the flow goes on from, maybe for fewer of them: it stays.
+ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
+                               const FlowOptions& options, std::optional<Approach> earlier = {});
 
 }  // namespace seamflow

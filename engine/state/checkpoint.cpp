@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view first_line = "seamflow checkpoint\n";
 /// To be raised whenever `transfer` or the checksum changes.
-constexpr std::uint32_t format = 0x5ea30002;
+constexpr std::uint32_t format = 0x5ea30003;
 constexpr std::size_t n_checksum_bytes = sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason)
@@ -183,8 +183,8 @@ auto fields([[maybe_unused]] Struct& of)
         auto& [positions, arrays, numbers] = of;
         return std::tie(positions, arrays, numbers);
     } else if constexpr (Is<Struct, FlowState>) {
-        auto& [identity, cut, steps, seconds, displacement, flow, reference] = of;
-        return std::tie(identity, cut, steps, seconds, displacement, flow, reference);
+        auto& [identity, approach, cut, steps, seconds, displacement, flow, reference] = of;
+        return std::tie(identity, approach, cut, steps, seconds, displacement, flow, reference);
     }
 }
 
@@ -205,7 +205,7 @@ concept HasNumbers =
 template <class Archive, class Value>
 void transfer(Archive& archive, Value& value)
 {
-    if constexpr (std::is_arithmetic_v<Value>) {
+    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
         archive.number(value);
     } else if constexpr (HasFields<Value>) {
         std::apply([&](auto&... field) { (transfer(archive, field), ...); }, fields(value));

@@ -56,6 +56,8 @@ class StepMemoryReader {
 /// FlowControl::resume. It belongs to the mesh as it was before the first step, and to the options.
 struct FlowState {
     FlowIdentity identity;
+    /// How its steps are taken.
+    Approach approach = Approach::Sweep;
     /// Checksum of the cut.
     std::uint64_t cut = 0;
     /// As in the FlowReport: one for each step so far, and their seconds.

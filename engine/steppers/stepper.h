@@ -55,7 +55,7 @@ class Stepper {
 /// conjugate gradients, converged ones by the Schur complement or, of Laplacians without symmetry, by GMRES, or sweeps.
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param options with the tolerance that was chosen, if any.
-/// @param curvature #V: ‖ΔV⁰‖.
+/// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
 /// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
 ///         Cancelled.
 std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,

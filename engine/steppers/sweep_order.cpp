@@ -13,6 +13,8 @@ namespace {
 /// Σ‖ΔV‖ over the sub-mesh's own interior.
 double total_curvature(const SubMesh& sub_mesh, const std::vector<double>& curvature)
 {
+    if (curvature.empty())
+        return 0.0;
     std::vector<bool> counts(sub_mesh.n_vertices, true);
     for (const Index v : sub_mesh.interface.vertices)
         counts[v] = false;

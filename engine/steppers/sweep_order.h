@@ -11,7 +11,7 @@ namespace seamflow {
 /// Rank of each sub-mesh in a forward sweep, from 0; sub-meshes of one rank have one colour. With Colouring::Greedy the
 /// colour classes are ranked by decreasing Σ‖ΔV‖ over those vertices of their sub-meshes that are neither on the
 /// boundary nor on Γ: the paper's authors let the side with the larger total curvature start.
-/// @param curvature #V: ‖ΔV⁰‖.
+/// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
 std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Colouring colouring,
                                    const std::vector<double>& curvature);
 

@@ -6,20 +6,6 @@ namespace seamflow {
 
 namespace {
 
-bool is_oriented(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
-{
-    const auto is_turned = [&](Index h) {
-        const Index twin = topology.twin[h];
-        return twin >= 0 && mesh.face_vertices[h] == mesh.face_vertices[twin];
-    };
-    std::vector<std::uint8_t> has_turned(at(mesh.n_corners() / block_size) + 1, 0);
-    for_each_block(loop, mesh.n_corners(), [&](Index block, Index begin, Index end) {
-        for (Index h = begin; h < end && has_turned[block] == 0; ++h)
-            has_turned[block] = is_turned(h) ? 1 : 0;
-    });
-    return std::ranges::find(has_turned, 1) == has_turned.end();
-}
-
 /// Turns the faces of a fan alike. Its corners come in order around the vertex: a face that goes round it the same way
 /// has its previous vertex on the edge to the face before.
 void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, std::vector<std::int8_t>& sense)
@@ -38,11 +24,11 @@ void align(const PolygonMesh& mesh, const Topology& topology, const Fan& fan, st
 
 }  // namespace
 
-VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+VertexNormals::VertexNormals(const PolygonMesh& mesh, const Topology& topology)
     : mesh_(mesh)
     , topology_(topology)
 {
-    if (is_oriented(mesh, topology, loop))
+    if (topology.oriented)
         return;
     sense_.assign(mesh.n_corners(), 1);
     for (Index v = 0; v < mesh.n_vertices(); ++v)

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "partition/loop.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
 
@@ -17,7 +16,7 @@ namespace seamflow {
 class VertexNormals {
   public:
     /// @param mesh, topology must outlive the normals.
-    VertexNormals(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+    VertexNormals(const PolygonMesh& mesh, const Topology& topology);
 
     /// Of length 1, or 0 where there is none: without faces, or if their vector areas add up to nothing.
     /// @param positions #V by 3, not necessarily those of the mesh.

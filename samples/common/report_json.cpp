@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/options/option_names.h"
 #include "samples/common/peak_memory.h"
 #include "samples/common/smoothing_request.h"
 
@@ -143,6 +144,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
     json["radius"] =
         number(smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1))));
+    json["approach"] = option_name(report.convergence.approach);
     if (report.convergence.tolerance) {
         json["tolerance"] = number(*report.convergence.tolerance);
         json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;

@@ -26,6 +26,12 @@ std::string counted(Index count, const std::string& singular, const std::string&
 
 void print_cut(std::ostream& out, const FlowReport& report)
 {
+    if (takes_whole_mesh(report.convergence.approach)) {
+        out << fmt::format("cut        none: {} of the whole mesh\n",
+                           report.convergence.approach == Approach::Undecomposed ? "one factorisation"
+                                                                                 : "conjugate gradients");
+        return;
+    }
     out << fmt::format("cut        {} in {}, {}\n", counted(report.cut.n_sub_meshes(), "sub-mesh", "sub-meshes"),
                        counted(report.cut.n_colours(), "colour", "colours"),
                        counted(report.cut.interface_vertices, "interface vertex", "interface vertices"));

@@ -106,13 +106,14 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
     add_converge(
         app, options,
-        "the undecomposed step itself, to this relative residual; never: one sweep each step; auto: to 1e-2 where "
-        "sweeps would stray, unless another option speaks of sweeps [auto]");
+        "the undecomposed step itself, to this relative residual; never: one sweep each step; auto: loosely, where "
+        "--approach needs a tolerance or sweeps would stray, unless another option speaks of sweeps [auto]");
     add_choice(
         app, "--approach", options.accuracy.approach,
         "how a step is taken; sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
-        "step; cg: the whole mesh by conjugate gradients, which need hardly any set-up; the last two to --converge "
-        "or 1e-2; auto: as --converge says [auto]");
+        "step; decomposed: one of both; cg: the whole mesh by conjugate gradients, which need hardly any set-up; "
+        "undecomposed: the whole mesh by one factorisation; auto: the fastest, in sub-meshes where another option "
+        "speaks of them [auto]");
     add_integer(app, "--converge-iterations", options.accuracy.converge_iterations, 0,
                 "most iterations of a converged step [1000]");
     add_choice(app, "--factorisation", options.resources.factorisation,
@@ -168,23 +169,26 @@ std::string first_given(const CLI::App& app, std::initializer_list<const char*> 
     return {};
 }
 
+/// Options that show or set sub-meshes.
+constexpr auto of_sub_meshes_alone = {"--subdomains", "--labels", "--parts", "--task-graph", "--trace"};
+
 /// @param of_sweeps an option that is about sweeps; may be empty.
 void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
 {
-    if (app.count("--approach") == 0 || command.options.accuracy.approach == Approach::Automatic)
-        return;
     const Approach approach = command.options.accuracy.approach;
+    if (app.count("--approach") == 0 || approach == Approach::Automatic || approach == Approach::Decomposed)
+        return;
     const std::string name = fmt::format("--approach {}", option_name(approach));
     if (approach == Approach::Sweep && command.options.accuracy.tolerance)
         throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
     if (approach != Approach::Sweep && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
-    const std::string of_sub_meshes = first_given(
-        app, {"--subdomains", "--labels", "--parts", "--task-graph", "--trace", "--memory-limit", "--factorisation"});
-    if (approach == Approach::ConjugateGradients && !of_sub_meshes.empty())
+    std::string of_sub_meshes = first_given(app, of_sub_meshes_alone);
+    if (of_sub_meshes.empty() && approach == Approach::ConjugateGradients)
+        of_sub_meshes = first_given(app, {"--memory-limit", "--factorisation"});
+    if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
         throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
-                          " takes the whole mesh: leave one of "
-                          "them out");
+                          " takes the whole mesh: leave one of them out");
 }
 
 /// Options that would have no effect are a mistake of the user's.
@@ -291,6 +295,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
         if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)
             command.options.accuracy.approach = Approach::Sweep;
+    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
+        command.options.accuracy.approach = Approach::Decomposed;
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);

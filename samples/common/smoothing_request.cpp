@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/command_line.h"
@@ -53,7 +54,7 @@ LengthOnMesh parse_length(std::string_view text)
 
 MeshScale measure_scale(const PolygonMesh& mesh)
 {
-    MeshScale scale{.mean_edge = mean_edge_length(mesh)};
+    MeshScale scale{.mean_edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel)};
     if (mesh.n_vertices() > 0)
         scale.diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
     return scale;

@@ -22,16 +22,22 @@ Point curvature_by(const Surface& s, Index v)
     double degree = 0.0;
     double mass = 0.0;
     const Point here = s.positions.row(v);
-    for (const Index corner : s.topology.corners_at(v))
-        for (const Index end : {s.topology.next(s.mesh, corner), s.topology.previous(s.mesh, corner)}) {
-            const Point difference = here - s.positions.row(s.mesh.face_vertices[end]);
-            const typename Kernel::Edge edge(difference);
-            product += edge.weight(1.0) * difference;
-            mass += edge.mass();
-            degree += 1.0;
-        }
-    // Every edge of an interior vertex has been met twice: half of each of degree, mass and product.
-    return (degree / mass) * 0.5 * product;
+    // Where faces are oriented alike, each edge of an interior vertex begins one of its half-edges. Elsewhere those of
+    // two faces are met twice, which is half of each of degree, mass and product.
+    const bool once = s.topology.oriented && s.topology.kind[v] == VertexKind::Interior;
+    const auto add = [&](Index end) {
+        const Point difference = here - s.positions.row(s.mesh.face_vertices[end]);
+        const typename Kernel::Edge edge(difference);
+        product += edge.weight(1.0) * difference;
+        mass += edge.mass();
+        degree += 1.0;
+    };
+    for (const Index corner : s.topology.corners_at(v)) {
+        add(s.topology.next(s.mesh, corner));
+        if (!once)
+            add(s.topology.previous(s.mesh, corner));
+    }
+    return (degree / mass) * (once ? 1.0 : 0.5) * product;
 }
 
 template <FaceKernel Kernel>

@@ -93,23 +93,57 @@ void with_rows(Laplacian laplacian, const RowGeometry& geometry, Action&& action
     });
 }
 
-/// The other vertices in the row of v, ascending.
-void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Reach reach, Index v,
-                     std::vector<Index>& neighbours)
-{
-    neighbours.clear();
-    for (const Index corner : topology.corners_at(v)) {
-        if (reach == Reach::Edges) {
-            neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
-            neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
-            continue;
-        }
-        const auto face = mesh.face(topology.face_of[corner]);
-        neighbours.insert(neighbours.end(), face.begin(), face.end());
+/// Finds the other vertices in the rows of a matrix, ascending.
+class RowPattern {
+  public:
+    RowPattern(const PolygonMesh& mesh, const Topology& topology, Reach reach)
+        : mesh_(&mesh)
+        , topology_(&topology)
+        , along_edges_(reach == Reach::Edges || mesh.n_corners() == 3 * mesh.n_faces())
+    {
     }
-    sort_unique(neighbours);
-    std::erase(neighbours, v);
-}
+
+    [[nodiscard]] Index count(Index v)
+    {
+        if (next_are_all(v))
+            return static_cast<Index>(topology_->corners_at(v).size());
+        list(v);
+        return static_cast<Index>(neighbours_.size());
+    }
+
+    /// Those of v, until the next call.
+    const std::vector<Index>& list(Index v)
+    {
+        neighbours_.clear();
+        for (const Index corner : topology_->corners_at(v)) {
+            if (along_edges_) {
+                add(topology_->next(*mesh_, corner));
+                if (!next_are_all(v))
+                    add(topology_->previous(*mesh_, corner));
+                continue;
+            }
+            const auto face = mesh_->face(topology_->face_of[corner]);
+            neighbours_.insert(neighbours_.end(), face.begin(), face.end());
+        }
+        sort_unique(neighbours_);
+        std::erase(neighbours_, v);
+        return neighbours_;
+    }
+
+  private:
+    /// Whether the vertices after v in its faces are all that share edges with it, each met once.
+    [[nodiscard]] bool next_are_all(Index v) const
+    {
+        return along_edges_ && topology_->oriented && topology_->kind[v] == VertexKind::Interior;
+    }
+
+    void add(Index corner) { neighbours_.push_back(mesh_->face_vertices[corner]); }
+
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    bool along_edges_;
+    std::vector<Index> neighbours_;
+};
 
 /// Single precision is good for so much in one go; what may be left of a residual then without it being too little
 /// progress.
@@ -144,15 +178,14 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     const Reach reach = traits_of(laplacian).reach;
     for (const bool fill : {false, true}) {
         for_each_block(loop, mesh.n_vertices(), [&](Index, Index begin, Index end) {
-            std::vector<Index> neighbours;
+            RowPattern pattern(mesh, topology, reach);
             for (Index v = begin; v < end; ++v) {
                 if (!topology.moves(v))
                     continue;
-                list_neighbours(mesh, topology, reach, v, neighbours);
                 if (fill)
-                    std::copy(neighbours.begin(), neighbours.end(), columns_.begin() + offsets_[v]);
+                    std::ranges::copy(pattern.list(v), columns_.begin() + offsets_[v]);
                 else
-                    offsets_[v + 1] = static_cast<Index>(neighbours.size());
+                    offsets_[v + 1] = pattern.count(v);
             }
         });
         if (fill)

@@ -8,6 +8,7 @@
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
+#include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;
@@ -276,5 +277,25 @@ TEST_CASE("a converged step of a mesh at rest asks for no more than rounding lea
         const FlowReport report = mean_curvature_flow(mesh, options);
         CHECK(report.convergence.steps_short_of_tolerance == 0);
         CHECK(report.convergence.steps_stagnated == 0);
+    }
+}
+
+TEST_CASE("what is not measured changes no result, and is 0 in the report")
+{
+    const PolygonMesh mesh = make_mixed_polygons(600);
+    for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
+        CAPTURE(kind.name);
+        FlowOptions options = kind.options;
+        const Points expected = test::flowed(mesh, options);
+        options.report.measures = false;
+        PolygonMesh moved = mesh;
+        const FlowReport report = mean_curvature_flow(moved, options);
+        CHECK(test::same_bits(moved.vertices, expected));
+        CHECK(report.displacement.path.normal.max == 0.0);
+        for (const StepReport& step : report.steps) {
+            CHECK(step.displacement.normal.max == 0.0);
+            CHECK(step.max_mean_curvature_before == 0.0);
+            CHECK(step.max_mean_curvature_after == 0.0);
+        }
     }
 }

@@ -17,7 +17,8 @@ struct FlowKind {
     /// Whether there are systems of sub-meshes, to be factorised in a task each.
     [[nodiscard]] bool factorises() const
     {
-        return options.scheme == Scheme::BackwardEuler && options.accuracy.approach != Approach::ConjugateGradients;
+        return options.scheme == Scheme::BackwardEuler && options.accuracy.approach != Approach::ConjugateGradients &&
+               options.accuracy.approach != Approach::Automatic;
     }
 };
 
@@ -51,6 +52,7 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         });
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
     add("chosen", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });
+    add("undecomposed", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Undecomposed; });
     add("rescaled", [](FlowOptions& o) {
         o.accuracy.tolerance = 1e-2, o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
     });

@@ -1,11 +1,14 @@
 #include <cmath>
+#include <memory>
 
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/automatic_choices.h"
+#include "engine/state/flow_state.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/meshes.h"
+#include "tests/support/flows.h"
 
 using namespace seamflow;
 
@@ -46,6 +49,7 @@ TEST_CASE("without symmetry a sweep has smaller sub-meshes")
 {
     FlowOptions options;
     options.time_step = 1e-6;
+    options.accuracy.approach = Approach::Decomposed;
     PolygonMesh mesh = make_quads(8000);
     CHECK(mean_curvature_flow(mesh, options).cut.n_sub_meshes() == 3);
     options.laplacian = Laplacian::PtackovaVelho;
@@ -66,6 +70,7 @@ TEST_CASE("the choice and its reason are in the report, and so is a warning of n
 {
     FlowOptions options;
     options.time_step = 1e-6;
+    options.accuracy.approach = Approach::Decomposed;
     PolygonMesh mesh = make_quads(8000);
     const FlowReport chosen = mean_curvature_flow(mesh, options);
     CHECK(chosen.cut.n_sub_meshes() == 3);
@@ -143,6 +148,7 @@ TEST_CASE("the report has the tolerance that was chosen, and says why")
     const PolygonMesh mesh = make_triangles(10000);
     const auto report_of = [&](FlowOptions options) {
         PolygonMesh moved = mesh;
+        options.accuracy.approach = Approach::Decomposed;
         return mean_curvature_flow(moved, options);
     };
     const FlowReport converged = report_of(step_options(mesh, Laplacian::AlexaWardetzky, 50.0));
@@ -156,4 +162,99 @@ TEST_CASE("the report has the tolerance that was chosen, and says why")
     const FlowReport whole = report_of(step_options(mesh, Laplacian::AlexaWardetzky, 5000.0));
     CHECK(whole.cut.n_sub_meshes() == 1);
     CHECK_FALSE(whole.convergence.tolerance);
+}
+
+TEST_CASE("the number of iterations of conjugate gradients is foreseen within a factor of two")
+{
+    for (const PolygonMesh& mesh : {make_triangles(10000), make_hexagons(10000), make_mixed_polygons(10000),
+                                    make_noisy_sphere(10000)})
+        for (const Laplacian laplacian : test::symmetric_laplacians)
+            for (const double step : {1.0, 5.0, 50.0})
+                for (const double tolerance : {1e-2, 1e-4}) {
+                    FlowOptions options = step_options(mesh, laplacian, step);
+                    options.accuracy = {.tolerance = tolerance, .approach = Approach::ConjugateGradients};
+                    PolygonMesh moved = mesh;
+                    const int taken = mean_curvature_flow(moved, options).steps[0].iterations.value();
+                    const FlowSize size{.vertices = mesh.n_vertices(),
+                                        .rows = average_rows(mesh, make_topology(mesh), laplacian),
+                                        .time_step = options.time_step};
+                    const double foreseen = predicted_iterations(size, tolerance);
+                    CHECK(foreseen < 2.0 * taken + 1.0);
+                    CHECK(foreseen > 0.5 * taken - 1.0);
+                }
+}
+
+TEST_CASE("what costs least is chosen where nothing is said of sub-meshes, and as asked where there is")
+{
+    const PolygonMesh mesh = make_triangles(20000);
+    const Topology topology = make_topology(mesh);
+    const auto choice_of = [&](const FlowOptions& options) {
+        return choose_approach(mesh, topology, size_of(mesh), options);
+    };
+    const auto approach_of = [&](double step, int steps, Laplacian laplacian = Laplacian::Fujiwara) {
+        FlowOptions options = step_options(mesh, laplacian, step);
+        options.steps = steps;
+        const ApproachChoice choice = choice_of(options);
+        CHECK(choice.reason.empty() == (choice.approach == Approach::Sweep));
+        CHECK(choice.tolerance.has_value() ==
+              (choice.approach == Approach::Converged || choice.approach == Approach::ConjugateGradients));
+        for (const PredictedCost& cost : choice.costs)
+            CHECK(cost.of(steps) >= choice.costs.front().of(steps));
+        return choice.approach;
+    };
+    CHECK(approach_of(1.0, 1) == Approach::ConjugateGradients);
+    CHECK(approach_of(5.0, 10) == Approach::ConjugateGradients);
+    CHECK(approach_of(5.0, 1, Laplacian::AlexaWardetzky) == Approach::ConjugateGradients);
+    CHECK(approach_of(500.0, 1) == Approach::Undecomposed);
+    CHECK(approach_of(200.0, 1000) == Approach::Converged);
+    CHECK(approach_of(5.0, 1, Laplacian::PtackovaVelho) == Approach::Sweep);
+
+    const auto with = [&](auto change) {
+        FlowOptions options = step_options(mesh, Laplacian::Fujiwara, 1.0);
+        change(options);
+        const ApproachChoice choice = choice_of(options);
+        CHECK(choice.costs.empty());
+        return choice.approach;
+    };
+    CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::Decomposed; }) == Approach::Sweep);
+    CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::Undecomposed; }) == Approach::Undecomposed);
+    CHECK(with([](FlowOptions& o) { o.cut.subdomains = 4; }) == Approach::Sweep);
+    CHECK(with([&](FlowOptions& o) { o.cut.labels.assign(mesh.n_faces(), 0); }) == Approach::Sweep);
+    CHECK(with([](FlowOptions& o) { o.interface.colouring = Colouring::Label; }) == Approach::Sweep);
+    CHECK(with([](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; }) == Approach::Sweep);
+    CHECK(with([](FlowOptions& o) { o.resources.memory_limit = 1'000'000'000; }) == Approach::Sweep);
+    CHECK(with([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }) == Approach::Sweep);
+    CHECK(with([](FlowOptions& o) { o.cut.subdomains = 4, o.accuracy.tolerance = 1e-8; }) == Approach::Converged);
+}
+
+TEST_CASE("conjugate gradients are not chosen where their iterations would not do")
+{
+    const PolygonMesh mesh = make_triangles(20000);
+    const Topology topology = make_topology(mesh);
+    FlowOptions options = step_options(mesh, Laplacian::Fujiwara, 5.0);
+    REQUIRE(choose_approach(mesh, topology, size_of(mesh), options).approach == Approach::ConjugateGradients);
+    options.accuracy.converge_iterations = 20;
+    CHECK(choose_approach(mesh, topology, size_of(mesh), options).approach != Approach::ConjugateGradients);
+}
+
+TEST_CASE("what was chosen for few steps stays for more")
+{
+    const PolygonMesh mesh = make_triangles(20000);
+    FlowOptions options = step_options(mesh, Laplacian::Fujiwara, 200.0);
+    options.steps = 1;
+    std::shared_ptr<const FlowState> state;
+    PolygonMesh moved = mesh;
+    const FlowReport first = mean_curvature_flow(
+        moved, options, [&](const StepState& now) { state = std::make_shared<const FlowState>(now.capture()); });
+    REQUIRE(first.convergence.approach == Approach::Undecomposed);
+    options.steps = 1000;
+    CHECK(choose_approach(mesh, make_topology(mesh), size_of(mesh), options).approach == Approach::Converged);
+    CHECK(choose_approach(mesh, make_topology(mesh), size_of(mesh), options, state->approach).approach ==
+          Approach::Undecomposed);
+    options.steps = 2;
+    PolygonMesh resumed = mesh;
+    mean_curvature_flow(resumed, options, {}, {.stop = {}, .on_progress = {}, .resume = state});
+    FlowOptions undecomposed = options;
+    undecomposed.accuracy.approach = Approach::Undecomposed;
+    CHECK(test::same_bits(resumed.vertices, test::flowed(mesh, undecomposed)));
 }

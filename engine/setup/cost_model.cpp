@@ -1,0 +1,77 @@
+#include "engine/setup/cost_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seamflow {
+
+namespace {
+
+/// Seconds for each vertex: a constant part, and one for each coefficient of its row beside that of the diagonal.
+struct PerVertex {
+    double constant;
+    double per_coefficient;
+
+    [[nodiscard]] double of(const FlowSize& size) const
+    {
+        return 1e-9 * size.vertices * (constant + per_coefficient * size.rows.length);
+    }
+};
+
+constexpr PerVertex iteration{3.5, 0.7};
+constexpr PerVertex setup_of_conjugate_gradients{100.0, 25.0};
+constexpr PerVertex step_of_conjugate_gradients{20.0, 2.0};
+
+constexpr PerVertex setup_of_sweeps{300.0, 200.0};
+constexpr PerVertex step_of_sweeps{80.0, 14.0};
+constexpr PerVertex step_of_converged{120.0, 23.0};
+constexpr PerVertex interface_iteration{10.0, 0.0};
+/// Larger meshes are cut by clusters of faces.
+constexpr Index large_mesh = 250'000;
+constexpr double part_of_setup_if_large = 0.6;
+
+constexpr PerVertex setup_of_undecomposed{400.0, 55.0};
+/// Of a mesh of so many vertices; factors grow faster than meshes.
+constexpr PerVertex step_of_undecomposed{0.0, 75.0};
+constexpr double reference_vertices = 10'000.0;
+constexpr double growth_of_factors = 0.25;
+
+/// Of the bound, that iterations have been seen to take.
+constexpr double part_of_bound = 0.85;
+/// Iterations on Γ, for each factor of e of the residual.
+constexpr double interface_iterations = 0.6;
+
+}  // namespace
+
+double predicted_iterations(const FlowSize& size, double tolerance)
+{
+    const double condition = 2.0 * (1.0 + size.time_step * size.rows.stiffness);
+    return part_of_bound * 0.5 * std::sqrt(condition) * std::log(2.0 / tolerance);
+}
+
+PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance)
+{
+    PredictedCost cost{.approach = approach, .tolerance = tolerance};
+    const double reduction = tolerance ? -std::log(*tolerance) : 0.0;
+    switch (approach) {
+    case Approach::ConjugateGradients:
+        cost.setup = setup_of_conjugate_gradients.of(size);
+        cost.step = step_of_conjugate_gradients.of(size) +
+                    predicted_iterations(size, tolerance.value_or(1.0)) * iteration.of(size);
+        break;
+    case Approach::Undecomposed:
+        cost.setup = setup_of_undecomposed.of(size);
+        cost.step = step_of_undecomposed.of(size) *
+                    std::pow(std::max(size.vertices / reference_vertices, 1.0), growth_of_factors);
+        break;
+    default:
+        cost.setup = setup_of_sweeps.of(size) * (size.vertices < large_mesh ? 1.0 : part_of_setup_if_large);
+        cost.step = tolerance ? step_of_converged.of(size) +
+                                    interface_iterations * reduction * interface_iteration.of(size)
+                              : step_of_sweeps.of(size);
+        break;
+    }
+    return cost;
+}
+
+}  // namespace seamflow

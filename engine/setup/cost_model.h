@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "solvers/laplacian/row_averages.h"
+
+/// What a flow costs, by each way of taking its steps: fitted once to measurements of two cores (see
+/// samples/benchmark/speed.md), and used only to compare the ways with each other, so that results do not depend on
+/// the machine.
+namespace seamflow {
+
+/// What the costs depend on.
+struct FlowSize {
+    Index vertices = 0;
+    RowAverages rows;
+    /// dt of a step, in length².
+    double time_step = 0.0;
+    int steps = 1;
+};
+
+/// What to expect of a way of taking steps.
+struct PredictedCost {
+    Approach approach = Approach::Automatic;
+    /// Where steps are converged.
+    std::optional<double> tolerance = {};
+    /// What there is to do before the first step, and for each one, in seconds.
+    double setup = 0.0;
+    double step = 0.0;
+
+    [[nodiscard]] double of(int steps) const { return setup + steps * step; }
+};
+
+/// How many iterations a step by conjugate gradients takes: those by which the worst of all residuals shrinks to the
+/// tolerance (Saad, Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), or nearly so many.
+double predicted_iterations(const FlowSize& size, double tolerance);
+
+/// @param approach Sweep, Converged, ConjugateGradients or Undecomposed.
+/// @param tolerance of the steps, where they are converged.
+PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance = {});
+
+}  // namespace seamflow
