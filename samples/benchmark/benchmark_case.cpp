@@ -1,57 +1,39 @@
 #include "samples/benchmark/benchmark_case.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
-#include "partition/errors.h"
-#include "partition/metrics/vertex_distance.h"
 #include "samples/benchmark/loosest_tolerance.h"
-#include "samples/benchmark/method_process.h"
-#include "samples/benchmark/scratch_folder.h"
 
 namespace seamflow {
 
 namespace {
 
-constexpr double reference_tolerance = 1e-12;
 constexpr double tight_tolerance = 1e-8;
 constexpr double loose_tolerance = 1e-4;
-
-/// @param tolerance a power of ten, as everywhere but at equal accuracy.
-std::string with_tolerance(std::string_view title, double tolerance)
-{
-    const int exponent = static_cast<int>(std::lround(std::log10(tolerance)));
-    return std::string(title) + "-1e" + std::to_string(exponent);
-}
-
-std::string name_of(const MethodTask& task)
-{
-    const std::string_view title = title_of(task.method, task.options.laplacian);
-    return is_iterative(task.method) ? with_tolerance(title, task.tolerance) : std::string(title);
-}
 
 class Case {
   public:
     Case(const PolygonMesh& mesh, const CaseOptions& options, const std::function<void(const Row&)>& on_row)
-        : mesh_(mesh)
+        : rows_(mesh)
         , options_(options)
         , on_row_(on_row)
     {
-        write_mesh_for_methods(scratch_.path(), mesh);
     }
 
     CaseResult all()
     {
-        result_.vertices = mesh_.n_vertices();
-        result_.faces = mesh_.n_faces();
-        MethodTask task = task_of(Method::Ours, 0.0);
+        result_.vertices = rows_.mesh().n_vertices();
+        result_.faces = rows_.mesh().n_faces();
+        MethodTask task = task_of(Method::Ours);
         task.simulated_threads = options_.simulated_threads;
-        Row ours = run(task);
+        Row ours = rows_.run(task);
         require_success(ours);
-        find_reference();
-        measure(ours);
+        rows_.find_reference(options_.reference, options_.flow);
+        if (rows_.reference())
+            result_.reference = rows_.reference()->name;
+        rows_.measure(ours);
         result_.ours = ours;
         on_row_(ours);
         run_ours_in_one_thread();
@@ -61,62 +43,16 @@ class Case {
     }
 
   private:
-    [[nodiscard]] MethodTask task_of(Method method, double tolerance) const
+    [[nodiscard]] MethodTask task_of(Method method, double tolerance = 0.0) const
     {
-        MethodTask task{method, options_.flow, tolerance, {}};
-        if (method == Method::Amg)
-            task.options.resources.threads = 1;
-        return task;
+        return MethodRows::task_of(method, options_.flow, tolerance);
     }
 
-    Row run(const MethodTask& task) const
+    [[nodiscard]] Row run(const MethodTask& task) const
     {
-        const std::string obstacle = why_not(task.method, task.options.laplacian);
-        return {
-            name_of(task), task, obstacle.empty() ? run_in_process(scratch_.path(), task) : failed(obstacle), {}, {}};
-    }
-
-    static void require_success(const Row& row)
-    {
-        if (!row.succeeded())
-            throw ComputationError(row.name + ": " + row.result.error);
-    }
-
-    [[nodiscard]] bool is_small_enough_to_factorise() const
-    {
-        const bool two_rings = options_.flow.laplacian == Laplacian::PtackovaVelho;
-        return mesh_.n_vertices() <= (two_rings ? 300'000 : 2'000'000);
-    }
-
-    [[nodiscard]] Row run_direct_reference() const
-    {
-        const bool symmetric = options_.flow.laplacian != Laplacian::PtackovaVelho;
-        return run(task_of(symmetric ? Method::Cholmod : Method::Umfpack, 0.0));
-    }
-
-    void find_reference()
-    {
-        const Reference wanted = options_.reference;
-        if (wanted == Reference::None)
-            return;
-        if (wanted == Reference::Direct || (wanted == Reference::Automatic && is_small_enough_to_factorise()))
-            reference_row_ = run_direct_reference();
-        if (!reference_row_ || (wanted == Reference::Automatic && !reference_row_->succeeded()))
-            reference_row_ = run(task_of(Method::Krylov, reference_tolerance));
-        require_success(*reference_row_);
-        reference_ = std::exchange(reference_row_->result.positions, Points(0, 3));
-        result_.reference = reference_row_->name;
-    }
-
-    /// Distances take the place of the positions.
-    void measure(Row& row) const
-    {
-        const Points positions = std::exchange(row.result.positions, Points(0, 3));
-        if (!row.succeeded() || !reference_row_ || positions.rows() == 0)
-            return;
-        const VertexDistance distance = vertex_distance(mesh_, reference_, positions);
-        row.v_mean = distance.mean / distance.mean_edge;
-        row.v_max = distance.max / distance.mean_edge;
+        Row row = rows_.run(task);
+        rows_.measure(row);
+        return row;
     }
 
     void run_ours_in_one_thread()
@@ -125,11 +61,10 @@ class Case {
             std::find(options_.peers.begin(), options_.peers.end(), Method::Amg) != options_.peers.end();
         if (!wanted || options_.flow.resources.threads == 1)
             return;
-        MethodTask task = task_of(Method::Ours, 0.0);
+        MethodTask task = task_of(Method::Ours);
         task.options.resources.threads = 1;
         Row row = run(task);
         row.name = "ours-one-thread";
-        measure(row);
         on_row_(row);
         result_.ours_one_thread = std::move(row);
     }
@@ -142,15 +77,15 @@ class Case {
 
     void run_peer(Method peer)
     {
-        if (reference_row_ && !is_iterative(peer) && reference_row_->task.method == peer) {
-            reference_row_->v_mean = reference_row_->v_max = 0.0;
-            keep(*reference_row_);
+        const std::optional<Row>& reference = rows_.reference();
+        if (reference && !is_iterative(peer) && reference->task.method == peer) {
+            Row row = *reference;
+            row.v_mean = row.v_max = 0.0;
+            keep(std::move(row));
         } else if (is_iterative(peer)) {
             run_iterative(peer);
         } else {
-            Row row = run(task_of(peer, 0.0));
-            measure(row);
-            keep(std::move(row));
+            keep(run(task_of(peer)));
         }
     }
 
@@ -158,10 +93,8 @@ class Case {
     const Row& row_for(Method peer, double tolerance, std::map<double, Row>& rows) const
     {
         const auto [found, is_new] = rows.try_emplace(tolerance);
-        if (is_new) {
+        if (is_new)
             found->second = run(task_of(peer, tolerance));
-            measure(found->second);
-        }
         return found->second;
     }
 
@@ -172,7 +105,7 @@ class Case {
         if (!rows.at(tight_tolerance).succeeded())
             return;
         keep(row_for(peer, loose_tolerance, rows));
-        if (!reference_row_)
+        if (!rows_.reference())
             return;
         const Row& ours = result_.ours;
         keep_loosest(peer, "-equal-accuracy", rows, [&](const Row& row) { return *row.v_max <= *ours.v_max; });
@@ -195,12 +128,9 @@ class Case {
         keep(std::move(equal));
     }
 
-    const PolygonMesh& mesh_;
+    MethodRows rows_;
     const CaseOptions& options_;
     const std::function<void(const Row&)>& on_row_;
-    ScratchFolder scratch_;
-    std::optional<Row> reference_row_;
-    Points reference_ = Points(0, 3);
     CaseResult result_;
 };
 

@@ -1,27 +1,13 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "samples/benchmark/methods/method.h"
+#include "samples/benchmark/method_rows.h"
 
 namespace seamflow {
-
-/// Whose positions stand for the undecomposed flow.
-enum class Reference {
-    /// Direct up to two million vertices (300,000 for Ptáčková-Velho, whose factors are larger); beyond, and where that
-    /// fails, Iterative.
-    Automatic,
-    /// One factorisation of the whole mesh: CHOLMOD, for Ptáčková-Velho UMFPACK.
-    Direct,
-    /// Conjugate gradients (BiCGSTAB) to 1e-12.
-    Iterative,
-    /// No distances, and no rows at equal accuracy.
-    None,
-};
 
 /// What is held beside what.
 struct CaseOptions {
@@ -31,20 +17,6 @@ struct CaseOptions {
     Reference reference = Reference::Automatic;
     /// See MethodTask.
     std::vector<int> simulated_threads;
-};
-
-/// One method with one tolerance.
-struct Row {
-    /// As in the table and in JSON: "ours", "cholmod", "cg-1e-8", "cg-equal-accuracy", "cg-equal-both", …
-    std::string name;
-    MethodTask task;
-    /// Without the positions.
-    MethodResult result;
-    /// Distance to the undecomposed flow after all steps, in mean edge lengths of its mesh.
-    std::optional<double> v_mean;
-    std::optional<double> v_max;
-
-    [[nodiscard]] bool succeeded() const { return result.error.empty(); }
 };
 
 /// What was found for one mesh.

@@ -21,12 +21,16 @@ struct Peer {
     Method method;
 };
 
-constexpr std::array<Peer, 6> all_peers{{{"cholmod", Method::Cholmod},
-                                         {"umfpack", Method::Umfpack},
-                                         {"cg", Method::Krylov},
-                                         {"cg-ic", Method::KrylovIncomplete},
-                                         {"amg", Method::Amg},
-                                         {"cgal", Method::SmoothShape}}};
+constexpr std::array<Peer, 10> known_peers{{{"cholmod", Method::Cholmod},
+                                            {"umfpack", Method::Umfpack},
+                                            {"cg", Method::Krylov},
+                                            {"cg-ic", Method::KrylovIncomplete},
+                                            {"amg", Method::Amg},
+                                            {"cgal", Method::SmoothShape},
+                                            {"sweep", Method::OurSweep},
+                                            {"converged", Method::OurConverged},
+                                            {"our-cg", Method::OurCg},
+                                            {"undecomposed", Method::Undecomposed}}};
 
 constexpr Index smallest_of_scaling = 10'000;
 constexpr Index largest_of_scaling = 10'000'000;
@@ -35,8 +39,8 @@ constexpr Index most_vertices = 100'000'000;
 void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
 {
     auto* vertices = add_integer(app, "--vertices", command.vertices, 100,
-                                 "about so many, of the mesh that is made; with --scaling of the largest one "
-                                 "[100000; with --scaling 10000000]");
+                                 "about so many, of the mesh that is made; with --scaling and --grid of the largest "
+                                 "one [100000; with --scaling 10000000]");
     std::vector<std::pair<std::string, std::string>> kinds;
     for (const MeshKind& kind : mesh_kinds())
         kinds.emplace_back(kind.name, kind.name);
@@ -71,9 +75,14 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
 void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
 {
     require_valid(command.options.flow);
-    if (app.count("--scaling") > 0 && app.count("--vertices") > 0 && command.vertices < smallest_of_scaling)
-        throw OptionError("--scaling begins with " + std::to_string(smallest_of_scaling) +
+    const bool has_sizes = app.count("--scaling") + app.count("--grid") > 0;
+    if (has_sizes && app.count("--vertices") > 0 && command.vertices < smallest_of_scaling)
+        throw OptionError("--scaling and --grid begin with " + std::to_string(smallest_of_scaling) +
                           " vertices; --vertices is the largest number and must be no less");
+    const bool equals_accuracy =
+        app.count("--grid") > 0 || (app.count("--whole-run") > 0 && !command.options.peers.empty());
+    if (equals_accuracy && command.options.reference == Reference::None)
+        throw OptionError("peers of equal accuracy need a --reference");
     if (command.vertices > most_vertices)
         throw OptionError("--vertices must be at most " + std::to_string(most_vertices));
     if (!command.json.empty())
@@ -100,29 +109,54 @@ void prepare_simulation(const CLI::App& app, std::string_view threads, Benchmark
         flow.resources.memory_limit = std::numeric_limits<std::size_t>::max();
 }
 
+/// A single value takes the place of an axis.
+void prepare_grid(const CLI::App& app, BenchmarkCommand& command)
+{
+    command.mode = BenchmarkMode::Grid;
+    // Without a file the library gives one without a name.
+    std::erase(command.grid.files, std::filesystem::path());
+    if (app.count("--kind") > 0)
+        command.grid.kinds = {command.kind};
+    if (app.count("--time-step-edges") > 0)
+        command.grid.time_steps_edges = {command.time_step_edges};
+    if (app.count("--steps") > 0)
+        command.grid.steps = {command.options.flow.steps};
+}
+
+/// Who is compared with ours where --peers does not say.
+const char* usual_peers(BenchmarkMode mode)
+{
+    if (mode == BenchmarkMode::Grid)
+        return "cholmod,cg,amg";
+    if (mode == BenchmarkMode::WholeRun)
+        return "cholmod,cg";
+    return mode == BenchmarkMode::Case ? "all" : "none";
+}
+
 }  // namespace
 
 std::vector<Method> peers_named(std::string_view word)
 {
-    std::array<bool, all_peers.size()> wanted{};
-    if (word == "all")
-        wanted.fill(true);
+    std::array<bool, known_peers.size()> wanted{};
+    std::transform(known_peers.begin(), known_peers.end(), wanted.begin(),
+                   [&](const Peer& peer) { return word == "all" && !is_ours(peer.method); });
     for (std::string_view rest = word; word != "all" && word != "none";) {
         const std::string_view name = rest.substr(0, rest.find(','));
         const auto found =
-            std::find_if(all_peers.begin(), all_peers.end(), [&](const Peer& p) { return p.name == name; });
-        if (found == all_peers.end())
+            std::find_if(known_peers.begin(), known_peers.end(), [&](const Peer& p) { return p.name == name; });
+        if (found == known_peers.end())
             throw OptionError("--peers: \"" + std::string(name) +
-                              "\" is none of cholmod, umfpack, cg, cg-ic, amg, cgal; or all, or none");
-        wanted[static_cast<std::size_t>(found - all_peers.begin())] = true;
+                              "\" is none of cholmod, umfpack, cg, cg-ic, amg, cgal, sweep, converged, our-cg, "
+                              "undecomposed; or all, or none");
+        wanted[static_cast<std::size_t>(found - known_peers.begin())] = true;
         if (name.size() == rest.size())
             break;
         rest.remove_prefix(name.size() + 1);
     }
     std::vector<Method> peers;
-    for (std::size_t i = 0; i < all_peers.size(); ++i)
+    for (std::size_t i = 0; i < known_peers.size(); ++i)
         if (wanted[i])
-            peers.push_back(all_peers[i].method);
+            peers.push_back(known_peers[i].method);
     return peers;
 }
 
@@ -157,8 +191,9 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     add_mesh_options(app, command);
     add_flow_options(app, command);
     app.add_option("--peers", peers,
-                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal [all; none with --scaling, "
-                   "--threads-sweep and --simulate-threads]")
+                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is "
+                   "named: sweep,converged,our-cg,undecomposed [all but the last four; with --grid cholmod,cg,amg, "
+                   "with --whole-run cholmod,cg; none with --scaling, --threads-sweep and --simulate-threads]")
         ->type_name("LIST");
     auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
                                             {{"auto", Reference::Automatic},
@@ -190,17 +225,50 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes("--peers")
         ->excludes(export_folder)
         ->type_name("LIST");
+    app.add_option("--grid", command.grid.files,
+                   "who is the fastest at equal accuracy, set-up included: triangles, quads, hexagons and mixed "
+                   "polygons (or --kind) of 10^4, 10^5, … vertices, and these meshes; dt 1, 5, 50 and 500 (or "
+                   "--time-step-edges); 1, 3 and 10 steps (or --steps)")
+        ->expected(0, -1)
+        ->excludes(scaling)
+        ->excludes(sweep)
+        ->excludes("--simulate-threads")
+        ->excludes("--mesh")
+        ->excludes(export_folder)
+        ->type_name("[FILE ...]");
+    auto* whole_run =
+        app.add_flag_callback(
+               "--whole-run", [&] { command.mode = BenchmarkMode::WholeRun; },
+               "the program smooth from file to file, OBJ and PLY or as --mesh is, beside peers of equal accuracy from "
+               "file to file and one step of cholmod; with --scaling for 10^4, 10^5, … vertices")
+            ->excludes(sweep)
+            ->excludes("--grid")
+            ->excludes("--simulate-threads")
+            ->excludes("--conditions")
+            ->excludes("--q")
+            ->excludes("--memory-limit")
+            ->excludes(export_folder);
+    auto* turns =
+        add_integer(app, "--turns", command.turns, 1,
+                    "with --grid and --whole-run: how often what is compared is run, in turns; --grid goes by "
+                    "the least times [3]");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     if (app.count("--simulate-threads") > 0)
         prepare_simulation(app, simulated_threads, command);
     if (app.count("--conditions") > 0)
         command.options.flow.accuracy.approach = Approach::Sweep;
-    const bool sweeps = command.mode != BenchmarkMode::Case;
-    command.options.peers = peers_named(!peers.empty() ? peers : sweeps ? "none" : "all");
-    if (sweeps && command.options.peers.empty() && reference->count() == 0)
+    if (app.count("--grid") > 0)
+        prepare_grid(app, command);
+    if (whole_run->count() > 0)
+        command.mode = scaling->count() > 0 ? BenchmarkMode::WholeRunScaling : BenchmarkMode::WholeRun;
+    if (turns->count() > 0 && app.count("--grid") + whole_run->count() == 0)
+        throw OptionError("--turns belongs to --grid and --whole-run");
+    command.options.peers = peers_named(!peers.empty() ? peers : usual_peers(command.mode));
+    if (command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid && command.options.peers.empty() &&
+        reference->count() == 0)
         command.options.reference = Reference::None;
-    if (command.mode == BenchmarkMode::Scaling && app.count("--vertices") == 0)
+    if (scaling->count() > 0 && app.count("--vertices") == 0)
         command.vertices = largest_of_scaling;
     require_consistent(app, command);
     if (command.options.flow.resources.threads == 0)

@@ -21,6 +21,22 @@ enum class BenchmarkMode {
     ThreadsSweep,
     /// One mesh, ours, its tasks replayed with numbers of threads that this machine need not have.
     SimulateThreads,
+    /// Many meshes, time steps and numbers of steps: who is the fastest.
+    Grid,
+    /// One mesh, from file to file.
+    WholeRun,
+    /// The same of meshes of 10⁴, 10⁵, … vertices.
+    WholeRunScaling,
+};
+
+/// The cells of --grid: each mesh with each time step and each number of steps.
+struct GridAxes {
+    std::vector<std::string> kinds{"triangles", "quads", "hexagons", "mixed"};
+    /// Meshes to read, besides.
+    std::vector<std::filesystem::path> files;
+    /// In squared mean edge lengths.
+    std::vector<double> time_steps_edges{1.0, 5.0, 50.0, 500.0};
+    std::vector<int> steps{1, 3, 10};
 };
 
 /// The command line of `benchmark`.
@@ -34,13 +50,16 @@ struct BenchmarkCommand {
     /// All but the time step, which follows from the mesh; `threads` at least 1.
     CaseOptions options;
     BenchmarkMode mode = BenchmarkMode::Case;
+    GridAxes grid;
+    /// How often what is compared with each other is run, in turns; the least times count.
+    int turns = 3;
     /// Files and folders; empty: none.
     std::filesystem::path json;
     std::filesystem::path export_folder;
 };
 
-/// The peers that a word stands for: "all", "none", or names with commas between them (cholmod, umfpack, cg, cg-ic,
-/// amg, cgal), each one once, in that order.
+/// The peers that a word stands for: "none", names with commas between them (cholmod, umfpack, cg, cg-ic, amg, cgal,
+/// and of ours sweep, converged, our-cg, undecomposed), each one once, in that order; or "all" that are not ours.
 /// @throws OptionError for another word.
 std::vector<Method> peers_named(std::string_view word);
 

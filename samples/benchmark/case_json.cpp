@@ -6,6 +6,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json simulation_json(const Simulation& simulation)
+{
+    return {{"threads", simulation.workers},
+            {"makespan_s", simulation.makespan},
+            {"work_s", simulation.work},
+            {"speed_up", simulation.speed_up()},
+            {"efficiency", simulation.efficiency()},
+            {"critical_path_s", simulation.critical_path_seconds},
+            {"critical_path_tasks", simulation.critical_path.size()}};
+}
+
+}  // namespace
+
 Json row_json(const Row& row)
 {
     if (!row.succeeded())
@@ -21,29 +34,17 @@ Json row_json(const Row& row)
         json["v_mean"] = *row.v_mean;
         json["v_max"] = *row.v_max;
     }
-    if (is_iterative(row.task.method)) {
+    if (is_iterative(row.task.method))
         json["tolerance"] = row.task.tolerance;
+    if (row.result.iterations > 0)
         json["iterations"] = row.result.iterations;
-    }
-    if (row.task.method == Method::Ours) {
+    if (is_ours(row.task.method)) {
+        json["approach"] = row.result.approach;
         json["subdomains"] = row.result.subdomains;
         json["remarks"] = row.result.remarks;
     }
     return json;
 }
-
-Json simulation_json(const Simulation& simulation)
-{
-    return {{"threads", simulation.workers},
-            {"makespan_s", simulation.makespan},
-            {"work_s", simulation.work},
-            {"speed_up", simulation.speed_up()},
-            {"efficiency", simulation.efficiency()},
-            {"critical_path_s", simulation.critical_path_seconds},
-            {"critical_path_tasks", simulation.critical_path.size()}};
-}
-
-}  // namespace
 
 Json case_json(const std::string& mesh, double dt_over_h2, const CaseOptions& options, const CaseResult& result)
 {

@@ -6,6 +6,9 @@
 
 namespace seamflow {
 
+/// One method with one tolerance.
+nlohmann::ordered_json row_json(const Row& row);
+
 /// What was found for one mesh, as `--json` has it.
 /// @param mesh name of the mesh.
 /// @param dt_over_h2 time step in squared mean edge lengths.

@@ -76,7 +76,7 @@ void CaseTable::print(const Row& row)
                 {seconds(row.result.setup_seconds), phase(phases.assemble), phase(phases.prepare), phase(phases.solve),
                  seconds(step), seconds(row.result.total_seconds()),
                  short_number(static_cast<double>(row.result.peak_memory_bytes) / 1e6, 4),
-                 is_iterative(row.task.method) ? std::to_string(row.result.iterations) : "",
+                 row.result.iterations > 0 ? std::to_string(row.result.iterations) : "",
                  row.v_mean ? short_number(*row.v_mean, 2) : "", row.v_max ? short_number(*row.v_max, 2) : "",
                  short_number(step / ours_), one_thread ? short_number(step / ours_one_thread_) : ""});
 }
@@ -90,7 +90,7 @@ void CaseTable::finish(const CaseResult& result) const
              << " after the last step, in mean edge lengths\n";
     const auto is_iterative_row = [](const Row& row) { return is_iterative(row.task.method) && row.succeeded(); };
     if (std::any_of(result.peers.begin(), result.peers.end(), is_iterative_row)) {
-        out_ << "iter.: of all steps and coordinates";
+        out_ << "iter.: of all steps; of amg, cg-ic and bicgstab of all coordinates, too";
         if (!result.reference.empty())
             out_ << "; equal accuracy: the loosest tolerance with a V_max no larger than ours, equal both: V_mean too";
         out_ << '\n';

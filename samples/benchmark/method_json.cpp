@@ -62,7 +62,9 @@ MethodJson task_json(const MethodTask& task)
             {"memory_limit", optional_json(options.resources.memory_limit)},
             {"threads", options.resources.threads},
             {"tolerance", task.tolerance},
-            {"simulated_threads", task.simulated_threads}};
+            {"simulated_threads", task.simulated_threads},
+            {"input", task.input.string()},
+            {"output", task.output.string()}};
 }
 
 MethodTask task_of(const MethodJson& json)
@@ -81,6 +83,8 @@ MethodTask task_of(const MethodJson& json)
     json.at("threads").get_to(task.options.resources.threads);
     json.at("tolerance").get_to(task.tolerance);
     json.at("simulated_threads").get_to(task.simulated_threads);
+    task.input = json.at("input").get<std::string>();
+    task.output = json.at("output").get<std::string>();
     return task;
 }
 
@@ -98,6 +102,7 @@ MethodJson result_json(const MethodResult& result)
             {"phases", seconds_json(result.phases)},
             {"iterations", result.iterations},
             {"subdomains", result.subdomains},
+            {"approach", result.approach},
             {"simulations", simulations},
             {"peak_memory_bytes", result.peak_memory_bytes},
             {"remarks", result.remarks}};
@@ -113,6 +118,7 @@ MethodResult result_of(const MethodJson& json)
     result.phases = seconds_of(json.at("phases"));
     json.at("iterations").get_to(result.iterations);
     json.at("subdomains").get_to(result.subdomains);
+    json.at("approach").get_to(result.approach);
     for (const MethodJson& simulation : json.at("simulations"))
         result.simulations.push_back(simulation_of(simulation));
     json.at("peak_memory_bytes").get_to(result.peak_memory_bytes);

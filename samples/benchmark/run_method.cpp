@@ -5,6 +5,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/tasks/stopwatch.h"
+#include "samples/benchmark/methods/fused_cg.h"
 #include "samples/benchmark/methods/peer_solver.h"
 #include "samples/benchmark/methods/smooth_shape.h"
 
@@ -12,15 +13,42 @@ namespace seamflow {
 
 namespace {
 
-MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
+/// What a report tells of how steps were taken.
+std::string approach_of(const FlowReport& report)
+{
+    if (report.cut.n_sub_meshes() == 1)
+        return report.convergence.tolerance ? "cg" : "undecomposed";
+    return report.convergence.tolerance ? "converged" : "sweep";
+}
+
+/// The options of a task for the approach that its method names.
+FlowOptions options_of(const MethodTask& task)
 {
     FlowOptions options = task.options;
+    if (task.method == Method::OurSweep) {
+        options.accuracy.approach = Approach::Sweep;
+        options.accuracy.tolerance.reset();
+    }
+    if (task.method == Method::OurConverged)
+        options.accuracy.approach = Approach::Converged;
+    if (task.method == Method::OurCg)
+        options.accuracy.approach = Approach::ConjugateGradients;
+    if (task.method == Method::Undecomposed)
+        options.cut.subdomains = 1;
+    return options;
+}
+
+MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
+{
+    FlowOptions options = options_of(task);
     options.report.record_schedule = !task.simulated_threads.empty();
     const FlowReport report = mean_curvature_flow(mesh, options);
     MethodResult result;
     result.setup_seconds = report.seconds.cut + report.seconds.analyse;
-    for (const StepReport& step : report.steps)
+    for (const StepReport& step : report.steps) {
         result.steps.push_back({.total = step.seconds});
+        result.iterations += step.iterations.value_or(0);
+    }
     const auto n_steps = static_cast<double>(report.steps.size());
     result.phases.assemble = report.seconds.assemble / n_steps;
     result.phases.prepare = report.seconds.factorise / n_steps;
@@ -30,6 +58,7 @@ MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
         result.simulations.push_back(
             simulate(*report.schedule, static_cast<int>(median_step(result.steps)) + 1, threads));
     result.subdomains = report.cut.n_sub_meshes();
+    result.approach = approach_of(report);
     result.remarks = report.remarks;
     result.positions = std::move(mesh.vertices);
     return result;
@@ -69,10 +98,12 @@ MethodResult run_peer(const PolygonMesh& mesh, const MethodTask& task)
 
 MethodResult run_method(PolygonMesh mesh, const MethodTask& task)
 {
-    if (task.method == Method::Ours)
+    if (is_ours(task.method))
         return run_ours(std::move(mesh), task);
     if (task.method == Method::SmoothShape)
         return run_smooth_shape(mesh, task);
+    if (task.method == Method::Krylov && is_symmetric(task.options.laplacian))
+        return run_fused_cg(mesh, task);
     return run_peer(mesh, task);
 }
 

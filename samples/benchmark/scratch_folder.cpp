@@ -25,11 +25,12 @@ constexpr const char* mesh_file = "mesh.bin";
 constexpr const char* task_file = "task.json";
 constexpr const char* result_file = "result.json";
 constexpr const char* positions_file = "positions.bin";
-constexpr std::array all_files{mesh_file, task_file, result_file, positions_file};
+constexpr std::array all_files{mesh_file,    task_file,    result_file,  positions_file, "input.obj",  "input.ply",
+                               "output.obj", "output.off", "output.ply", "output.stl",   "report.json"};
 
 /// What to remove when the program is told to stop. A signal handler can do no more than hand over text that is there.
 struct Remains {
-    std::array<std::string, 4> files;
+    std::array<std::string, all_files.size()> files;
     std::string folder;
 };
 

@@ -22,8 +22,8 @@ class ScratchFolder {
     std::filesystem::path path_;
 };
 
-/// The files of such a folder; numbers are stored as memory has them.
-/// Writing throws OutputError naming the file, reading InputError.
+/// The files of such a folder; numbers are stored as memory has them. A whole run has its own there: input and output
+/// as .obj or .ply, and report.json. Writing throws OutputError naming the file, reading InputError.
 void write_mesh_for_methods(const std::filesystem::path& folder, const PolygonMesh& mesh);
 PolygonMesh read_mesh_for_methods(const std::filesystem::path& folder);
 void write_task(const std::filesystem::path& folder, const MethodTask& task);

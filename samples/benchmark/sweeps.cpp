@@ -10,7 +10,10 @@
 #include "partition/topology.h"
 #include "samples/benchmark/case_json.h"
 #include "samples/benchmark/case_text.h"
+#include "samples/benchmark/grid_cell.h"
+#include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/matrix_market.h"
+#include "samples/benchmark/whole_run.h"
 #include "samples/common/meshes.h"
 #include "samples/common/report_text.h"
 #include "solvers/laplacian/degenerate.h"
@@ -80,17 +83,24 @@ void print_line(std::ostream& out, const char* format, Numbers... numbers)
     out << text << std::endl;
 }
 
+/// 10⁴, 10⁵, … vertices.
+std::vector<Index> sizes_up_to(Index most)
+{
+    std::vector<Index> sizes{10'000};
+    while (sizes.back() < most)
+        sizes.push_back(std::min(10 * sizes.back(), most));
+    return sizes;
+}
+
 Json run_scaling(const BenchmarkCommand& command, std::ostream& out)
 {
     Json list = Json::array();
     std::vector<CaseResult> results;
-    for (Index vertices = 10'000;; vertices = std::min(10 * vertices, command.vertices)) {
+    for (const Index vertices : sizes_up_to(command.vertices)) {
         const PolygonMesh mesh = load(command, vertices);
         const CaseOptions options = options_for(command, mesh);
         results.push_back(run_table(command, mesh, options, out));
         list.push_back(case_json(name_of_mesh(command), command.time_step_edges, options, results.back()));
-        if (vertices == command.vertices)
-            break;
     }
     out << "  vertices  sub-meshes   step us/vertex  setup us/vertex     bytes/vertex\n";
     for (const CaseResult& result : results) {
@@ -134,6 +144,85 @@ Json run_threads_sweep(const BenchmarkCommand& command, std::ostream& out)
     return {{"threads_sweep", list}};
 }
 
+/// The meshes of a grid, as commands that each name one.
+std::vector<BenchmarkCommand> meshes_of_grid(const BenchmarkCommand& command)
+{
+    std::vector<BenchmarkCommand> commands;
+    BenchmarkCommand one = command;
+    for (const Index vertices : sizes_up_to(command.vertices))
+        for (const std::string& kind : command.grid.kinds) {
+            one.kind = kind;
+            one.vertices = vertices;
+            commands.push_back(one);
+        }
+    for (const std::filesystem::path& file : command.grid.files) {
+        one.mesh = file;
+        commands.push_back(one);
+    }
+    return commands;
+}
+
+/// Of one mesh in all formats.
+void run_whole_of(const BenchmarkCommand& command, Index vertices, std::ostream& out, std::vector<WholeRun>& runs)
+{
+    const PolygonMesh mesh = load(command, vertices);
+    const FlowOptions flow = options_for(command, mesh).flow;
+    const GridOptions options{command.options.peers, command.options.reference, command.turns};
+    const std::vector<std::string> formats = command.mesh.empty()
+                                                 ? std::vector<std::string>{"obj", "ply"}
+                                                 : std::vector{command.mesh.extension().string().substr(1)};
+    for (const std::string& format : formats) {
+        WholeRun& run =
+            runs.emplace_back(run_whole(mesh, command.mesh, format, flow, command.time_step_edges, options));
+        run.mesh = name_of_mesh(command);
+        print_whole_run(out, run);
+    }
+}
+
+Json run_whole_runs(const BenchmarkCommand& command, std::ostream& out)
+{
+    const bool is_scaling = command.mode == BenchmarkMode::WholeRunScaling;
+    std::vector<WholeRun> runs;
+    for (const Index vertices : is_scaling ? sizes_up_to(command.vertices) : std::vector{command.vertices})
+        run_whole_of(command, vertices, out, runs);
+    if (is_scaling)
+        out << "  vertices  format     us/vertex  bytes/vertex\n";
+    Json list = Json::array();
+    for (const WholeRun& run : runs) {
+        const auto n = static_cast<double>(run.vertices);
+        if (is_scaling)
+            print_line(out, "%10d  %6s  %12.3f  %12.0f", run.vertices, run.format.c_str(),
+                       1e6 * run.smooth.median() / n, static_cast<double>(run.peak_memory_bytes) / n);
+        list.push_back(whole_run_json(run));
+    }
+    return {{"whole_runs", list}};
+}
+
+Json run_grid(const BenchmarkCommand& command, std::ostream& out)
+{
+    const GridOptions options{command.options.peers, command.options.reference, command.turns};
+    Json list = Json::array();
+    std::vector<GridCell> cells;
+    print_grid_head(out);
+    for (BenchmarkCommand one : meshes_of_grid(command)) {
+        const PolygonMesh mesh = load(one, one.vertices);
+        GridRunner runner(mesh, options);
+        for (const double time_step_edges : command.grid.time_steps_edges)
+            for (const int steps : command.grid.steps) {
+                one.time_step_edges = time_step_edges;
+                one.options.flow.steps = steps;
+                GridCell cell = runner.run(options_for(one, mesh).flow);
+                cell.mesh = one.mesh.empty() ? one.kind : one.mesh.filename().string();
+                cell.time_step_edges = time_step_edges;
+                print_grid_cell(out, cell);
+                list.push_back(grid_cell_json(cell));
+                cells.push_back(std::move(cell));
+            }
+    }
+    print_grid_summary(out, cells);
+    return {{"grid", list}};
+}
+
 }  // namespace
 
 Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
@@ -145,6 +234,11 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_threads_sweep(command, out);
     case BenchmarkMode::SimulateThreads:
         return run_simulation(command, out);
+    case BenchmarkMode::Grid:
+        return run_grid(command, out);
+    case BenchmarkMode::WholeRun:
+    case BenchmarkMode::WholeRunScaling:
+        return run_whole_runs(command, out);
     case BenchmarkMode::Case:
         break;
     }

@@ -84,6 +84,87 @@ TEST_CASE("benchmark sweeps over sizes and over threads")
     CHECK(threads[1]["threads"] == 2);
 }
 
+TEST_CASE("benchmark finds out for a grid of cells who is the fastest at equal accuracy")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK
+                  " --grid mesh.obj --kind triangles --vertices 10000 --time-step-edges 5 --steps 2 --turns 1 "
+                  "--peers cholmod,cg,our-cg,undecomposed --json grid.json") == 0);
+    const Json cells = w.json("grid.json")["grid"];
+    REQUIRE(cells.size() == 2);
+    CHECK(cells[0]["mesh"] == "triangles");
+    CHECK(cells[1]["mesh"] == "mesh.obj");
+    int losses = 0;
+    for (const Json& cell : cells) {
+        CHECK(cell["steps"] == 2);
+        CHECK(cell["dt_over_h2"] == 5.0);
+        const Json& ours = cell["ours"];
+        const Json& fastest = cell["peers"][cell["fastest_peer"].get<std::string>()];
+        CHECK(fastest["v_max"].get<double>() <= std::max(ours["v_max"].get<double>(), 1e-3));
+        CHECK(fastest["v_mean"].get<double>() <= std::max(ours["v_mean"].get<double>(), 1e-4));
+        CHECK(cell["ratio"].get<double>() ==
+              doctest::Approx(fastest["all_s"].get<double>() / ours["all_s"].get<double>()));
+        losses += cell["ratio"].get<double>() < 1.0 ? 1 : 0;
+        CHECK(cell["peers"]["our-cg"]["approach"] == "cg");
+    }
+    CHECK(w.count_lines("said", "ours is not the fastest in " + std::to_string(losses) + " of 2 cells") == 1);
+    CHECK(w.count_lines("said", "  triangles, ") + w.count_lines("said", "  mesh.obj, ") == losses);
+}
+
+TEST_CASE("benchmark goes on where ours fails in a cell of its grid")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --grid --kind quads --vertices 10000 --steps 1 --turns 1 --converge 1e-8 "
+                            "--memory-limit 1K --peers none --json grid.json") == 0);
+    CHECK(w.json("grid.json")["grid"][3]["ours"].contains("error"));
+    CHECK(w.count_lines("said", "| quads | 10000 | failed | failed | failed | failed |") == 1);
+}
+
+TEST_CASE("benchmark runs smooth from file to file beside peers of equal accuracy")
+{
+    const Workshop w;
+    REQUIRE(w.run("mkdir scratch; TMPDIR=scratch " BENCHMARK " --whole-run --vertices 10000 --subdomains 4 --steps 2 "
+                  "--turns 2 --json whole.json") == 0);
+    CHECK(std::filesystem::is_empty(w.directory / "scratch"));
+    REQUIRE(w.run(BENCHMARK " --vertices 10000 --subdomains 4 --steps 2 --peers none --json case.json") == 0);
+    const double v_max = w.json("case.json")["ours"]["v_max"].get<double>();
+    const Json runs = w.json("whole.json")["whole_runs"];
+    REQUIRE(runs.size() == 2);
+    CHECK(runs[0]["format"] == "obj");
+    CHECK(runs[1]["format"] == "ply");
+    CHECK(runs[1]["file_bytes"] < runs[0]["file_bytes"]);
+    for (const Json& run : runs) {
+        CHECK(run["v_max"].get<double>() == doctest::Approx(v_max).epsilon(1e-6));
+        CHECK(run["smooth"]["turns_s"].size() == 2);
+        double sum = 0.0;
+        for (const auto& [name, seconds] : run["phases"].items()) {
+            CAPTURE(name);
+            CHECK(seconds.get<double>() > 0.0);
+            sum += seconds.get<double>();
+        }
+        CHECK(sum == doctest::Approx(run["smooth"]["least_s"].get<double>()));
+        CHECK(run["ratio_to_cholmod_step"].get<double>() ==
+              doctest::Approx(run["smooth"]["median_s"].get<double>() / run["cholmod_step"]["median_s"].get<double>()));
+        for (const char* peer : {"cholmod", "cg"}) {
+            CHECK(run["peers"][peer]["whole"]["turns_s"].size() == 2);
+            CHECK(run["peers"][peer]["whole"]["least_s"].get<double>() >
+                  run["peers"][peer]["all_s"].get<double>() / 4.0);
+        }
+    }
+}
+
+TEST_CASE("benchmark runs smooth on a given file, and on larger and larger ones")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --whole-run --mesh mesh.obj --steps 1 --turns 1 --peers none --json whole.json") == 0);
+    const Json run = w.json("whole.json")["whole_runs"][0];
+    CHECK(run["file_bytes"] == std::filesystem::file_size(w.directory / "mesh.obj"));
+    CHECK_FALSE(run.contains("v_max"));
+    REQUIRE(w.run(BENCHMARK " --whole-run --scaling --vertices 15000 --steps 1 --turns 1 --json whole.json") == 0);
+    CHECK(w.json("whole.json")["whole_runs"].size() == 4);
+    CHECK(w.count_lines("said", "     10000     obj") == 1);
+}
+
 TEST_CASE("benchmark replays its tasks with more threads than there are")
 {
     const Workshop w;
@@ -167,6 +248,17 @@ TEST_CASE("benchmark refuses wrong usage and unusable files")
                                   "--simulate-threads 1 --peers cg",
                                   "--simulate-threads 1 --scaling",
                                   "--simulate-threads 1 --threads-sweep",
+                                  "--grid --scaling",
+                                  "--grid --mesh mesh.obj",
+                                  "--grid --vertices 1000",
+                                  "--grid --reference none",
+                                  "--grid --turns 0",
+                                  "--turns 2",
+                                  "--whole-run --grid",
+                                  "--whole-run --threads-sweep",
+                                  "--whole-run --export exported",
+                                  "--whole-run --reference none",
+                                  "--whole-run --memory-limit 1G",
                                   "--conditions ventcell",
                                   "--q 0.1",
                                   "--memory-limit 0",

@@ -73,19 +73,12 @@ using IncompleteLu = Eigen::IncompleteLUT<double, int>;
 
 std::unique_ptr<PeerSolver> make_krylov_solver(Method method, Laplacian laplacian, double tolerance, int threads)
 {
-    const bool jacobi = method == Method::Krylov;
-    if (laplacian == Laplacian::PtackovaVelho) {
-        if (jacobi)
-            return std::make_unique<Krylov<Eigen::BiCGSTAB<Matrix, Jacobi>>>(SystemForm::AsTheyStand, tolerance,
-                                                                             threads);
-        return std::make_unique<Krylov<Eigen::BiCGSTAB<Matrix, IncompleteLu>>>(SystemForm::AsTheyStand, tolerance,
-                                                                               threads);
-    }
-    if (jacobi)
-        return std::make_unique<Krylov<Eigen::ConjugateGradient<Matrix, both_triangles, Jacobi>>>(SystemForm::Symmetric,
-                                                                                                  tolerance, threads);
-    return std::make_unique<Krylov<Eigen::ConjugateGradient<Matrix, both_triangles, IncompleteCholesky>>>(
-        SystemForm::Symmetric, tolerance, threads);
+    if (laplacian != Laplacian::PtackovaVelho)
+        return std::make_unique<Krylov<Eigen::ConjugateGradient<Matrix, both_triangles, IncompleteCholesky>>>(
+            SystemForm::Symmetric, tolerance, threads);
+    if (method == Method::Krylov)
+        return std::make_unique<Krylov<Eigen::BiCGSTAB<Matrix, Jacobi>>>(SystemForm::AsTheyStand, tolerance, threads);
+    return std::make_unique<Krylov<Eigen::BiCGSTAB<Matrix, IncompleteLu>>>(SystemForm::AsTheyStand, tolerance, threads);
 }
 
 }  // namespace seamflow

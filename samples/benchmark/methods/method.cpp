@@ -6,6 +6,11 @@
 
 namespace seamflow {
 
+bool is_ours(Method method)
+{
+    return method <= Method::Undecomposed;
+}
+
 bool is_iterative(Method method)
 {
     return method == Method::Krylov || method == Method::KrylovIncomplete || method == Method::Amg;
@@ -13,7 +18,8 @@ bool is_iterative(Method method)
 
 std::string why_not(Method method, Laplacian laplacian)
 {
-    if (laplacian == Laplacian::PtackovaVelho && (method == Method::Cholmod || method == Method::Amg))
+    const bool needs_symmetry = method == Method::Cholmod || method == Method::Amg || method == Method::OurCg;
+    if (laplacian == Laplacian::PtackovaVelho && needs_symmetry)
         return "left out: Ptáčková-Velho is not symmetric";
     return {};
 }
@@ -24,6 +30,14 @@ std::string_view title_of(Method method, Laplacian laplacian)
     switch (method) {
     case Method::Ours:
         return "ours";
+    case Method::OurSweep:
+        return "sweep";
+    case Method::OurConverged:
+        return "converged";
+    case Method::OurCg:
+        return "our-cg";
+    case Method::Undecomposed:
+        return "undecomposed";
     case Method::Cholmod:
         return "cholmod";
     case Method::Umfpack:

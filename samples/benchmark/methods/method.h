@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,13 +15,18 @@ namespace seamflow {
 
 /// Who takes the steps.
 enum class Method {
-    /// mean_curvature_flow, decomposed.
+    /// mean_curvature_flow.
     Ours,
+    /// The same by an approach that is named: one sweep, converged, by conjugate gradients; and in a single sub-mesh.
+    OurSweep,
+    OurConverged,
+    OurCg,
+    Undecomposed,
     /// One sparse factorisation of the whole mesh: Cholesky by CHOLMOD, LU by UMFPACK.
     Cholmod,
     Umfpack,
-    /// Conjugate gradients of Eigen with Jacobi, and with incomplete Cholesky. For Δ_P, which is not symmetric, its
-    /// BiCGSTAB with Jacobi, and with incomplete LU.
+    /// Conjugate gradients with Jacobi (see run_fused_cg), and those of Eigen with incomplete Cholesky. For Δ_P, which
+    /// is not symmetric, Eigen's BiCGSTAB with Jacobi, and with incomplete LU.
     Krylov,
     KrylovIncomplete,
     /// Conjugate gradients with the algebraic multigrid BoomerAMG of hypre, in one thread.
@@ -29,26 +35,32 @@ enum class Method {
     SmoothShape,
 };
 
-/// Whether a method stops at a tolerance instead of solving exactly.
+/// Whether a method is mean_curvature_flow.
+bool is_ours(Method method);
+
+/// Whether a method stops at MethodTask::tolerance instead of solving exactly.
 bool is_iterative(Method method);
 
 /// Why a method cannot take steps of that Laplacian; empty: it can.
 std::string why_not(Method method, Laplacian laplacian);
 
-/// How a row of the table is called: "ours", "cholmod", "umfpack", "cg", "cg-ic", "bicgstab", "bicgstab-ilut", "amg" or
-/// "cgal".
+/// How a row of the table is called: "ours", "sweep", "converged", "our-cg", "undecomposed", "cholmod", "umfpack",
+/// "cg", "cg-ic", "bicgstab", "bicgstab-ilut", "amg" or "cgal".
 std::string_view title_of(Method method, Laplacian laplacian);
 
 /// Everything that decides about the steps of one method.
 struct MethodTask {
     Method method = Method::Ours;
-    /// Laplacian, time step, number of steps, threads (at least 1). Sub-meshes and conditions are for Ours.
+    /// Laplacian, time step, number of steps, threads (at least 1). All else is for ours.
     FlowOptions options;
     /// Of an iterative method: the largest residual of a coordinate, in the length of its right-hand side, as libraries
     /// measure it; with coordinates from the centroid of the mesh, so that it does not matter where that lies.
     double tolerance = 0.0;
     /// Of Ours: numbers of threads to replay the median step with (see simulate).
     std::vector<int> simulated_threads;
+    /// Where not empty: the mesh is read from one file, and the result written to the other.
+    std::filesystem::path input = {};
+    std::filesystem::path output = {};
 };
 
 /// Wall-clock time of one step, and where it goes.
@@ -70,12 +82,16 @@ struct MethodResult {
     std::vector<StepSeconds> steps;
     /// Of Ours: per step, summed over all threads; `solve` includes the correction. Of others: of the median step.
     StepSeconds phases;
-    /// Iterations of all steps and coordinates.
+    /// Iterations of all steps, and of all coordinates where those are iterated one by one.
     int iterations = 0;
     /// Number of sub-meshes.
     Index subdomains = 1;
+    /// Of ours: how it took its steps, "sweep", "converged", "cg" or "undecomposed".
+    std::string approach;
     /// One for each of MethodTask::simulated_threads.
     std::vector<Simulation> simulations;
+    /// Wall-clock time of the process that took the steps, from its start to its end.
+    double process_seconds = 0.0;
     /// Of the process that took the steps, the mesh included.
     std::int64_t peak_memory_bytes = 0;
     std::vector<std::string> remarks;

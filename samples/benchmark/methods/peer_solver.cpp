@@ -16,8 +16,7 @@ std::unique_ptr<PeerSolver> make_peer_solver(const MethodTask& task)
         return make_krylov_solver(task.method, task.options.laplacian, task.tolerance, task.options.resources.threads);
     case Method::Amg:
         return make_amg_solver(task.tolerance);
-    case Method::Ours:
-    case Method::SmoothShape:
+    default:
         break;
     }
     throw ComputationError("no solver of linear equations belongs to this method");

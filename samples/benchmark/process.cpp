@@ -1,0 +1,72 @@
+#include "samples/benchmark/process.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "engine/tasks/stopwatch.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Variables by which libraries learn how many threads they may start. CHOLMOD asks for four, whatever OMP_NUM_THREADS
+/// says: the limit stops it. Threads that wait are to sleep.
+std::vector<std::string> environment_for(int threads)
+{
+    const std::string number = std::to_string(threads);
+    std::vector<std::string> variables{"OMP_NUM_THREADS=" + number, "OMP_THREAD_LIMIT=" + number,
+                                       "OPENBLAS_NUM_THREADS=" + number, "OMP_WAIT_POLICY=passive"};
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+        const std::string text = *variable;
+        if (!text.starts_with("OMP_") && !text.starts_with("OPENBLAS_NUM_THREADS="))
+            variables.push_back(text);
+    }
+    return variables;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts)
+{
+    std::vector<char*> pointers;
+    for (std::string& text : texts)
+        pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+std::string run_and_wait(const std::string& program, std::vector<std::string>& words,
+                         std::vector<std::string>& variables)
+{
+    pid_t child = 0;
+    const int failure = posix_spawn(&child, program.c_str(), nullptr, nullptr, pointers_to(words).data(),
+                                    pointers_to(variables).data());
+    if (failure != 0)
+        return std::string("cannot be started: ") + std::strerror(failure);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR)
+            return std::string("cannot be waited for: ") + std::strerror(errno);
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        return "killed, most likely because the memory of this machine does not suffice";
+    if (WIFSIGNALED(status))
+        return std::string("ended by the signal \"") + strsignal(WTERMSIG(status)) + "\"";
+    return WEXITSTATUS(status) == 0 ? "" : "ended with status " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+ProcessEnd run_process(const std::string& program, std::vector<std::string> words, int threads)
+{
+    std::vector<std::string> variables = environment_for(threads);
+    const Stopwatch watch;
+    ProcessEnd end;
+    end.failure = run_and_wait(program, words, variables);
+    end.seconds = watch.seconds();
+    return end;
+}
+
+}  // namespace seamflow

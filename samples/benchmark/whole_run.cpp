@@ -1,0 +1,261 @@
+#include "samples/benchmark/whole_run.h"
+
+#include <algorithm>
+#include <fstream>
+#include <ostream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "samples/benchmark/case_json.h"
+#include "samples/benchmark/grid_report.h"
+#include "samples/benchmark/process.h"
+
+namespace seamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The program that lies beside this one.
+std::string path_of_smooth()
+{
+    return (fs::read_symlink("/proc/self/exe").parent_path() / "smooth").string();
+}
+
+std::vector<std::string> words_of_smooth(const fs::path& input, const fs::path& output, const fs::path& report,
+                                         const WholeRun& run)
+{
+    const FlowOptions& flow = run.flow;
+    std::vector<std::string> words{"smooth",
+                                   input.string(),
+                                   output.string(),
+                                   "--quiet",
+                                   "--laplacian",
+                                   std::string(name_of(flow.laplacian)),
+                                   "--time-step-edges",
+                                   fmt::format("{}", run.time_step_edges),
+                                   "--steps",
+                                   std::to_string(flow.steps),
+                                   "--threads",
+                                   std::to_string(flow.resources.threads),
+                                   "--report",
+                                   report.string()};
+    if (flow.cut.subdomains > 0)
+        words.insert(words.end(), {"--subdomains", std::to_string(flow.cut.subdomains)});
+    if (flow.accuracy.tolerance)
+        words.insert(words.end(), {"--converge", fmt::format("{}", *flow.accuracy.tolerance)});
+    else if (flow.accuracy.approach == Approach::Sweep)
+        words.insert(words.end(), {"--converge", "never"});
+    return words;
+}
+
+/// One run from file to file, in turn after turn.
+class WholeRunner {
+  public:
+    WholeRunner(const GridRunner& grid, const fs::path& given, WholeRun& run)
+        : grid_(grid)
+        , run_(run)
+        , input_(given.empty() ? grid.rows().scratch().path() / ("input." + run.format) : given)
+        , output_(grid.rows().scratch().path() / ("output." + run.format))
+    {
+        if (given.empty())
+            write_mesh(input_, grid.rows().mesh(), kind_for_writing(input_, FileKind{}));
+        run_.file_bytes = fs::file_size(input_);
+    }
+
+    /// The output that is left is that of `smooth`.
+    void take_turn()
+    {
+        for (WholePeer& peer : run_.peers) {
+            if (peer.row.task.method == Method::Cholmod)
+                run_cholmod_step();
+            const Row row = grid_.rows().run(peer.row.task);
+            require_success(row);
+            peer.whole.seconds.push_back(row.result.process_seconds);
+        }
+        run_smooth();
+    }
+
+    void add_peer(Row row)
+    {
+        row.task.input = input_;
+        row.task.output = output_;
+        run_.peers.push_back({std::move(row), {}});
+    }
+
+    /// How near the output of `smooth` is to the undecomposed flow.
+    void measure_output()
+    {
+        Row row;
+        row.result.positions = read_mesh(output_).mesh.vertices;
+        grid_.rows().measure(row);
+        run_.v_max = row.v_max;
+        run_.v_mean = row.v_mean;
+    }
+
+  private:
+    void run_smooth()
+    {
+        const fs::path report = grid_.rows().scratch().path() / "report.json";
+        const ProcessEnd end =
+            run_process(path_of_smooth(), words_of_smooth(input_, output_, report, run_), run_.flow.resources.threads);
+        if (!end.failure.empty())
+            throw ComputationError("smooth: " + end.failure);
+        run_.smooth.seconds.push_back(end.seconds);
+        if (end.seconds == run_.smooth.least())
+            note_phases(Json::parse(std::ifstream(report)), end.seconds);
+    }
+
+    void note_phases(const Json& report, double whole)
+    {
+        const Json& seconds = report.at("seconds");
+        WholeRunPhases& phases = run_.phases;
+        seconds.at("read").get_to(phases.read);
+        seconds.at("cut").get_to(phases.cut);
+        seconds.at("analyse").get_to(phases.analyse);
+        seconds.at("step").get_to(phases.steps);
+        seconds.at("write").get_to(phases.write);
+        const double total = seconds.at("total").get<double>();
+        phases.measuring = total - phases.cut - phases.analyse - phases.steps;
+        phases.rest = whole - phases.read - total - phases.write;
+        report.at("peak_memory_bytes").get_to(run_.peak_memory_bytes);
+    }
+
+    void run_cholmod_step()
+    {
+        FlowOptions flow = run_.flow;
+        flow.steps = 1;
+        const Row row = grid_.rows().run(MethodRows::task_of(Method::Cholmod, flow));
+        require_success(row);
+        run_.cholmod_step.seconds.push_back(row.result.step_seconds());
+    }
+
+    const GridRunner& grid_;
+    WholeRun& run_;
+    fs::path input_;
+    fs::path output_;
+};
+
+Json turns_json(const Turns& turns)
+{
+    return {{"least_s", turns.least()}, {"median_s", turns.median()}, {"turns_s", turns.seconds}};
+}
+
+Json phases_json(const WholeRunPhases& phases)
+{
+    return {
+        {"read", phases.read},           {"cut", phases.cut},     {"analyse", phases.analyse}, {"steps", phases.steps},
+        {"measuring", phases.measuring}, {"write", phases.write}, {"rest", phases.rest}};
+}
+
+void print_turns(std::ostream& out, const std::string& name, const Turns& turns, const Turns& smooth)
+{
+    out << fmt::format("{:<34} {:>9.4f} {:>9.4f} {:>9.2f}\n", name, turns.least(), turns.median(),
+                       turns.median() / smooth.median());
+}
+
+}  // namespace
+
+double Turns::least() const
+{
+    return *std::min_element(seconds.begin(), seconds.end());
+}
+
+double Turns::median() const
+{
+    std::vector<double> sorted = seconds;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return *middle;
+}
+
+double WholeRun::ratio_to_cholmod_step() const
+{
+    return smooth.median() / cholmod_step.median();
+}
+
+WholeRun run_whole(const PolygonMesh& mesh, const fs::path& given, const std::string& format, const FlowOptions& flow,
+                   double time_step_edges, const GridOptions& options)
+{
+    WholeRun run;
+    run.vertices = mesh.n_vertices();
+    run.flow = flow;
+    run.time_step_edges = time_step_edges;
+    run.format = format;
+    GridOptions once = options;
+    once.turns = 1;
+    GridRunner grid(mesh, once);
+    WholeRunner runner(grid, given, run);
+    if (!options.peers.empty()) {
+        const GridCell cell = grid.run(flow);
+        for (const Row& peer : cell.peers)
+            if (is_as_near(peer, cell.ours))
+                runner.add_peer(peer);
+    }
+    for (int turn = 0; turn < options.turns; ++turn)
+        runner.take_turn();
+    runner.measure_output();
+    return run;
+}
+
+void print_whole_run(std::ostream& out, const WholeRun& run)
+{
+    out << fmt::format("{}, {} vertices, {} of {:.1f} MB, {}, dt {} squared mean edge lengths, {} steps, {} threads, "
+                       "{} turns\n{:<34} {:>9} {:>9} {:>9}\n",
+                       run.mesh, run.vertices, run.format, static_cast<double>(run.file_bytes) / 1e6,
+                       name_of(run.flow.laplacian), run.time_step_edges, run.flow.steps, run.flow.resources.threads,
+                       run.smooth.seconds.size(), "seconds, from file to file", "least", "median", "ratio");
+    print_turns(out, "smooth", run.smooth, run.smooth);
+    const WholeRunPhases& p = run.phases;
+    for (const auto& [name, value] :
+         {std::pair{"read", p.read}, std::pair{"cut", p.cut}, std::pair{"analyse", p.analyse},
+          std::pair{"steps", p.steps}, std::pair{"measuring", p.measuring}, std::pair{"write", p.write},
+          std::pair{"rest", p.rest}})
+        out << fmt::format("  {:<32} {:>9.4f}\n", name, value);
+    for (const WholePeer& peer : run.peers)
+        print_turns(out, name_with_tolerance(peer.row), peer.whole, run.smooth);
+    if (!run.cholmod_step.seconds.empty()) {
+        print_turns(out, "one step of cholmod, no files", run.cholmod_step, run.smooth);
+        out << fmt::format("smooth takes {:.2f} of one step of cholmod\n", run.ratio_to_cholmod_step());
+    }
+    if (run.v_max)
+        out << fmt::format("V_max {:.1e}, V_mean {:.1e} mean edge lengths; peers are at least as near\n", *run.v_max,
+                           *run.v_mean);
+    out << fmt::format("peak memory of smooth: {:.0f} MB\n", static_cast<double>(run.peak_memory_bytes) / 1e6)
+        << std::endl;
+}
+
+Json whole_run_json(const WholeRun& run)
+{
+    Json json{{"mesh", run.mesh},
+              {"vertices", run.vertices},
+              {"format", run.format},
+              {"file_bytes", run.file_bytes},
+              {"laplacian", name_of(run.flow.laplacian)},
+              {"dt_over_h2", run.time_step_edges},
+              {"steps", run.flow.steps},
+              {"threads", run.flow.resources.threads},
+              {"smooth", turns_json(run.smooth)},
+              {"phases", phases_json(run.phases)},
+              {"peak_memory_bytes", run.peak_memory_bytes}};
+    if (run.v_max) {
+        json["v_max"] = *run.v_max;
+        json["v_mean"] = *run.v_mean;
+    }
+    if (!run.cholmod_step.seconds.empty()) {
+        json["cholmod_step"] = turns_json(run.cholmod_step);
+        json["ratio_to_cholmod_step"] = run.ratio_to_cholmod_step();
+    }
+    json["peers"] = Json::object();
+    for (const WholePeer& peer : run.peers) {
+        Json& row = json["peers"][peer.row.name] = row_json(peer.row);
+        row["whole"] = turns_json(peer.whole);
+    }
+    return json;
+}
+
+}  // namespace seamflow

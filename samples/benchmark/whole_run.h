@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "samples/benchmark/grid_cell.h"
+
+namespace seamflow {
+
+/// Where the time of one run of `smooth` goes, in seconds of wall-clock time.
+struct WholeRunPhases {
+    double read = 0.0;
+    double cut = 0.0;
+    double analyse = 0.0;
+    double steps = 0.0;
+    /// What is measured of the steps.
+    double measuring = 0.0;
+    double write = 0.0;
+    /// Start and end of the process, and all else.
+    double rest = 0.0;
+};
+
+/// Seconds of several turns.
+struct Turns {
+    std::vector<double> seconds;
+    [[nodiscard]] double least() const;
+    [[nodiscard]] double median() const;
+};
+
+/// A method from file to file, a process for each turn.
+struct WholePeer {
+    Row row;
+    Turns whole;
+};
+
+/// `smooth` from file to file, a process for each turn, and what was run in turns with it.
+struct WholeRun {
+    std::string mesh;
+    Index vertices = 0;
+    FlowOptions flow;
+    /// dt in squared mean edge lengths.
+    double time_step_edges = 0.0;
+    /// Without the dot.
+    std::string format;
+    std::uintmax_t file_bytes = 0;
+    Turns smooth;
+    /// Of the turn with the least time.
+    WholeRunPhases phases;
+    std::int64_t peak_memory_bytes = 0;
+    /// Distance to the undecomposed flow.
+    std::optional<double> v_max;
+    std::optional<double> v_mean;
+    /// One step by CHOLMOD, analysis and files excepted; empty without CHOLMOD among the peers.
+    Turns cholmod_step;
+    /// As near to the undecomposed flow as ours: see GridRunner.
+    std::vector<WholePeer> peers;
+
+    /// Medians: all of `smooth` in steps of CHOLMOD.
+    [[nodiscard]] double ratio_to_cholmod_step() const;
+};
+
+/// Writes the mesh in a format, unless it is a file already, and runs `smooth`, which lies beside this program, and the
+/// peers on that file.
+/// @param given the file of the mesh; empty: it is written as `format`.
+/// @param time_step_edges dt in squared mean edge lengths.
+/// @throws ComputationError if `smooth` fails; as GridRunner.
+WholeRun run_whole(const PolygonMesh& mesh, const std::filesystem::path& given, const std::string& format,
+                   const FlowOptions& flow, double time_step_edges, const GridOptions& options);
+
+void print_whole_run(std::ostream& out, const WholeRun& run);
+nlohmann::ordered_json whole_run_json(const WholeRun& run);
+
+}  // namespace seamflow
