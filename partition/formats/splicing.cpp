@@ -64,7 +64,7 @@ MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Loop& l
     : mesh_(mesh)
     , before_(std::move(before))
     , topology_(make_topology(mesh, loop))
-    , normals_(mesh, topology_, loop)
+    , normals_(mesh, topology_)
 {
 }
 

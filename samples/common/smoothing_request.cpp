@@ -6,7 +6,6 @@
 #include <string>
 
 #include "engine/measure/surface_measures.h"
-#include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/command_line.h"
