@@ -125,6 +125,9 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     , curvature_before_(largest_curvature(prepared_->curvature))
 {
     Stopwatch watch;
+    if (prepared_->curvature.empty() && options().report.measures)
+        curvature_before_ =
+            measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, options().laplacian);
     describe(*prepared_, mesh.mesh(), report);
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
     stepper_ =

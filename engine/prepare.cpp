@@ -76,7 +76,8 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
         const FlowOptions& options = prepared.options;
         // Colours are ordered by it.
         const bool is_ordering = options.accuracy.approach == Approach::Sweep;
-        if (options.report.measures || is_ordering)
+        const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
+        if (is_ordering || is_beside_cut)
             prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, options.laplacian);
         if (options.report.measures)
             prepared.meter.emplace(mesh, prepared.topology);

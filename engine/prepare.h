@@ -28,7 +28,7 @@ struct PreparedFlow {
     Topology topology;
     /// The sub-mesh of every face.
     Cut cut;
-    /// #V: ‖ΔV⁰‖, in 1/length; empty where nobody needs it.
+    /// #V: ‖ΔV⁰‖, in 1/length; empty where nobody needs that of each vertex.
     std::vector<double> curvature;
     /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
