@@ -17,6 +17,7 @@ foreach(header IN ITEMS
         engine/state/checkpoint.h
         engine/state/flow_identity.h
         engine/state/flow_state.h
+        engine/tasks/parallel_loop.h
         partition/eigen.h
         partition/errors.h
         partition/formats/mesh_io.h

@@ -135,7 +135,8 @@ struct Format {
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                         const PolygonMesh& mesh, const Slicing& slicing);
     /// See extras_of; null: there are none.
-    std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content);
+    std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content,
+                                       const Slicing& slicing);
 };
 
 constexpr std::array<Format, 4> all_formats = {{
@@ -166,7 +167,8 @@ constexpr std::array<Format, 4> all_formats = {{
      .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
                  const Slicing& slicing) { write_off(file, mesh, slicing); },
      .rewrite = rewrite_off,
-     .extras = extras_of_off},
+     .extras = [](const std::filesystem::path& path, std::string_view content,
+                  const Slicing&) { return extras_of_off(path, content); }},
     {.format = FileFormat::Ply,
      .name = "PLY",
      .extension = ".ply",
@@ -177,7 +179,8 @@ constexpr std::array<Format, 4> all_formats = {{
      .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding encoding,
                  const Slicing& slicing) { write_ply(file, mesh, encoding, slicing); },
      .rewrite = rewrite_ply,
-     .extras = extras_of_ply},
+     .extras = [](const std::filesystem::path& path, std::string_view content,
+                  const Slicing&) { return extras_of_ply(path, content); }},
     {.format = FileFormat::Stl,
      .name = "STL",
      .extension = ".stl",
@@ -373,7 +376,8 @@ std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop)
 {
     const Format& format = format_of(source.kind());
     const InputFile input = source.read_again(loop);
-    return format.extras != nullptr ? format.extras(source.path(), input.content()) : std::vector<std::string>{};
+    return format.extras != nullptr ? format.extras(source.path(), input.content(), {loop})
+                                    : std::vector<std::string>{};
 }
 
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,

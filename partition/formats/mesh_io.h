@@ -14,9 +14,6 @@
 
 namespace seamflow {
 
-// All functions that read or write a mesh do so slice by slice on the threads of a loop (see Loop; engine/tasks has
-// run_in_parallel). What is read and written never depends on it.
-
 /// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
 enum class FileFormat { Obj, Off, Ply, Stl };
 
@@ -72,6 +69,8 @@ struct MeshFile {
 /// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
 /// memory. A file that gzip has compressed is unpacked, whatever its name is; `.gz` may follow the extension. `-` is
 /// standard input, whose format is recognised from its content. Only these two are kept, unpacked, in memory.
+/// @param loop runs what is done slice by slice; seamflow::run_in_parallel uses all threads. Here and in the functions
+///        below, the result never depends on it.
 /// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.

@@ -173,6 +173,24 @@ std::string_view extra_of_statement(std::string_view keyword)
     return "other statements";
 }
 
+std::vector<std::string> extras_of_slice(TextScanner scanner)
+{
+    std::vector<std::string> extras;
+    while (scanner.next_line()) {
+        const std::string_view keyword = scanner.token();
+        if (is_obj_face(keyword))
+            continue;
+        if (keyword != "v") {
+            add_once(extras, extra_of_statement(keyword));
+            continue;
+        }
+        const std::size_t n = scanner.pass_over_rest();
+        if (n > 3)
+            add_once(extras, n > 5 ? "colours" : "weights");
+    }
+    return extras;
+}
+
 }  // namespace
 
 std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
@@ -223,22 +241,17 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
     });
 }
 
-std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text)
+std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
 {
-    TextScanner scanner(path, text, obj_syntax);
+    const TextScanner whole(path, text, obj_syntax);
+    const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
+    std::vector<std::vector<std::string>> of_slice(slices.size());
+    for_each(slicing.loop, static_cast<Index>(slices.size()),
+             [&](Index i) { of_slice[i] = extras_of_slice(TextScanner(whole, slices[i])); });
     std::vector<std::string> extras;
-    while (scanner.next_line()) {
-        const std::string_view keyword = scanner.token();
-        if (is_obj_face(keyword))
-            continue;
-        if (keyword != "v") {
-            add_once(extras, extra_of_statement(keyword));
-            continue;
-        }
-        const std::size_t n = scanner.pass_over_rest();
-        if (n > 3)
-            add_once(extras, n > 5 ? "colours" : "weights");
-    }
+    for (const auto& list : of_slice)
+        for (const std::string& extra : list)
+            add_once(extras, extra);
     return extras;
 }
 

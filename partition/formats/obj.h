@@ -65,6 +65,7 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
 
 /// What such a file holds besides a surface, in a few words each; comments do not count.
 /// @param path for messages only.
-std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text);
+std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text,
+                                       const Slicing& slicing = {});
 
 }  // namespace seamflow

@@ -26,8 +26,8 @@ void prefer_large_pages(void* memory, std::size_t n_bytes)
 #endif
 }
 
-/// Makes room for one more element of each of the parts, and for as many in each of the slices that follow, in large
-/// pages: to touch memory for the first time takes longer than to copy it.
+/// Makes room for the parts, and for as much in each of the slices that follow, up to a multiple of what there is, in
+/// large pages: to touch memory for the first time takes longer than to copy it.
 template <class Value>
 void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
                std::vector<Value> PolygonMesh::*member)
@@ -40,7 +40,8 @@ void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, I
     }
     if (sum <= values.capacity())
         return;
-    values.reserve(sum + at(n_to_follow) * largest);
+    constexpr std::size_t most_growth = 8;
+    values.reserve(sum + std::min(at(n_to_follow) * largest, most_growth * sum));
     prefer_large_pages(values.data(), values.capacity() * sizeof(Value));
 }
 

@@ -9,7 +9,12 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/formats/obj.h"
+#include "partition/formats/off.h"
+#include "partition/formats/ply.h"
+#include "partition/formats/stl.h"
 #include "partition/inspection/mesh_inspection.h"
+#include "partition/io/input_file.h"
 #include "partition/topology.h"
 #include "tests/fuzz/fuzzed_file.h"
 
@@ -88,6 +93,34 @@ void write_and_read_again(const FuzzedFile& file, const MeshFile& read)
         demand_same(file, anew, moved, stl && floats ? 1e-7 : 0.0);
 }
 
+/// Reads the content of a file in slices of few bytes.
+PolygonMesh read_in_slices(std::string_view content)
+{
+    const Slicing slicing{run_serially, 7};
+    switch (*format_of("a" + extension)) {
+    case FileFormat::Obj:
+        return read_obj("a", content, slicing);
+    case FileFormat::Off:
+        return read_off("a", content, slicing);
+    case FileFormat::Ply:
+        return read_ply("a", content, slicing).mesh;
+    case FileFormat::Stl:
+        break;
+    }
+    return read_stl("a", content, slicing).mesh;
+}
+
+/// The mesh in the file, read in slices; nothing if it has faults or is no mesh.
+std::optional<PolygonMesh> mesh_in_slices(const FuzzedFile& file)
+{
+    const InputFile input{OpenFile(file.path())};
+    try {
+        return read_in_slices(input.content());
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
@@ -98,9 +131,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_b
     try {
         const MeshFile read = read_mesh(file.path());
         demand(faults == 0U, "what can be read has no faults");
+        const auto in_slices = mesh_in_slices(file);
+        demand(in_slices && same_surface(read.mesh, *in_slices, 0.0), "slices make the same mesh");
         write_and_read_again(file, read);
     } catch (const InputError&) {
         demand(faults != 0U, "what has no faults can be read");
+        demand(!mesh_in_slices(file), "what cannot be read in one go cannot be read in slices");
     }
     return 0;
 }

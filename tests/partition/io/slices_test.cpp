@@ -224,8 +224,11 @@ TEST_CASE("good and bad texts, cut anywhere, are read as in one go, with the sam
 {
     for (const auto& files : {good_files(), bad_files()})
         for (const auto& [format, content] : files)
-            for (std::size_t bytes = 0; bytes < content.size(); ++bytes)
+            for (std::size_t bytes = 0; bytes < content.size(); ++bytes) {
                 check_reading(format, content, bytes);
+                if (format == FileFormat::Obj)
+                    CHECK(extras_of_obj("a", content, {last_slice_first, bytes}) == extras_of_obj("a", content));
+            }
     for (const auto& [format, content] : good_files())
         CHECK(outcome_of(format, content, {last_slice_first, 1}, false).messages.empty());
     for (const auto& [format, content] : bad_files())
@@ -248,6 +251,26 @@ TEST_CASE("binary files, cut anywhere, are read as in one go; cut off and damage
                 }
             }
         }
+}
+
+TEST_CASE("a file without faults is read slice by slice to its end, and not again in one go")
+{
+    const PolygonMesh mesh = any_mesh(1, true);
+    std::vector<File> files{{FileFormat::Off, binary_off(mesh)}};
+    for (const FileFormat format : {FileFormat::Obj, FileFormat::Off, FileFormat::Ply, FileFormat::Stl})
+        files.push_back({format, written(mesh, {format, Encoding::Ascii})});
+    for (const FileKind& kind : binary_kinds)
+        files.push_back({kind.format, written(mesh, kind)});
+    for (const auto& [format, content] : files) {
+        CAPTURE(content.substr(0, 100));
+        Index n_slices = 0;
+        const Loop counting = [&](Index n, const LoopBody& body) {
+            run_serially(n, body);
+            n_slices += n;
+        };
+        read(format, content, {counting, 1}, nullptr);
+        CHECK(n_slices > mesh.n_faces() / 2);
+    }
 }
 
 TEST_CASE("files cut anywhere are written again as in one go")
