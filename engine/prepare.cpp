@@ -39,7 +39,8 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
         return cut_by_labels(mesh, topology, options.cut.labels, loop);
     if (options.cut.subdomains > 0)
         return cut_into(mesh, topology, options.cut.subdomains, loop, alongside);
-    const SubdomainChoice choice = choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
+    const SubdomainChoice choice =
+        choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
     Cut cut = cut_into(mesh, topology, choice.count, loop, alongside);
     cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
     return cut;
@@ -98,9 +99,8 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
     progress.count();
     const Topology& topology = prepared->topology;
     AccuracyOptions& accuracy = prepared->options.accuracy;
-    const ApproachChoice choice =
-        choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
-                        resume != nullptr ? std::optional(resume->approach) : std::nullopt);
+    const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
+                                                  resume != nullptr ? std::optional(resume->approach) : std::nullopt);
     accuracy.approach = choice.approach;
     accuracy.tolerance = choice.tolerance;
     progress.count();

@@ -81,4 +81,12 @@ void require_valid(const PolygonMesh& mesh, const Loop& loop)
                         bad_vertices.front()));
 }
 
+void copy(const Loop& loop, const Points& from, Points& to)
+{
+    to.resize(from.rows(), 3);
+    for_each_block(loop, static_cast<Index>(from.rows()), [&](Index, Index begin, Index end) {
+        to.middleRows(begin, end - begin) = from.middleRows(begin, end - begin);
+    });
+}
+
 }  // namespace seamflow

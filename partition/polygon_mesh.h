@@ -47,4 +47,8 @@ struct PolygonMesh {
 /// @throws InputError naming the first offending face or vertex (numbered from 0).
 void require_valid(const PolygonMesh& mesh, const Loop& loop = run_serially);
 
+/// Makes `to` what `from` is.
+/// @param from, to #V by 3.
+void copy(const Loop& loop, const Points& from, Points& to);
+
 }  // namespace seamflow

@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/common/compare_command.h"
 #include "samples/common/output_files.h"
@@ -17,8 +18,9 @@ ExitStatus compare(int argc, char** argv)
     CompareCommand command;
     if (const auto end = parse_compare_command(argc, argv, command))
         return *end;
-    const PolygonMesh reference = read_mesh(command.reference).mesh;
-    const PolygonMesh candidate = read_mesh(command.candidate).mesh;
+    Workers workers(0);
+    const PolygonMesh reference = read_mesh(command.reference, workers.loop()).mesh;
+    const PolygonMesh candidate = read_mesh(command.candidate, workers.loop()).mesh;
 
     Comparison comparison = compare_meshes(reference, candidate, command.direction);
     comparison.reference = command.reference.string();

@@ -3,7 +3,9 @@
 #include <iostream>
 #include <limits>
 
+#include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
 #include "samples/common/command_line.h"
 #include "samples/common/meshes.h"
 #include "samples/common/output_files.h"
@@ -31,7 +33,10 @@ ExitStatus generate(int argc, char** argv)
     const RealLimits not_negative{0.0, 1e6};
     int seed = 1;
     app.add_option("KIND", kind, listed_kinds())->required()->type_name("");
-    app.add_option("OUTPUT", output, "the mesh: " + extensions_of())->required()->type_name("");
+    app.add_option("OUTPUT", output,
+                   "the mesh: " + extensions_of() + ", .gz behind it or not; - for OBJ on standard output")
+        ->required()
+        ->type_name("");
     add_integer(app, "--vertices", vertices, 100, "about so many vertices [10000]");
     auto* seed_option = add_integer(app, "--seed", seed, 0, "of everything drawn at random [1]");
     add_real(app, "--amplitude", variation.amplitude, any, "height of the waves [that of the kind]");
@@ -44,9 +49,9 @@ ExitStatus generate(int argc, char** argv)
     require_writable(output);
 
     const PolygonMesh mesh = make_mesh(kind, vertices, variation);
-    write_mesh(output, mesh, file_kind);
-    std::cout << output.string() << ": " << mesh.n_vertices() << " vertices, " << mesh.n_faces() << " faces"
-              << std::endl;
+    write_mesh(output, mesh, file_kind, Workers(0).loop());
+    std::ostream& out = is_standard_stream(output) ? std::cerr : std::cout;
+    out << output.string() << ": " << mesh.n_vertices() << " vertices, " << mesh.n_faces() << " faces" << std::endl;
     return ExitStatus::Success;
 }
 

@@ -2,7 +2,6 @@
 
 #include <iostream>
 
-#include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
@@ -21,16 +20,19 @@ ExitStatus inspect_file(int argc, char** argv)
     std::filesystem::path input;
     bool as_json = false;
     int most_listed = 10;
-    app.add_option("INPUT", input, "mesh: " + extensions_of())->required()->type_name("");
+    app.add_option("INPUT", input, "mesh: " + extensions_of() + ", .gz behind it or not; - for standard input")
+        ->required()
+        ->type_name("");
     app.add_flag("--json", as_json, "write everything as JSON, with all elements");
     add_integer(app, "--list", most_listed, 0, "how many elements of each kind are named without --json [10]");
     if (const auto end = parse_command_line(app, argc, argv))
         return *end;
 
     FaultLog faults;
-    const PolygonMesh mesh = read_faulty_mesh(input, faults).mesh;
-    MeshInspection found;
-    Workers(0).execute([&] { found = inspect(mesh, make_topology(mesh, run_in_parallel), run_in_parallel); });
+    Workers workers(0);
+    const Loop loop = workers.loop();
+    const PolygonMesh mesh = read_faulty_mesh(input, faults, loop).mesh;
+    const MeshInspection found = inspect(mesh, make_topology(mesh, loop), loop);
     if (as_json)
         std::cout << inspection_json(input.string(), faults, found);
     else

@@ -21,6 +21,7 @@
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
@@ -65,10 +66,10 @@ std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMes
 
 /// Prints every step, writes it where --every-step asks for that, and hands it to the page.
 StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
-                           std::optional<PageFlow>& page, std::ostream& out)
+                           std::optional<PageFlow>& page, std::ostream& out, const Loop& loop)
 {
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &input, &write_seconds, &page, &out, mean_edge, snapshot](const StepState& state) mutable {
+    return [&command, &input, &write_seconds, &page, &out, &loop, mean_edge, snapshot](const StepState& state) mutable {
         print_step(out, state.report, state.step, command.options.steps, mean_edge);
         if (page)
             page->add_step(state.step, state.positions, state.reference_positions);
@@ -77,17 +78,18 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
         const Stopwatch watch;
         if (state.separated == nullptr)
             snapshot.vertices = state.positions;
-        write_state(command.every_step->path(state.step), snapshot, state.separated, input);
+        write_state(command.every_step->path(state.step), snapshot, state.separated, input, loop);
         write_seconds += watch.seconds();
     };
 }
 
 /// @returns remarks for the user.
-std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report)
+std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report,
+                                       const Loop& loop)
 {
-    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file);
+    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, loop);
     if (!command.parts.empty())
-        write_labelled_ply(command.parts, file.mesh, report.cut.labels);
+        write_labelled_ply(command.parts, file.mesh, report.cut.labels, loop);
     return remarks;
 }
 
@@ -138,15 +140,17 @@ ExitStatus smooth(int argc, char** argv)
         return *end;
     Interruption interruption("smooth");
     std::ostream silence(nullptr);
-    std::ostream& out = command.quiet ? silence : std::cout;
+    std::ostream& out = command.quiet ? silence : is_standard_stream(command.output) ? std::cerr : std::cout;
     RunRecord run{.input = command.input.string(),
                   .output = command.output.string(),
                   .arguments = command.arguments,
                   .laplacian = std::string(name_of(command.options.laplacian))};
 
     const Stopwatch reading;
-    MeshFile file = read_mesh(command.input);
-    run.scale = measure_scale(file.mesh);
+    Workers workers(command.options.resources.threads);
+    const Loop loop = workers.loop();
+    MeshFile file = read_mesh(command.input, loop);
+    run.scale = measure_scale(file.mesh, loop);
     complete_options(command, file.mesh, run.scale);
     run.read_seconds = reading.seconds();
     print_input(out, run, file.mesh);
@@ -156,11 +160,12 @@ ExitStatus smooth(int argc, char** argv)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    const std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file);
+    const std::vector<std::string> losses =
+        remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
     std::optional<PageFlow> page = make_page(command, file.mesh);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =
-        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out));
+        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, loop));
     FlowReport report;
     try {
         const FlowControl control = long_run.control();
@@ -183,7 +188,7 @@ ExitStatus smooth(int argc, char** argv)
         page->add_step(command.options.steps, file.mesh.vertices, nullptr);
 
     const Stopwatch writing;
-    for (const auto& remarks : {losses, write_results(command, file, report)})
+    for (const auto& remarks : {losses, write_results(command, file, report, loop)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     write_reports(command, run, report, page);

@@ -12,6 +12,29 @@ namespace seamflow {
 
 namespace {
 
+/// Around position(0) … position(n - 1).
+template <class Position>
+BoundingBox box_of(Index n, Position&& position)
+{
+    if (n == 0)
+        return {};
+    std::vector<BoundingBox> of_block(at(n / block_size) + 1, {position(0), position(0)});
+    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
+        BoundingBox box = of_block[block];
+        for (Index i = begin; i < end; ++i) {
+            box.low = box.low.cwiseMin(position(i));
+            box.high = box.high.cwiseMax(position(i));
+        }
+        of_block[block] = box;
+    });
+    BoundingBox box = of_block.front();
+    for (const BoundingBox& part : of_block) {
+        box.low = box.low.cwiseMin(part.low);
+        box.high = box.high.cwiseMax(part.high);
+    }
+    return box;
+}
+
 double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Laplacian laplacian,
                     Index v)
 {
@@ -24,16 +47,7 @@ double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Poi
 
 BoundingBox box_of_faces(const PolygonMesh& mesh)
 {
-    if (mesh.face_vertices.empty())
-        return {};
-    const Point first = mesh.vertices.row(mesh.face_vertices.front());
-    BoundingBox box{first, first};
-    for (const Index v : mesh.face_vertices) {
-        const Point position = mesh.vertices.row(v);
-        box.low = box.low.cwiseMin(position);
-        box.high = box.high.cwiseMax(position);
-    }
-    return box;
+    return box_of(mesh.n_corners(), [&](Index corner) { return mesh.vertices.row(mesh.face_vertices[corner]); });
 }
 
 double total_area(const PolygonMesh& mesh)
@@ -48,7 +62,8 @@ MeshSize size_of(const PolygonMesh& mesh)
 
 double extent_of(const Points& positions)
 {
-    return positions.rows() == 0 ? 0.0 : (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
+    const BoundingBox box = box_of(static_cast<Index>(positions.rows()), [&](Index v) { return positions.row(v); });
+    return (box.high - box.low).norm();
 }
 
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,

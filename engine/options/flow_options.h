@@ -125,9 +125,9 @@ enum class Approach {
 
 /// Which sub-meshes there are.
 struct CutOptions {
-    /// Number of sub-meshes. 1: undecomposed. 0: chosen, if there are any, from the size of the mesh and of √dt. Every component of the
-    /// mesh has at least one sub-mesh of its own, and no sub-mesh is cut too small, so the number used (see FlowReport)
-    /// can differ.
+    /// Number of sub-meshes. 1: undecomposed. 0: chosen, if there are any, from the size of the mesh and of √dt. Every
+    /// component of the mesh has at least one sub-mesh of its own, and no sub-mesh is cut too small, so the number used
+    /// (see FlowReport) can differ.
     int subdomains = 0;
     /// A given cut: the sub-mesh of every face (#F entries, each at least 0), used instead of `subdomains` where not
     /// empty. Parts that are not connected, or pinched at a vertex, are repaired by moving faces.

@@ -79,12 +79,10 @@ struct OptionNames<Rescale> {
 
 template <>
 struct OptionNames<Approach> {
-    static constexpr NamedOption<Approach> list[]{{"auto", Approach::Automatic},
-                                                  {"decomposed", Approach::Decomposed},
-                                                  {"sweep", Approach::Sweep},
-                                                  {"converged", Approach::Converged},
-                                                  {"cg", Approach::ConjugateGradients},
-                                                  {"undecomposed", Approach::Undecomposed}};
+    static constexpr NamedOption<Approach> list[]{
+        {"auto", Approach::Automatic},        {"decomposed", Approach::Decomposed},
+        {"sweep", Approach::Sweep},           {"converged", Approach::Converged},
+        {"cg", Approach::ConjugateGradients}, {"undecomposed", Approach::Undecomposed}};
 };
 
 template <>

@@ -76,7 +76,7 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
 
 void FlowingMesh::move_to(const Points& positions)
 {
-    given_->vertices = positions;
+    copy(run_in_parallel, positions, given_->vertices);
     if (copy_)
         copy_->vertices = positions;
     if (is_shifted())

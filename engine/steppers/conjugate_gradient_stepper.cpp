@@ -1,7 +1,5 @@
 #include "engine/steppers/conjugate_gradient_stepper.h"
 
-#include "partition/errors.h"
-
 namespace seamflow {
 
 ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology,
@@ -15,8 +13,6 @@ ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, cons
 InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& stop, const Loop& loop)
 {
     const WholeMeshSystem::Result result = system_.step(*before_, time_step_, stop, positions_, loop);
-    if (!positions_.allFinite())
-        throw ComputationError("the result is not finite");
     return {result, result.distance};
 }
 

@@ -20,6 +20,7 @@
 #include <sys/resource.h>
 
 #include "engine/tasks/library_threads.h"
+#include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/thread_sanitizer.h"
 #include "partition/errors.h"
 
@@ -164,6 +165,11 @@ void Workers::execute(const std::function<void()>& work)
         const SharedWork::Part part(shared);
         work();
     });
+}
+
+Loop Workers::loop()
+{
+    return [this](Index n, const LoopBody& body) { execute([&] { run_in_parallel(n, body); }); };
 }
 
 int Workers::threads() const

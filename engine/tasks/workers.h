@@ -3,6 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "partition/loop.h"
+
 namespace seamflow {
 
 /// The threads that a flow runs on. While it lives, BLAS stays single-threaded: the parallelism is in the tasks, and
@@ -19,6 +21,9 @@ class Workers {
 
     /// Runs `work` so that everything parallel in it uses these threads.
     void execute(const std::function<void()>& work);
+
+    /// Loops on these threads; they have to outlive it.
+    [[nodiscard]] Loop loop();
 
     /// How many there are, within the limits that the program has set (oneTBB's global_control).
     [[nodiscard]] int threads() const;

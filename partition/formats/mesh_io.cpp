@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include "partition/errors.h"
 #include "partition/formats/obj.h"
@@ -18,31 +18,32 @@
 #include "partition/formats/stl.h"
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
+#include "partition/io/slices.h"
+#include "partition/io/text_scanner.h"
 
 namespace seamflow {
 
 namespace {
 
-/// A number in which the length and all bytes have a part, the same for different bytes by accident alone (1 in 2^64).
 std::uint64_t checksum(std::string_view bytes)
 {
-    constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;
-    std::uint64_t sum = bytes.size();
-    while (!bytes.empty()) {
-        std::uint64_t word = 0;
-        const std::size_t n = std::min(bytes.size(), sizeof word);
-        std::memcpy(&word, bytes.data(), n);
-        sum = (sum ^ word) * odd;
-        sum ^= sum >> 32U;
-        bytes.remove_prefix(n);
-    }
-    return sum;
+    return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-std::uint64_t checksum_of_faces(const PolygonMesh& mesh)
+/// The checksums of slices are made several at a time; that of all of them tells files apart.
+std::uint64_t checksum(std::string_view content, const Loop& loop)
 {
-    const auto of = [](const std::vector<Index>& list) {
-        return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)});
+    constexpr std::size_t slice = std::size_t{1} << 20;
+    std::vector<std::uint64_t> sums(content.size() / slice + 1);
+    for_each(loop, static_cast<Index>(sums.size()),
+             [&](Index i) { sums[i] = checksum(content.substr(at(i) * slice, slice)); });
+    return checksum({reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(std::uint64_t)});
+}
+
+std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Loop& loop)
+{
+    const auto of = [&](const std::vector<Index>& list) {
+        return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)}, loop);
     };
     return of(mesh.face_offsets) + 3 * of(mesh.face_vertices);
 }
@@ -54,13 +55,13 @@ std::uint64_t checksum_of_faces(const PolygonMesh& mesh)
 class MeshSource {
   public:
     /// @param content of the file. @param mesh, kind what was read from it.
-    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind)
+    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind, const Loop& loop)
         : file_(std::move(file))
         , kind_(kind)
-        , content_checksum_(checksum(content))
+        , content_checksum_(checksum(content, loop))
         , n_vertices_(mesh.n_vertices())
         , n_faces_(mesh.n_faces())
-        , faces_checksum_(checksum_of_faces(mesh))
+        , faces_checksum_(checksum_of_faces(mesh, loop))
     {
     }
 
@@ -71,12 +72,12 @@ class MeshSource {
 
     /// Reads the file again.
     /// @throws InputError if it does not hold the same bytes any more.
-    [[nodiscard]] InputFile read_again() const;
+    [[nodiscard]] InputFile read_again(const Loop& loop) const;
 
     /// Checks that the mesh has as many vertices as the file, and the same faces.
     /// @param path where the mesh is to be written, for the message.
     /// @throws OutputError
-    void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh) const;
+    void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop) const;
 
   private:
     OpenFile file_;
@@ -87,10 +88,10 @@ class MeshSource {
     std::uint64_t faces_checksum_;
 };
 
-InputFile MeshSource::read_again() const
+InputFile MeshSource::read_again(const Loop& loop) const
 {
     InputFile input(file_);
-    if (checksum(input.content()) != content_checksum_)
+    if (checksum(input.content(), loop) != content_checksum_)
         throw InputError(
             path().string() +
             ": the file has been changed since it was read, so that what it holds besides positions cannot "
@@ -98,7 +99,7 @@ InputFile MeshSource::read_again() const
     return input;
 }
 
-void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh) const
+void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop) const
 {
     const auto refuse = [&](std::string_view why) {
         throw OutputError(
@@ -108,7 +109,7 @@ void MeshSource::require_same_faces(const std::filesystem::path& path, const Pol
     if (mesh.n_vertices() != n_vertices_ || mesh.n_faces() != n_faces_)
         refuse(fmt::format("{} vertices and {} faces, but that file {} and {}", mesh.n_vertices(), mesh.n_faces(),
                            n_vertices_, n_faces_));
-    if (checksum_of_faces(mesh) != faces_checksum_)
+    if (checksum_of_faces(mesh, loop) != faces_checksum_)
         refuse("other faces than that file");
 }
 
@@ -125,13 +126,14 @@ struct Format {
     Encoding last_encoding;
     /// Whether its faces may have more than three sides.
     bool holds_polygons;
-    MeshFile (*read)(const std::filesystem::path& path, std::string_view content, FaultLog* faults);
+    MeshFile (*read)(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+                     FaultLog* faults);
     /// Throws OutputError for a mesh that the format cannot hold; null: it holds all of them.
     void (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
-    void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding);
+    void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
     /// See write_mesh_like; null: there is nothing in a file that `write` does not write.
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                        const PolygonMesh& mesh);
+                                        const PolygonMesh& mesh, const Slicing& slicing);
     /// See extras_of; null: there are none.
     std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content);
 };
@@ -142,11 +144,13 @@ constexpr std::array<Format, 4> all_formats = {{
      .extension = ".obj",
      .last_encoding = Encoding::Ascii,
      .holds_polygons = true,
-     .read = [](const std::filesystem::path& path, std::string_view content, FaultLog* faults) -> MeshFile {
-         return {read_obj(path, content, faults), {FileFormat::Obj, Encoding::Ascii}};
+     .read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+                FaultLog* faults) -> MeshFile {
+         return {read_obj(path, content, slicing, faults), {FileFormat::Obj, Encoding::Ascii}};
      },
      .require_fits = nullptr,
-     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding) { write_obj(file, mesh); },
+     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
+                 const Slicing& slicing) { write_obj(file, mesh, slicing); },
      .rewrite = rewrite_obj,
      .extras = extras_of_obj},
     {.format = FileFormat::Off,
@@ -154,11 +158,13 @@ constexpr std::array<Format, 4> all_formats = {{
      .extension = ".off",
      .last_encoding = Encoding::Ascii,
      .holds_polygons = true,
-     .read = [](const std::filesystem::path& path, std::string_view content, FaultLog* faults) -> MeshFile {
-         return {read_off(path, content, faults), {FileFormat::Off, Encoding::Ascii}};
+     .read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+                FaultLog* faults) -> MeshFile {
+         return {read_off(path, content, slicing, faults), {FileFormat::Off, Encoding::Ascii}};
      },
      .require_fits = nullptr,
-     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding) { write_off(file, mesh); },
+     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding,
+                 const Slicing& slicing) { write_off(file, mesh, slicing); },
      .rewrite = rewrite_off,
      .extras = extras_of_off},
     {.format = FileFormat::Ply,
@@ -168,7 +174,8 @@ constexpr std::array<Format, 4> all_formats = {{
      .holds_polygons = true,
      .read = read_ply,
      .require_fits = nullptr,
-     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding encoding) { write_ply(file, mesh, encoding); },
+     .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding encoding,
+                 const Slicing& slicing) { write_ply(file, mesh, encoding, slicing); },
      .rewrite = rewrite_ply,
      .extras = extras_of_ply},
     {.format = FileFormat::Stl,
@@ -193,10 +200,21 @@ const Format* find_format(Value Format::*member, const Value& value)
 
 const Format* format_named_by(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return find_format(&Format::extension, std::string_view(extension));
+    const std::filesystem::path unpacked = is_gzip_name(path) ? path.stem() : path;
+    return find_format(&Format::extension, std::string_view(lower_case(unpacked.extension().string())));
+}
+
+/// The format of what has no name. OBJ has no mark of its own.
+FileFormat recognised_format(std::string_view content)
+{
+    constexpr std::size_t head = 4096;
+    TextScanner scanner({}, content.substr(0, head));
+    const std::string_view word = scanner.next_line() ? scanner.token() : std::string_view();
+    if (word == "ply")
+        return FileFormat::Ply;
+    if (is_stl(content))
+        return FileFormat::Stl;
+    return word.ends_with("OFF") ? FileFormat::Off : FileFormat::Obj;
 }
 
 const Format& format_of(const FileKind& kind)
@@ -224,22 +242,24 @@ const Format& require_format(const std::filesystem::path& path)
                             path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
 }
 
-MeshFile read_known(const std::filesystem::path& path, const Format& format)
+/// @param faults null: they are thrown. Else the file is no source for others.
+MeshFile read_open(OpenFile open, const Format* format, const Loop& loop, FaultLog* faults)
 {
-    OpenFile open(path);
     const InputFile input(open);
-    MeshFile file = format.read(path, input.content(), nullptr);
-    file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind);
+    if (format == nullptr)
+        format = find_format(&Format::format, recognised_format(input.content()));
+    MeshFile file = format->read(open.path(), input.content(), {loop}, faults);
+    if (faults == nullptr)
+        file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, loop);
     return file;
 }
 
 /// Finds the format and reads; a lack of memory comes out with the name of the file.
-template <class Read>
-MeshFile read_with(const std::filesystem::path& path, Read&& read)
+MeshFile read(const std::filesystem::path& path, const Loop& loop, FaultLog* faults)
 {
-    const Format& format = require_format<InputError>(path);
+    const Format* const format = is_standard_stream(path) ? nullptr : &require_format<InputError>(path);
     try {
-        return read(format);
+        return read_open(OpenFile(path), format, loop, faults);
     } catch (const std::bad_alloc&) {
         throw ComputationError(path.string() +
                                ": there is not enough memory for this mesh; close other programs, raise "
@@ -257,12 +277,12 @@ void require_encoding(const Format& format, Encoding encoding)
 }
 
 /// Whatever is written can be read again.
-void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh)
+void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop)
 {
     if (mesh.n_vertices() == 0)
         throw OutputError(path.string() + ": cannot be written: the mesh has no vertices; write one that has");
     try {
-        require_valid(mesh);
+        require_valid(mesh, loop);
     } catch (const InputError& error) {
         throw OutputError(path.string() + ": cannot be written: " + error.what());
     }
@@ -276,6 +296,20 @@ std::optional<FileFormat> format_of(const std::filesystem::path& path)
     return format != nullptr ? std::optional(format->format) : std::nullopt;
 }
 
+std::filesystem::path before_extension(const std::filesystem::path& path)
+{
+    std::string name = path.string();
+    name.resize(name.size() - path.extension().string().size());
+    if (is_gzip_name(path))
+        name.resize(name.size() - path.stem().extension().string().size());
+    return name;
+}
+
+std::string extension_of(FileFormat format)
+{
+    return std::string(find_format(&Format::format, format)->extension);
+}
+
 std::string extensions_of(FormatGroup group)
 {
     std::vector<std::string_view> extensions;
@@ -286,77 +320,79 @@ std::string extensions_of(FormatGroup group)
     return choice_of(extensions);
 }
 
-MeshFile read_mesh(const std::filesystem::path& path)
+MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop)
 {
-    return read_with(path, [&](const Format& format) { return read_known(path, format); });
+    return read(path, loop, nullptr);
 }
 
-MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults)
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop)
 {
-    return read_with(
-        path, [&](const Format& format) { return format.read(path, InputFile(OpenFile(path)).content(), &faults); });
+    return read(path, loop, &faults);
 }
 
 FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source)
 {
+    if (is_standard_stream(path))
+        return source;
     const Format& format = require_format<OptionError>(path);
     if (format.format == source.format)
         return source;
     return {format.format, std::min(Encoding::BinaryLittleEndian, format.last_encoding)};
 }
 
-void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind)
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind, const Loop& loop)
 {
     const Format& format = format_of(kind);
     require_encoding(format, kind.encoding);
-    require_readable(path, mesh);
+    require_readable(path, mesh, loop);
     if (format.require_fits != nullptr)
         format.require_fits(path, mesh, kind.encoding);
     OutputFile file(path);
-    format.write(file, mesh, kind.encoding);
+    format.write(file, mesh, kind.encoding, {loop});
     file.commit();
 }
 
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh)
+                                         const PolygonMesh& mesh, const Loop& loop)
 {
-    require_readable(path, mesh);
-    source.require_same_faces(path, mesh);
+    require_readable(path, mesh, loop);
+    source.require_same_faces(path, mesh, loop);
     const Format& format = format_of(source.kind());
     if (format.rewrite == nullptr) {
-        write_mesh(path, mesh, source.kind());
+        write_mesh(path, mesh, source.kind(), loop);
         return {};
     }
-    const InputFile input = source.read_again();
+    const InputFile input = source.read_again(loop);
     OutputFile file(path);
-    auto remarks = format.rewrite(file, source.path(), input.content(), mesh);
+    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {loop});
     file.commit();
     return remarks;
 }
 
-std::vector<std::string> extras_of(const MeshSource& source)
+std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop)
 {
     const Format& format = format_of(source.kind());
-    const InputFile input = source.read_again();
+    const InputFile input = source.read_again(loop);
     return format.extras != nullptr ? format.extras(source.path(), input.content()) : std::vector<std::string>{};
 }
 
-void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels)
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
+                        const Loop& loop)
 {
-    require_readable(path, mesh);
+    require_readable(path, mesh, loop);
     if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
         throw OutputError(
             fmt::format("{}: cannot be written: there are {} labels for {} faces; give one label for each face",
                         path.string(), labels.size(), mesh.n_faces()));
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {.face_labels = labels});
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {loop}, {.face_labels = labels});
     file.commit();
 }
 
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
-                      std::span<const VertexValues> values)
+                      std::span<const VertexValues> values, const Loop& loop)
 {
-    require_readable(path, mesh);
+    require_readable(path, mesh, loop);
     const auto require_each = [&](std::size_t count, const std::string& what) {
         if (count != at(mesh.n_vertices()))
             throw OutputError(
@@ -367,7 +403,7 @@ void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh
     for (const VertexValues& list : values)
         require_each(list.values.size(), "values of '" + list.name + "'");
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {.vertex_colours = colours, .vertex_values = values});
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {loop}, {.vertex_colours = colours, .vertex_values = values});
     file.commit();
 }
 

@@ -9,9 +9,13 @@
 
 #include "partition/formats/palette.h"
 #include "partition/io/fault_log.h"
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
+
+// All functions that read or write a mesh do so slice by slice on the threads of a loop (see Loop; engine/tasks has
+// run_in_parallel). What is read and written never depends on it.
 
 /// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
 enum class FileFormat { Obj, Off, Ply, Stl };
@@ -40,8 +44,15 @@ enum class FormatGroup {
 /// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
 std::string extensions_of(FormatGroup group = FormatGroup::All);
 
-/// The format that the extension of a path names, in upper or lower case; nothing if it names none.
+/// The format that the extension of a path names, in upper or lower case and perhaps with `.gz` behind it; nothing if
+/// it names none.
 std::optional<FileFormat> format_of(const std::filesystem::path& path);
+
+/// ".obj" and so on.
+std::string extension_of(FileFormat format);
+
+/// A path without the extension of its format, and without `.gz` behind that.
+std::filesystem::path before_extension(const std::filesystem::path& path);
 
 /// A mesh file that has been read, as the form for others; see write_mesh_like.
 class MeshSource;
@@ -59,32 +70,35 @@ struct MeshFile {
 /// become one vertex, numbered in order of appearance. What a file holds besides a surface (texture coordinates,
 /// normals, colours, materials, groups, points and lines) is passed over here, but write_mesh_like copies it. A file
 /// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
-/// memory.
+/// memory. A file that gzip has compressed is unpacked, whatever its name is; `.gz` may follow the extension. `-` is
+/// standard input, whose format is recognised from its content. Only these two are kept, unpacked, in memory.
 /// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
 /// @throws ComputationError naming the file, or std::bad_alloc, if there is not enough memory.
-MeshFile read_mesh(const std::filesystem::path& path);
+MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_serially);
 
 /// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
 /// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
 /// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
-MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults);
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
 
 /// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
-/// same format, else binary little-endian where the format has it.
+/// same format, else binary little-endian where the format has it. For `-`, standard output, the kind of the source.
 /// @throws OptionError for an extension that names no format.
 FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source);
 
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
 /// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
-/// a temporary name beside `path` and renamed.
+/// a temporary name beside `path` and renamed. It is compressed where `.gz` follows the extension. `-` is standard
+/// output.
 /// @param mesh valid (see require_valid) and not without vertices.
 /// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
 ///         more than three sides, vertices without faces, two corners of a face in one place, and in binary files
 ///         also coordinates beyond single precision).
 /// @throws OptionError for an encoding that the format does not have.
-void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind);
+void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
+                const Loop& loop = run_serially);
 
 /// Writes the file that was read with the positions of `mesh` in place of its own: texture coordinates, materials,
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
@@ -98,19 +112,20 @@ void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, cons
 /// @throws InputError if that file has been changed in place since. That it has been replaced or removed does not
 /// matter.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh);
+                                         const PolygonMesh& mesh, const Loop& loop = run_serially);
 
 /// What the file holds besides a surface, which write_mesh does not write, in a few words each: "normals", "groups".
 /// Comments do not count.
 /// @throws InputError if the file has been changed since it was read.
-std::vector<std::string> extras_of(const MeshSource& source);
+std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop = run_serially);
 
 /// As write_mesh, with one colour and one label per face, for looking at a cut. Each face gets the properties red,
 /// green, blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the
 /// golden section, so that they differ clearly; negative labels are grey. The file is binary little-endian.
 /// @param labels #F; the label of every face.
 /// @throws OutputError naming the file.
-void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels);
+void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
+                        const Loop& loop = run_serially);
 
 /// A number for each vertex of a mesh, with a name.
 struct VertexValues {
@@ -126,6 +141,6 @@ struct VertexValues {
 /// @param colours #V.
 /// @throws OutputError naming the file; also if there are not as many colours or values as vertices.
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
-                      std::span<const VertexValues> values);
+                      std::span<const VertexValues> values, const Loop& loop = run_serially);
 
 }  // namespace seamflow

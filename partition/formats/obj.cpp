@@ -20,16 +20,24 @@ struct ForwardReference {
     std::size_t line;
 };
 
+/// Reads a whole file, or a slice of one.
 class ObjReader {
   public:
-    ObjReader(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
-        : scanner_(path, text, obj_syntax)
+    ObjReader(const TextScanner& scanner, FaultLog* faults)
+        : scanner_(scanner)
         , builder_(scanner_, 1)
     {
         scanner_.note_faults_in(faults);
     }
 
-    PolygonMesh read()
+    ObjReader(const TextScanner& scanner, const MeshSlice& slice)
+        : scanner_(scanner)
+        , builder_(scanner_, 1, slice)
+    {
+    }
+
+    /// Reads all lines.
+    void read()
     {
         while (scanner_.next_line()) {
             // Texture coordinates, normals, groups, materials, points, lines, … are of no use here.
@@ -38,7 +46,15 @@ class ObjReader {
             else if (is_obj_face(keyword))
                 read_face();
         }
-        require_no_open_reference();
+    }
+
+    /// @param n number of vertices in the whole file.
+    /// @throws InputError if a face names one that it does not have.
+    void require_no_open_reference(Index n) const;
+
+    PolygonMesh finish()
+    {
+        require_no_open_reference(builder_.n_vertices());
         return builder_.finish();
     }
 
@@ -47,7 +63,6 @@ class ObjReader {
     void read_face();
     Index read_corner();
     void pass_over_attributes();
-    void require_no_open_reference() const;
 
     TextScanner scanner_;
     MeshBuilder builder_;
@@ -113,15 +128,30 @@ void ObjReader::pass_over_attributes()
     scanner_.skip(rest.size());
 }
 
-void ObjReader::require_no_open_reference() const
+void ObjReader::require_no_open_reference(Index n) const
 {
-    const Index n = builder_.n_vertices();
     for (const auto& [vertex, line] : forward_references_)
         if (vertex >= n)
             scanner_.fault_at(scanner_.position_of(line),
                               fmt::format("names vertex {}, but the file has only {}; correct the face or export the "
                                           "mesh again",
                                           std::int64_t{vertex} + 1, counted(at(n), "vertex", "vertices")));
+}
+
+PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
+{
+    const std::vector<ObjCounts> counts = count_obj(whole, slices, loop);
+    const Index n_vertices = counts.back().n_vertices;
+    if (n_vertices == 0)
+        throw InputError("no vertices");
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(n_vertices);
+    append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
+        ObjReader reader(TextScanner(whole, slices[i]), {mesh.vertices, counts[i].n_vertices, faces});
+        reader.read();
+        reader.require_no_open_reference(n_vertices);
+    });
+    return mesh;
 }
 
 std::string_view extra_of_statement(std::string_view keyword)
@@ -145,22 +175,52 @@ std::string_view extra_of_statement(std::string_view keyword)
 
 }  // namespace
 
-PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
+std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
 {
-    return ObjReader(path, text, faults).read();
+    std::vector<ObjCounts> counts(slices.size() + 1);
+    for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
+        TextScanner scanner(whole, slices[i]);
+        while (scanner.next_line()) {
+            const std::string_view keyword = scanner.token();
+            counts[i + 1].n_vertices += keyword == "v" ? 1 : 0;
+            counts[i + 1].n_normals += keyword == "vn" ? 1 : 0;
+        }
+    });
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        counts[i + 1].n_vertices = sum_of_counts(counts[i].n_vertices, counts[i + 1].n_vertices);
+        counts[i + 1].n_normals = sum_of_counts(counts[i].n_normals, counts[i + 1].n_normals);
+    }
+    return counts;
 }
 
-void write_obj(OutputFile& file, const PolygonMesh& mesh)
+PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)
 {
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        file.line("v", mesh.vertices.row(v));
-    std::vector<std::int64_t> numbers;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        numbers.assign(mesh.face(f).begin(), mesh.face(f).end());
-        for (std::int64_t& number : numbers)
-            ++number;
-        file.line("f", numbers);
-    }
+    const TextScanner whole(path, text, obj_syntax);
+    const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
+    const auto in_one_go = [&] {
+        ObjReader reader(whole, faults);
+        reader.read();
+        return reader.finish();
+    };
+    if (slices.size() < 2)
+        return in_one_go();
+    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.loop); }, in_one_go);
+}
+
+void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)
+{
+    constexpr std::size_t line_bytes = 32;
+    const Index per_slice = elements_per_slice(slicing, line_bytes);
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+                   [&](ByteWriter& slice, Index v) { slice.line("v", mesh.vertices.row(v)); });
+    write_elements(file, mesh.n_faces(), per_slice, slicing.loop, [&](ByteWriter& slice, Index f) {
+        slice.text("f");
+        for (const Index v : mesh.face(f)) {
+            slice.text(" ");
+            slice.number(std::int64_t{v} + 1);
+        }
+        slice.text("\n");
+    });
 }
 
 std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::string_view text)

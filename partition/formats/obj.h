@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "partition/index_lists.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
+#include "partition/io/slices.h"
 #include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
 
@@ -21,16 +23,30 @@ inline bool is_obj_face(std::string_view keyword)
     return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
 }
 
+/// What stands before a slice of a file.
+struct ObjCounts {
+    Index n_vertices = 0;
+    /// Lines `vn`.
+    Index n_normals = 0;
+
+    friend bool operator==(const ObjCounts&, const ObjCounts&) = default;
+};
+
+/// The counts before each slice of a file and, at the end, those of all of it.
+/// @throws InputError if there are more than 2^31 - 1 of a kind.
+std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop);
+
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
 /// passed over: they describe no polygon.
 /// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming the line.
-PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, FaultLog* faults = nullptr);
+PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
+                     FaultLog* faults = nullptr);
 
 /// Writes Wavefront OBJ.
 /// @throws OutputError
-void write_obj(OutputFile& file, const PolygonMesh& mesh);
+void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing);
 
 /// Writes a file again that `read_obj` has read, with the positions of `mesh` in the lines `v`: coordinates that are
 /// the same, bit for bit, and everything else keep their characters. Normals (`vn`) that one vertex or one face has for
@@ -39,12 +55,13 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh);
 /// @returns what a user should know about it, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
-                                     const PolygonMesh& mesh);
+                                     const PolygonMesh& mesh, const Slicing& slicing);
 
 /// The corners of faces, numbered as in PolygonMesh::face_vertices, that name each normal (`vn`) of a file that
 /// `read_obj` has read, in ascending order. Numbers of normals that there are not do not count.
 /// @param path for messages only.
-IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text);
+IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text,
+                                  const Slicing& slicing = {});
 
 /// What such a file holds besides a surface, in a few words each; comments do not count.
 /// @param path for messages only.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,37 +33,42 @@ Index normal_of(std::string_view corner, Index n)
     return number > 0 ? number - 1 : number < 0 ? number + n : none;
 }
 
-/// The normals of a file, one after another, on the surface as it is now.
+/// How many normals stay although the surface has moved.
+struct StayingNormals {
+    Index n_shared = 0;
+    Index n_unused = 0;
+};
+
+/// The normals of a file on the surface as it is now.
 class NormalUpdate {
   public:
     /// @param normals see corners_of_obj_normals. @param before #V by 3, where the vertices were.
-    NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before)
+    NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Loop& loop)
         : normals_(std::move(normals))
         , mesh_(mesh)
-        , moved_(mesh, std::move(before))
+        , moved_(mesh, std::move(before), loop)
     {
     }
 
-    /// The next normal; nothing if it stays.
-    std::optional<Point> next(const Point& given);
+    /// A normal; nothing if it stays.
+    std::optional<Point> operator()(Index normal, const Point& given, StayingNormals& staying) const;
 
     /// A sentence about those that would have to change, but cannot.
-    [[nodiscard]] std::vector<std::string> remarks(const std::filesystem::path& path) const;
+    /// @param staying of each slice.
+    [[nodiscard]] std::vector<std::string> remarks(const std::filesystem::path& path,
+                                                   std::span<const StayingNormals> staying) const;
 
   private:
     IndexLists normals_;
     const PolygonMesh& mesh_;
     MovedNormals moved_;
-    Index next_ = 0;
-    Index n_shared_ = 0;
-    Index n_unused_ = 0;
 };
 
-std::optional<Point> NormalUpdate::next(const Point& given)
+std::optional<Point> NormalUpdate::operator()(Index normal, const Point& given, StayingNormals& staying) const
 {
-    const auto corners = normals_[next_++];
+    const auto corners = normals_[normal];
     if (corners.empty()) {
-        ++n_unused_;
+        ++staying.n_unused;
         return std::nullopt;
     }
     const auto all_alike = [&](auto&& property) {
@@ -72,30 +78,35 @@ std::optional<Point> NormalUpdate::next(const Point& given)
         return moved_.around_vertex(corners, given);
     if (all_alike([&](Index c) { return moved_.face_of(c); }))
         return moved_.of_face(moved_.face_of(corners[0]), given);
-    ++n_shared_;
+    ++staying.n_shared;
     return std::nullopt;
 }
 
-std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path) const
+std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path,
+                                               std::span<const StayingNormals> staying) const
 {
-    if (n_shared_ + n_unused_ == 0 || !moved_.moved())
+    StayingNormals all;
+    for (const StayingNormals& of_slice : staying) {
+        all.n_shared += of_slice.n_shared;
+        all.n_unused += of_slice.n_unused;
+    }
+    if (all.n_shared + all.n_unused == 0 || !moved_.moved())
         return {};
     std::string reasons;
-    if (n_shared_ > 0)
-        reasons = fmt::format("{} belong to several vertices of several faces", n_shared_);
-    if (n_unused_ > 0)
-        reasons += fmt::format("{}{} to no face", n_shared_ > 0 ? ", " : "", n_unused_);
+    if (all.n_shared > 0)
+        reasons = fmt::format("{} belong to several vertices of several faces", all.n_shared);
+    if (all.n_unused > 0)
+        reasons += fmt::format("{}{} to no face", all.n_shared > 0 ? ", " : "", all.n_unused);
     return {fmt::format("of the {} (vn) of {}, {} could not be made new and stay as they were: {}",
-                        counted(at(next_), "normal", "normals"), path.string(), n_shared_ + n_unused_, reasons)};
+                        counted(at(normals_.size()), "normal", "normals"), path.string(), all.n_shared + all.n_unused,
+                        reasons)};
 }
 
-}  // namespace
-
-IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text)
+/// The normal that each corner of a slice names, or `none`.
+/// @param n number of normals before the slice.
+std::vector<Index> normals_of_corners(TextScanner scanner, Index n)
 {
-    TextScanner scanner(path, text, obj_syntax);
     std::vector<Index> normals;
-    Index n = 0;
     while (scanner.next_line()) {
         const std::string_view keyword = scanner.token();
         n += keyword == "vn" ? 1 : 0;
@@ -103,33 +114,68 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
             while (scanner.has_token())
                 normals.push_back(normal_of(scanner.token(), n));
     }
+    return normals;
+}
+
+/// Writes a slice again.
+/// @param counts what stands before it. @param end what stands before the next. @param normals null: there are none.
+StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, ObjCounts counts, const ObjCounts& end,
+                             const PolygonMesh& mesh, const NormalUpdate* normals)
+{
+    StayingNormals staying;
+    while (counts != end && scanner.next_line()) {
+        const std::string_view keyword = scanner.token();
+        if (keyword == "v")
+            exchange_position(scanner, splicer, mesh.vertices.row(counts.n_vertices++));
+        if (keyword != "vn")
+            continue;
+        const WrittenNormal given = read_normal(scanner);
+        if (const auto now = (*normals)(counts.n_normals++, given.value, staying))
+            exchange_normal(splicer, given, *now);
+    }
+    splicer.finish();
+    return staying;
+}
+
+}  // namespace
+
+IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
+{
+    const TextScanner whole(path, text, obj_syntax);
+    const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
+    const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
+    std::vector<std::vector<Index>> of_slice(slices.size());
+    for_each(slicing.loop, static_cast<Index>(slices.size()),
+             [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i].n_normals); });
+    const Index n = counts.back().n_normals;
     return make_lists(n, [&](auto&& add) {
-        for (std::size_t corner = 0; corner < normals.size(); ++corner)
-            if (normals[corner] >= 0 && normals[corner] < n)
-                add(normals[corner], static_cast<Index>(corner));
+        Index corner = 0;
+        for (const std::vector<Index>& normals : of_slice)
+            for (const Index normal : normals) {
+                if (normal >= 0 && normal < n)
+                    add(normal, corner);
+                ++corner;
+            }
     });
 }
 
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
-                                     const PolygonMesh& mesh)
+                                     const PolygonMesh& mesh, const Slicing& slicing)
 {
+    const TextScanner whole(path, text, obj_syntax);
+    const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
+    const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
     std::optional<NormalUpdate> normals;
-    if (IndexLists named = corners_of_obj_normals(path, text); named.size() > 0)
-        normals.emplace(std::move(named), mesh, read_obj(path, text).vertices);
-    TextScanner scanner(path, text, obj_syntax);
-    Splicer splicer(file, text);
-    for (Index v = 0; scanner.next_line();) {
-        const std::string_view keyword = scanner.token();
-        if (keyword == "v")
-            exchange_position(scanner, splicer, mesh.vertices.row(v++));
-        if (keyword != "vn" || !normals)
-            continue;
-        const WrittenNormal given = read_normal(scanner);
-        if (const auto now = normals->next(given.value))
-            exchange_normal(splicer, given, *now);
-    }
-    splicer.finish();
-    return normals ? normals->remarks(path) : std::vector<std::string>{};
+    if (counts.back().n_normals > 0)
+        normals.emplace(corners_of_obj_normals(path, text, slicing), mesh, read_obj(path, text, slicing).vertices,
+                        slicing.loop);
+    std::vector<StayingNormals> staying(slices.size());
+    file.text(text.substr(0, text.size() - whole.rest().size()));
+    file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+        staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
+                                   mesh, normals ? &*normals : nullptr);
+    });
+    return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
 }
 
 }  // namespace seamflow

@@ -96,16 +96,29 @@ OffHeader read_off_header(TextScanner& scanner)
     return header;
 }
 
+/// Reads a whole file, or a slice of one.
 class OffReader {
   public:
-    OffReader(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
-        : scanner_(path, text)
+    OffReader(const TextScanner& after_header, const OffHeader& header, FaultLog* faults)
+        : scanner_(after_header)
         , builder_(scanner_)
+        , header_(header)
     {
         scanner_.note_faults_in(faults);
+        builder_.reserve(static_cast<std::uint64_t>(header.n_vertices), static_cast<std::uint64_t>(header.n_faces));
     }
 
-    PolygonMesh read();
+    OffReader(const TextScanner& scanner, const OffHeader& header, const MeshSlice& slice)
+        : scanner_(scanner)
+        , builder_(scanner_, 0, slice)
+        , header_(header)
+    {
+    }
+
+    /// Reads vertices and faces, which are counted together.
+    void read(std::int64_t begin, std::int64_t end);
+
+    PolygonMesh finish();
 
   private:
     void next_line(const char* what, std::int64_t i, std::int64_t n);
@@ -117,18 +130,21 @@ class OffReader {
     std::vector<Index> corners_;
 };
 
-PolygonMesh OffReader::read()
+void OffReader::read(std::int64_t begin, std::int64_t end)
 {
-    header_ = read_off_header(scanner_);
-    builder_.reserve(static_cast<std::uint64_t>(header_.n_vertices), static_cast<std::uint64_t>(header_.n_faces));
-    for (std::int64_t v = 0; v < header_.n_vertices; ++v) {
-        next_line("vertices", v, header_.n_vertices);
+    const std::int64_t n_vertices = header_.n_vertices;
+    for (std::int64_t v = begin; v < std::min(end, n_vertices); ++v) {
+        next_line("vertices", v, n_vertices);
         builder_.add_vertex(scanner_.coordinates());
     }
-    for (std::int64_t f = 0; f < header_.n_faces; ++f) {
+    for (std::int64_t f = std::max(begin, n_vertices) - n_vertices; f < end - n_vertices; ++f) {
         next_line("faces", f, header_.n_faces);
         read_face();
     }
+}
+
+PolygonMesh OffReader::finish()
+{
     if (scanner_.next_line())
         scanner_.fail(fmt::format("the file goes on after the {} vertices and {} faces that its header announces; "
                                   "correct the counts in the header",
@@ -154,13 +170,33 @@ void OffReader::read_face()
     builder_.add_face(corners_);
 }
 
-void rewrite_text(Splicer& splicer, TextScanner& scanner, const PolygonMesh& mesh,
-                  const std::optional<MovedNormals>& normals)
+/// @throws InputError if there is any fault, not necessarily naming it.
+PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header, const Slicing& slicing)
 {
-    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+    const std::vector<std::string_view> slices = after_header.slices(slicing.bytes);
+    const std::vector<std::int64_t> first = count_lines(after_header, slices, slicing.loop);
+    if (header.n_vertices == 0 || first.back() != header.n_vertices + header.n_faces)
+        throw InputError("the file ends too early, or goes on");
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(sum_of_counts(0, header.n_vertices));
+    mesh.face_offsets.reserve(static_cast<std::size_t>(header.n_faces) + 1);
+    append_faces(mesh, static_cast<Index>(slices.size()), slicing.loop, [&](Index i, PolygonMesh& faces) {
+        const auto first_vertex = static_cast<Index>(std::min(first[i], header.n_vertices));
+        OffReader reader(TextScanner(after_header, slices[i]), header, {mesh.vertices, first_vertex, faces});
+        reader.read(first[i], first[i + 1]);
+    });
+    return mesh;
+}
+
+/// Writes the lines of a slice that are vertices.
+/// @param v the first of them. @param normals null: there are none.
+void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const PolygonMesh& mesh,
+                   const MovedNormals* normals)
+{
+    for (; v < end; ++v) {
         scanner.next_line();
         exchange_position(scanner, splicer, mesh.vertices.row(v));
-        if (!normals)
+        if (normals == nullptr)
             continue;
         const WrittenNormal given = read_normal(scanner);
         if (const auto now = normals->around_vertex(v, given.value))
@@ -193,41 +229,59 @@ std::optional<std::size_t> start_of_binary_off(std::string_view content)
     return line.size() + 1;
 }
 
-PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
+PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)
 {
     if (const auto data = start_of_binary_off(text))
-        return read_binary_off(path, text, *data, faults);
-    return OffReader(path, text, faults).read();
+        return read_binary_off(path, text, *data, slicing, faults);
+    TextScanner scanner(path, text);
+    const OffHeader header = read_off_header(scanner);
+    const auto in_one_go = [&] {
+        OffReader reader(scanner, header, faults);
+        reader.read(0, header.n_vertices + header.n_faces);
+        return reader.finish();
+    };
+    if (text.size() <= slicing.bytes)
+        return in_one_go();
+    return read_in_slices_if_faultless([&] { return read_slices(scanner, header, slicing); }, in_one_go);
 }
 
-void write_off(OutputFile& file, const PolygonMesh& mesh)
+void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)
 {
     file.text("OFF\n");
     file.line("", std::array{mesh.n_vertices(), mesh.n_faces(), 0});
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        file.line("", mesh.vertices.row(v));
-    std::vector<Index> numbers;
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        numbers.assign(1, static_cast<Index>(mesh.face(f).size()));
-        numbers.insert(numbers.end(), mesh.face(f).begin(), mesh.face(f).end());
-        file.line("", numbers);
-    }
+    constexpr std::size_t line_bytes = 32;
+    const Index per_slice = elements_per_slice(slicing, line_bytes);
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+                   [&](ByteWriter& slice, Index v) { slice.line("", mesh.vertices.row(v)); });
+    write_elements(file, mesh.n_faces(), per_slice, slicing.loop, [&](ByteWriter& slice, Index f) {
+        slice.number(mesh.face(f).size());
+        slice.text(" ");
+        slice.line("", mesh.face(f));
+    });
 }
 
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh)
+                                     const PolygonMesh& mesh, const Slicing& slicing)
 {
     if (const auto data = start_of_binary_off(content)) {
-        if (rewrite_binary_off(file, content, *data, mesh))
+        if (rewrite_binary_off(file, content, *data, mesh, slicing))
             return {rounding_remark(path)};
         return {};
     }
     TextScanner scanner(path, content);
     std::optional<MovedNormals> normals;
     if (read_off_header(scanner).has_normals())
-        normals.emplace(mesh, read_off(path, content).vertices);
-    Splicer splicer(file, content);
-    rewrite_text(splicer, scanner, mesh, normals);
+        normals.emplace(mesh, read_off(path, content, slicing).vertices, slicing.loop);
+    const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
+    const std::vector<std::int64_t> first = count_lines(scanner, slices, slicing.loop);
+    const auto vertices_before = [&](Index i) {
+        return static_cast<Index>(std::min<std::int64_t>(first[i], mesh.n_vertices()));
+    };
+    file.text(content.substr(0, content.size() - scanner.rest().size()));
+    file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+        rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(i),
+                      vertices_before(i + 1), mesh, normals ? &*normals : nullptr);
+    });
     return {};
 }
 

@@ -9,6 +9,7 @@
 
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
+#include "partition/io/slices.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -18,11 +19,12 @@ namespace seamflow {
 /// three counts instead of `OFF`. A file that begins with `OFF BINARY` is read as binary (see read_binary_off).
 /// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming the line or byte; also for coordinates that are not three to a vertex.
-PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, FaultLog* faults = nullptr);
+PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
+                     FaultLog* faults = nullptr);
 
 /// Writes text OFF.
 /// @throws OutputError
-void write_off(OutputFile& file, const PolygonMesh& mesh);
+void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing);
 
 /// Writes a file again that `read_off` has read, with the positions of `mesh`: in a text, coordinates that are the
 /// same, bit for bit, and everything else but normals keep their characters; binary files hold floats.
@@ -30,7 +32,7 @@ void write_off(OutputFile& file, const PolygonMesh& mesh);
 /// @returns what a user should know about it, in sentences.
 /// @throws OutputError; also for coordinates beyond single precision in a binary file.
 std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh);
+                                     const PolygonMesh& mesh, const Slicing& slicing);
 
 /// What such a file holds besides a surface, in a few words each; comments do not count.
 /// @param path for messages only.
@@ -47,12 +49,13 @@ std::optional<std::size_t> start_of_binary_off(std::string_view content);
 /// @param offset where the binary data begin.
 /// @throws InputError naming the byte.
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
-                            FaultLog* faults);
+                            const Slicing& slicing, FaultLog* faults);
 
 /// Writes such a file again, with the positions of `mesh`, rounded to floats; every other byte stays.
 /// @param mesh with the faces of the file.
 /// @returns whether rounding changed any coordinate.
 /// @throws OutputError; also for coordinates beyond single precision.
-bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh);
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,
+                        const Slicing& slicing);
 
 }  // namespace seamflow

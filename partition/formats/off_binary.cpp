@@ -28,12 +28,25 @@ constexpr Layout layouts[] = {
 
 constexpr std::size_t word_size = 4;
 
+constexpr std::size_t counts_bytes = 3 * word_size;
+constexpr std::size_t vertex_bytes = 3 * word_size;
+constexpr std::size_t typical_face_bytes = 4 * word_size;
+
+/// Some faces, one behind the other.
+struct FaceSlice {
+    std::uint64_t n_faces;
+    /// Where the first begins.
+    std::size_t offset;
+};
+
 /// Passes over the data by their counts alone.
 class Skimmer {
   public:
-    Skimmer(std::string_view data, const Layout& layout)
+    /// @param per_slice how many faces a slice gets.
+    Skimmer(std::string_view data, const Layout& layout, Index per_slice)
         : data_(data)
         , layout_(layout)
+        , per_slice_(per_slice)
     {
     }
 
@@ -45,12 +58,18 @@ class Skimmer {
         count();
         skip_words(3 * n_vertices);
         for (std::uint64_t f = 0; f < n_faces && fits_; ++f) {
+            if (slices_.empty() || slices_.back().n_faces == at(per_slice_))
+                slices_.push_back({0, next_});
+            ++slices_.back().n_faces;
             skip_words(count());
             if (layout_.colours_follow_faces)
                 skip_words(count());
         }
         return fits_ && data_.find_first_not_of(std::string_view("\0 \t\r\n", 5), next_) == std::string_view::npos;
     }
+
+    /// All faces that have been passed.
+    [[nodiscard]] const std::vector<FaceSlice>& slices() const { return slices_; }
 
   private:
     std::uint64_t count()
@@ -69,6 +88,8 @@ class Skimmer {
 
     std::string_view data_;
     Layout layout_;
+    Index per_slice_;
+    std::vector<FaceSlice> slices_;
     std::size_t next_ = 0;
     bool fits_ = true;
 };
@@ -83,6 +104,32 @@ void read_face(ByteScanner& scanner, const Layout& layout, std::int64_t n_vertic
     if (layout.colours_follow_faces)
         scanner.take(word_size * scanner.read<std::uint32_t>());
     builder.add_face(corners);
+}
+
+/// @throws InputError if there is any fault, not necessarily naming it.
+PolygonMesh read_slices(const Layout& layout, std::string_view data, const Slicing& slicing)
+{
+    Skimmer skimmer(data, layout, elements_per_slice(slicing, typical_face_bytes));
+    skimmer.fits();
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(sum_of_counts(0, from_bytes<std::uint32_t>(data.data(), layout.order)));
+    for_each(slicing.loop, mesh.n_vertices(), [&](Index v) {
+        const char* const first = data.data() + counts_bytes + at(v) * vertex_bytes;
+        for (Index k = 0; k < 3; ++k)
+            mesh.vertices(v, k) = from_bytes<float>(first + at(k) * word_size, layout.order);
+        if (!mesh.vertices.row(v).allFinite())
+            throw InputError("a coordinate is not a finite number");
+    });
+    const NoPosition position;
+    append_faces(mesh, static_cast<Index>(skimmer.slices().size()), slicing.loop, [&](Index i, PolygonMesh& faces) {
+        const FaceSlice& slice = skimmer.slices()[i];
+        ByteScanner scanner({}, data, slice.offset, layout.order);
+        MeshBuilder builder(position, 0, {mesh.vertices, 0, faces});
+        std::vector<Index> corners;
+        for (std::uint64_t f = 0; f < slice.n_faces; ++f)
+            read_face(scanner, layout, mesh.n_vertices(), builder, corners);
+    });
+    return mesh;
 }
 
 PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std::string_view file, std::size_t offset,
@@ -116,7 +163,7 @@ PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std
 std::optional<Layout> layout_of(std::string_view data)
 {
     for (const Layout& layout : layouts)
-        if (Skimmer(data, layout).fits())
+        if (Skimmer(data, layout, std::numeric_limits<Index>::max()).fits())
             return layout;
     return std::nullopt;
 }
@@ -124,35 +171,42 @@ std::optional<Layout> layout_of(std::string_view data)
 }  // namespace
 
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
-                            FaultLog* faults)
+                            const Slicing& slicing, FaultLog* faults)
 {
-    if (const auto layout = layout_of(file.substr(offset)))
-        return read_as(*layout, path, file, offset, faults);
+    if (const auto layout = layout_of(file.substr(offset))) {
+        const auto in_one_go = [&] { return read_as(*layout, path, file, offset, faults); };
+        if (file.size() <= slicing.bytes)
+            return in_one_go();
+        return read_in_slices_if_faultless([&] { return read_slices(*layout, file.substr(offset), slicing); },
+                                           in_one_go);
+    }
     ByteScanner(path, file, offset, std::endian::big)
         .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, or "
               "holds more "
               "than coordinates and faces: convert the mesh to text OFF or to PLY");
 }
 
-bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh)
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,
+                        const Slicing& slicing)
 {
     const std::endian order = layout_of(file.substr(offset)).value_or(Layout{}).order;
-    const std::size_t first = offset + 3 * word_size;
-    bool rounded = false;
+    const auto too_large = select(slicing.loop, mesh.n_vertices(), [&](Index v) {
+        return mesh.vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
+    });
+    if (!too_large.empty())
+        throw OutputError(
+            fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large for the single "
+                        "precision of binary OFF; write another format",
+                        output.path().string(), too_large.front()));
+    const std::size_t first = offset + counts_bytes;
     output.text(file.substr(0, first));
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        for (const double coordinate : mesh.vertices.row(v)) {
-            if (std::abs(coordinate) > std::numeric_limits<float>::max())
-                throw OutputError(
-                    fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large for the "
-                                "single precision of binary OFF; write another format",
-                                output.path().string(), v));
-            const auto number = static_cast<float>(coordinate);
-            rounded = rounded || static_cast<double>(number) != coordinate;
-            output.binary(number, order);
-        }
-    output.text(file.substr(first + 3 * word_size * at(mesh.n_vertices())));
-    return rounded;
+    write_elements(output, mesh.n_vertices(), elements_per_slice(slicing, vertex_bytes), slicing.loop,
+                   [&](ByteWriter& slice, Index v) {
+                       for (const double coordinate : mesh.vertices.row(v))
+                           slice.binary(static_cast<float>(coordinate), order);
+                   });
+    output.text(file.substr(first + vertex_bytes * at(mesh.n_vertices())));
+    return mesh.vertices.cast<float>().cast<double>() != mesh.vertices;
 }
 
 }  // namespace seamflow

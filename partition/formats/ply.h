@@ -9,6 +9,7 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
+#include "partition/io/slices.h"
 
 namespace seamflow {
 
@@ -18,7 +19,8 @@ namespace seamflow {
 /// of a binary file only padding (zeros, blanks, line ends) is accepted.
 /// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
-MeshFile read_ply(const std::filesystem::path& path, std::string_view file, FaultLog* faults = nullptr);
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
+                  FaultLog* faults = nullptr);
 
 /// What a PLY file can hold beside the mesh; empty: nothing.
 struct PlyExtras {
@@ -32,7 +34,8 @@ struct PlyExtras {
 
 /// Writes PLY: coordinates as double, faces as `list uchar int`, or `list int int` if one has more than 255 sides.
 /// @throws OutputError
-void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras = {});
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
+               const PlyExtras& extras = {});
 
 /// Writes a file again that `read_ply` has read, with the positions of `mesh`. The properties nx, ny, nz of the
 /// vertices, if they are float or double, become the normals of the surface; everything else stays byte for byte, as do
@@ -42,7 +45,7 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 /// @returns what a user should know about it, in sentences.
 /// @throws OutputError
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh);
+                                     const PolygonMesh& mesh, const Slicing& slicing);
 
 /// What such a file holds besides a surface, in a few words each; comments do not count.
 /// @param path for messages only.

@@ -1,5 +1,7 @@
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,8 @@
 #include "partition/errors.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_plain.h"
+#include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
@@ -17,17 +21,7 @@ namespace seamflow {
 
 namespace {
 
-/// What a property means to the mesh; the numbers of the first three are those of the coordinates.
-enum class Role : std::size_t {
-    X,
-    Y,
-    Z,
-    Corners,
-    /// Nothing that this reader has a use for.
-    Other
-};
-
-/// Reads the elements that follow the header, in their order.
+/// Reads the elements that follow the header, or those of a slice, in their order.
 template <class Source>
 class ElementReader {
   public:
@@ -40,7 +34,15 @@ class ElementReader {
         builder_.reserve(static_cast<std::uint64_t>(n_vertices_), faces != nullptr ? faces->count : 0);
     }
 
-    void read(const PlyElement& element);
+    ElementReader(Source& source, Index n_vertices, const MeshSlice& slice)
+        : source_(source)
+        , builder_(source.position(), 0, slice)
+        , n_vertices_(n_vertices)
+    {
+    }
+
+    /// Reads the elements begin to end - 1 of a kind.
+    void read(const PlyElement& element, std::uint64_t begin, std::uint64_t end);
 
     PolygonMesh finish()
     {
@@ -49,7 +51,7 @@ class ElementReader {
     }
 
   private:
-    void read_property(const PlyProperty& property, Role role);
+    void read_property(const PlyProperty& property, PlyRole role);
     void read_corners(const PlyProperty& property);
 
     Source& source_;
@@ -59,52 +61,37 @@ class ElementReader {
     std::vector<Index> corners_;
 };
 
-std::vector<Role> roles_of(const PlyElement& element)
-{
-    std::vector<Role> roles;
-    for (const PlyProperty& property : element.properties) {
-        Role role = Role::Other;
-        if (element.name == "vertex")
-            role = property.name == "x"   ? Role::X
-                   : property.name == "y" ? Role::Y
-                   : property.name == "z" ? Role::Z
-                                          : Role::Other;
-        else if (element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index"))
-            role = Role::Corners;
-        roles.push_back(role);
-    }
-    return roles;
-}
-
 template <class Source>
-void ElementReader<Source>::read(const PlyElement& element)
+void ElementReader<Source>::read(const PlyElement& element, std::uint64_t begin, std::uint64_t end)
 {
-    const std::vector<Role> roles = roles_of(element);
-    for (std::uint64_t i = 0; i < element.count; ++i) {
+    const std::vector<PlyRole> roles = roles_of(element);
+    const bool is_vertex = element.name == "vertex";
+    const bool is_face = element.name == "face";
+    for (std::uint64_t i = begin; i < end; ++i) {
         source_.begin_element(element, i);
         for (std::size_t p = 0; p < roles.size(); ++p)
             read_property(element.properties[p], roles[p]);
         source_.end_element();
-        if (element.name == "vertex")
+        if (is_vertex)
             builder_.add_vertex(point_);
-        else if (element.name == "face")
+        else if (is_face)
             builder_.add_face(corners_);
     }
 }
 
 template <class Source>
-void ElementReader<Source>::read_property(const PlyProperty& property, Role role)
+void ElementReader<Source>::read_property(const PlyProperty& property, PlyRole role)
 {
     switch (role) {
-    case Role::X:
-    case Role::Y:
-    case Role::Z:
+    case PlyRole::X:
+    case PlyRole::Y:
+    case PlyRole::Z:
         point_[static_cast<std::size_t>(role)] = source_.real(property.type);
         break;
-    case Role::Corners:
+    case PlyRole::Corners:
         read_corners(property);
         break;
-    case Role::Other:
+    case PlyRole::Other:
         pass_over(source_, property);
         break;
     }
@@ -130,11 +117,11 @@ void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
     if (vertices == nullptr || vertices->count == 0)
         scanner.fail("the file has no vertices; export the mesh again");
     std::size_t n_found = 0;
-    for (std::size_t p = 0; const Role role : roles_of(*vertices)) {
+    for (std::size_t p = 0; const PlyRole role : roles_of(*vertices)) {
         const PlyProperty& property = vertices->properties[p++];
-        if (role != Role::Other && property.length_type)
+        if (role != PlyRole::Other && property.length_type)
             refuse(scanner, property.line, "a coordinate must be one number, not a list; correct the header");
-        n_found += role != Role::Other ? 1 : 0;
+        n_found += role != PlyRole::Other ? 1 : 0;
     }
     if (n_found < 3)
         refuse(scanner, vertices->line, "the vertices lack x, y or z; correct the header or export the mesh again");
@@ -143,9 +130,9 @@ void require_coordinates(const TextScanner& scanner, const PlyHeader& header)
 void require_corners(const TextScanner& scanner, const PlyElement& faces)
 {
     std::size_t n_found = 0;
-    for (std::size_t p = 0; const Role role : roles_of(faces)) {
+    for (std::size_t p = 0; const PlyRole role : roles_of(faces)) {
         const PlyProperty& property = faces.properties[p++];
-        if (role != Role::Corners)
+        if (role != PlyRole::Corners)
             continue;
         if (!property.length_type || !is_integer(property.type))
             refuse(
@@ -178,20 +165,91 @@ PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faul
     source.note_faults_in(faults);
     ElementReader<Source> reader(source, header);
     for (const PlyElement& element : header.elements)
-        reader.read(element);
+        reader.read(element, 0, element.count);
     return reader.finish();
+}
+
+/// How many elements of that name the first `end` elements of a file have.
+std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::string_view name)
+{
+    std::uint64_t n = 0;
+    for_each_kind(header.elements, {0, end}, [&](const PlyElement& element, std::uint64_t, std::uint64_t n_here) {
+        n = element.name == name ? n_here : n;
+    });
+    return n;
+}
+
+/// @param source_of called with the bytes of a slice.
+/// @throws InputError if there is any fault, not necessarily naming it.
+/// @param reads_plain called with a slice and where it belongs, reads it in another way if it returns true.
+template <class SourceOf, class ReadsPlain>
+PolygonMesh read_slices(const PlyHeader& header, std::span<const PlySlice> slices, const Loop& loop,
+                        const SourceOf& source_of, const ReadsPlain& reads_plain)
+{
+    const auto n_vertices = static_cast<Index>(header.element("vertex")->count);
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(n_vertices);
+    if (const PlyElement* const faces = header.element("face"))
+        mesh.face_offsets.reserve(faces->count + 1);
+    append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
+        const auto first = static_cast<Index>(count_before(slices[i].begin, header, "vertex"));
+        const MeshSlice place{mesh.vertices, first, faces};
+        if (reads_plain(slices[i], place))
+            return;
+        auto source = source_of(slices[i].bytes);
+        ElementReader<decltype(source)> reader(source, n_vertices, place);
+        for_each_kind(header.elements, slices[i],
+                      [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
+                          reader.read(element, begin, end);
+                      });
+    });
+    auto end = source_of(std::string_view(slices.back().bytes.data() + slices.back().bytes.size(), 0));
+    end.finish();
+    return mesh;
+}
+
+/// The same of a file of whatever encoding.
+PolygonMesh read_slices(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
+                        const PlyHeader& header, const Slicing& slicing)
+{
+    if (header.element("vertex")->count > std::numeric_limits<Index>::max())
+        throw InputError("too many vertices");
+    const std::vector<PlySlice> slices = slice_ply(file, after_header, header.encoding, header.elements, slicing);
+    if (header.encoding != Encoding::Ascii)
+        return read_slices(
+            header, slices, slicing.loop,
+            [&](std::string_view bytes) {
+                return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()),
+                                       header.encoding);
+            },
+            [&](const PlySlice& slice, const MeshSlice& place) { return read_plain_slice(header, slice, place); });
+    std::uint64_t n_elements = 0;
+    for (const PlyElement& element : header.elements)
+        n_elements += element.count;
+    if (slices.empty() || slices.back().end != n_elements)
+        throw InputError("the file ends too early, or goes on");
+    return read_slices(
+        header, slices, slicing.loop,
+        [&](std::string_view bytes) { return PlyTextSource(TextScanner(after_header, bytes)); },
+        [](const PlySlice&, const MeshSlice&) { return false; });
 }
 
 }  // namespace
 
-MeshFile read_ply(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
     TextScanner scanner(path, file, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_surface(scanner, header);
-    PolygonMesh mesh = with_source(scanner, path, file, header.encoding,
-                                   [&](auto source) { return read_elements(std::move(source), header, faults); });
-    return {std::move(mesh), {FileFormat::Ply, header.encoding}};
+    const auto in_one_go = [&] {
+        return with_source(scanner, path, file, header.encoding,
+                           [&](auto source) { return read_elements(std::move(source), header, faults); });
+    };
+    const FileKind kind{FileFormat::Ply, header.encoding};
+    if (scanner.rest().size() <= slicing.bytes)
+        return {in_one_go(), kind};
+    return {read_in_slices_if_faultless([&] { return read_slices(scanner, path, file, header, slicing); }, in_one_go),
+            kind};
 }
 
 }  // namespace seamflow

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
 #include "partition/formats/splicing.h"
 
@@ -81,7 +83,7 @@ std::vector<Change> changes_of(const PlyElement& vertices, const PolygonMesh& me
     return changes;
 }
 
-/// Writes the vertices of one file.
+/// Writes the vertices of a slice of a file.
 template <class Source>
 class VertexRewriter {
   public:
@@ -151,11 +153,11 @@ void VertexRewriter<Source>::rewrite(const PlyElement& vertices, const std::vect
 template <class Source>
 void VertexRewriter<Source>::exchange(std::string_view part, const Change& change, double number)
 {
-    OutputFile& file = splicer_.exchange(part);
+    ByteWriter& file = splicer_.exchange(part);
     const bool is_position = change.column < 3;
     if (encoding_ != Encoding::Ascii) {
-        const auto order = encoding_ == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little;
-        with_type(change.type, [&](auto zero) { file.binary(static_cast<decltype(zero)>(number), order); });
+        with_type(change.type,
+                  [&](auto zero) { file.binary(static_cast<decltype(zero)>(number), order_of(encoding_)); });
         const bool single = change.type == PlyType::Float32;
         rounded_ = rounded_ || (is_position && single && double{static_cast<float>(number)} != number);
     } else if (is_position || change.type == PlyType::Float64) {
@@ -181,27 +183,59 @@ std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem:
     return remarks;
 }
 
-/// Writes all that follows the header.
+/// Writes a slice.
+/// @param normals null: there are none.
 /// @returns whether positions were rounded.
 template <class Source>
-bool rewrite_elements(Source source, Splicer& splicer, const PlyHeader& header, const std::vector<Change>& changes,
-                      const PolygonMesh& mesh, const MovedNormals* normals)
+bool rewrite_slice(Source source, Splicer splicer, const PlyHeader& header, const PlySlice& slice,
+                   const std::vector<Change>& changes, const PolygonMesh& mesh, const MovedNormals* normals)
 {
     VertexRewriter<Source> rewriter(source, splicer, header.encoding);
     const PlyElement* const vertices = header.element("vertex");
-    for (const PlyElement* element = header.elements.data(); element != vertices; ++element)
-        for (std::uint64_t i = 0; i < element->count; ++i)
-            pass_over(source, *element, i);
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        rewriter.rewrite(*vertices, changes, v, mesh.vertices.row(v), normals);
+    const auto n_elements = static_cast<std::size_t>(vertices - header.elements.data()) + 1;
+    for_each_kind(std::span(header.elements).first(n_elements), slice,
+                  [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
+                      for (std::uint64_t i = begin; i < end; ++i)
+                          if (&element != vertices)
+                              pass_over(source, element, i);
+                          else
+                              rewriter.rewrite(element, changes, static_cast<Index>(i),
+                                               mesh.vertices.row(static_cast<Index>(i)), normals);
+                  });
     splicer.finish();
     return rewriter.rounded();
+}
+
+/// Writes all that follows the header.
+/// @param after_header stands at the last line of the header. @param normals null: there are none.
+/// @returns whether positions were rounded.
+bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const std::filesystem::path& path,
+                      std::string_view content, const PlyHeader& header, const std::vector<Change>& changes,
+                      const PolygonMesh& mesh, const MovedNormals* normals, const Slicing& slicing)
+{
+    const PlyElement* const vertices = header.element("vertex");
+    const std::span<const PlyElement> elements(header.elements.data(), vertices + 1);
+    const std::vector<PlySlice> slices = slice_ply(content, after_header, header.encoding, elements, slicing);
+    std::vector<std::uint8_t> rounded(slices.size());
+    file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+        const auto rewrite = [&](auto source) {
+            return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes, mesh,
+                                 normals);
+        };
+        const auto offset = static_cast<std::size_t>(slices[i].bytes.data() - content.data());
+        rounded[i] = header.encoding == Encoding::Ascii
+                         ? rewrite(PlyTextSource(TextScanner(after_header, slices[i].bytes)))
+                         : rewrite(PlyBinarySource(path, content, offset, header.encoding));
+    });
+    const std::string_view last = slices.back().bytes;
+    file.text(content.substr(static_cast<std::size_t>(last.data() - content.data()) + last.size()));
+    return std::ranges::find(rounded, 1) != rounded.end();
 }
 
 }  // namespace
 
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
-                                     const PolygonMesh& mesh)
+                                     const PolygonMesh& mesh, const Slicing& slicing)
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
@@ -209,13 +243,12 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     const std::vector<Change> changes = changes_of(vertices, mesh);
     std::optional<MovedNormals> normals;
     if (normals_of(vertices) == Normals::Usable)
-        normals.emplace(mesh, read_ply(path, content).mesh.vertices);
-    const MovedNormals* const moved = normals ? &*normals : nullptr;
-    Splicer splicer(file, content);
+        normals.emplace(mesh, read_ply(path, content, slicing).mesh.vertices, slicing.loop);
+    Splicer splicer(file, content.substr(0, content.size() - scanner.rest().size()));
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
-    const bool rounded = with_source(scanner, path, content, header.encoding, [&](auto source) {
-        return rewrite_elements(std::move(source), splicer, header, changes, mesh, moved);
-    });
+    splicer.finish();
+    const bool rounded =
+        rewrite_elements(file, scanner, path, content, header, changes, mesh, normals ? &*normals : nullptr, slicing);
     if (normals_of(vertices) == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

@@ -40,7 +40,7 @@ void PlyTextSource::finish()
 
 PlyBinarySource::PlyBinarySource(const std::filesystem::path& path, std::string_view file, std::size_t begin,
                                  Encoding encoding)
-    : scanner_(path, file, begin, encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little)
+    : scanner_(path, file, begin, order_of(encoding))
 {
 }
 

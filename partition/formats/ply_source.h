@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -11,13 +12,19 @@
 
 namespace seamflow {
 
+/// The order of the bytes in a binary file.
+inline std::endian order_of(Encoding encoding)
+{
+    return encoding == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little;
+}
+
 /// The numbers of a text PLY file, one after another; an element is a line. All functions throw InputError, naming the
 /// line, if the file holds something else.
 class PlyTextSource {
   public:
-    /// @param after_header stands at the last line of the header.
-    explicit PlyTextSource(const TextScanner& after_header)
-        : scanner_(after_header)
+    /// @param scanner stands before the first line, that is, at the last line of the header.
+    explicit PlyTextSource(const TextScanner& scanner)
+        : scanner_(scanner)
     {
     }
 

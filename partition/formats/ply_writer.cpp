@@ -1,10 +1,11 @@
-#include <bit>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "partition/formats/ply.h"
+#include "partition/formats/ply_source.h"
 
 namespace seamflow {
 
@@ -31,14 +32,23 @@ bool has_long_face(const PolygonMesh& mesh)
     return false;
 }
 
+/// What there is to write.
+struct PlyContent {
+    const PolygonMesh& mesh;
+    Encoding encoding;
+    const PlyExtras& extras;
+    bool long_faces;
+};
+
+/// Writes a file, or a slice of one.
 class PlyWriter {
   public:
-    PlyWriter(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
+    PlyWriter(ByteWriter& file, const PlyContent& content)
         : file_(file)
-        , mesh_(mesh)
-        , encoding_(encoding)
-        , extras_(extras)
-        , long_faces_(has_long_face(mesh))
+        , mesh_(content.mesh)
+        , encoding_(content.encoding)
+        , extras_(content.extras)
+        , long_faces_(content.long_faces)
     {
     }
 
@@ -55,19 +65,26 @@ class PlyWriter {
         begins_line_ = true;
     }
 
+    template <class Number>
+    void write(std::span<const Number> values)
+    {
+        if (encoding_ != Encoding::Ascii)
+            return file_.binary(values, order_of(encoding_));
+        for (const Number value : values)
+            write(value);
+    }
+
     void write(auto value)
     {
-        if (encoding_ != Encoding::Ascii) {
-            file_.binary(value, encoding_ == Encoding::BinaryBigEndian ? std::endian::big : std::endian::little);
-            return;
-        }
+        if (encoding_ != Encoding::Ascii)
+            return file_.binary(value, order_of(encoding_));
         if (!begins_line_)
             file_.text(" ");
         begins_line_ = false;
         file_.number(value);
     }
 
-    OutputFile& file_;
+    ByteWriter& file_;
     const PolygonMesh& mesh_;
     Encoding encoding_;
     const PlyExtras& extras_;
@@ -97,8 +114,7 @@ void PlyWriter::write_colour(const Colour& colour)
 
 void PlyWriter::write_vertex(Index v)
 {
-    for (Index k = 0; k < 3; ++k)
-        write(mesh_.vertices(v, k));
+    write(std::span<const double>(mesh_.vertices.row(v).data(), 3));
     if (!extras_.vertex_colours.empty())
         write_colour(extras_.vertex_colours[v]);
     for (const VertexValues& list : extras_.vertex_values)
@@ -113,8 +129,7 @@ void PlyWriter::write_face(Index f)
         write(static_cast<std::int32_t>(corners.size()));
     else
         write(static_cast<std::uint8_t>(corners.size()));
-    for (const Index v : corners)
-        write(v);
+    write(corners);
     if (!extras_.face_labels.empty()) {
         write_colour(colour_of(extras_.face_labels[f]));
         write(extras_.face_labels[f]);
@@ -124,14 +139,17 @@ void PlyWriter::write_face(Index f)
 
 }  // namespace
 
-void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const PlyExtras& extras)
+void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
+               const PlyExtras& extras)
 {
-    PlyWriter writer(file, mesh, encoding, extras);
-    writer.write_header();
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        writer.write_vertex(v);
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        writer.write_face(f);
+    const PlyContent content{mesh, encoding, extras, has_long_face(mesh)};
+    PlyWriter(file, content).write_header();
+    constexpr std::size_t element_bytes = 32;
+    const Index per_slice = elements_per_slice(slicing, element_bytes);
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+                   [&](ByteWriter& slice, Index v) { PlyWriter(slice, content).write_vertex(v); });
+    write_elements(file, mesh.n_faces(), per_slice, slicing.loop,
+                   [&](ByteWriter& slice, Index f) { PlyWriter(slice, content).write_face(f); });
 }
 
 }  // namespace seamflow

@@ -21,12 +21,12 @@ std::optional<Point> on_the_side_of(const Point& given, const Point& before, con
 
 }  // namespace
 
-OutputFile& Splicer::exchange(std::string_view part)
+ByteWriter& Splicer::exchange(std::string_view part)
 {
     const auto before = static_cast<std::size_t>(part.data() - rest_.data());
-    file_.text(rest_.substr(0, before));
+    writer_.text(rest_.substr(0, before));
     rest_.remove_prefix(before + part.size());
-    return file_;
+    return writer_;
 }
 
 bool differ(double a, double b)
@@ -60,10 +60,10 @@ void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point&
             splicer.exchange(before.parts[k]).number(static_cast<float>(after[k]));
 }
 
-MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before)
+MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Loop& loop)
     : mesh_(mesh)
     , before_(std::move(before))
-    , topology_(make_topology(mesh))
+    , topology_(make_topology(mesh, loop))
     , normals_(mesh, topology_)
 {
 }

@@ -7,31 +7,31 @@
 #include <string>
 #include <string_view>
 
-#include "partition/io/output_file.h"
+#include "partition/io/byte_writer.h"
 #include "partition/io/text_scanner.h"
 #include "partition/metrics/vertex_normals.h"
 
 namespace seamflow {
 
-/// Copies the content of one file into another, with parts of it exchanged.
+/// Copies the content of a file, or a slice of it, with parts of it exchanged.
 class Splicer {
   public:
-    /// @param file, content have to outlive the splicer.
-    Splicer(OutputFile& file, std::string_view content)
-        : file_(file)
+    /// @param writer, content have to outlive the splicer.
+    Splicer(ByteWriter& writer, std::string_view content)
+        : writer_(writer)
         , rest_(content)
     {
     }
 
     /// Copies what precedes `part`, a part of the content behind all those exchanged so far, and leaves it out.
-    /// @returns the file, for what is to stand in its place.
-    OutputFile& exchange(std::string_view part);
+    /// @returns where to write what is to stand in its place.
+    ByteWriter& exchange(std::string_view part);
 
     /// Copies what is left. To be called once, at the end.
-    void finish() { file_.text(rest_); }
+    void finish() { writer_.text(rest_); }
 
   private:
-    OutputFile& file_;
+    ByteWriter& writer_;
     std::string_view rest_;
 };
 
@@ -59,7 +59,7 @@ class MovedNormals {
   public:
     /// @param mesh where the vertices are now; has to outlive this object.
     /// @param before #V by 3, where they were.
-    MovedNormals(const PolygonMesh& mesh, Points before);
+    MovedNormals(const PolygonMesh& mesh, Points before, const Loop& loop = run_serially);
     MovedNormals(const MovedNormals&) = delete;
     MovedNormals& operator=(const MovedNormals&) = delete;
 

@@ -6,6 +6,7 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
+#include "partition/io/slices.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -17,7 +18,11 @@ namespace seamflow {
 /// ends) is accepted.
 /// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming line, or facet and byte; also for a facet of which two corners coincide.
-MeshFile read_stl(const std::filesystem::path& path, std::string_view file, FaultLog* faults = nullptr);
+MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
+                  FaultLog* faults = nullptr);
+
+/// Whether `read_stl` can make anything of it: the size is that of a binary file, or the text begins with `solid`.
+bool is_stl(std::string_view file);
 
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, no two corners of a face in the same
 /// place, and for the binary encoding all coordinates within, and corners distinct in, single precision.
@@ -29,6 +34,6 @@ void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh
 /// Writes STL with unit normals (0 0 0 where a face has no area).
 /// @pre require_fits_stl
 /// @throws OutputError
-void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding);
+void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
 
 }  // namespace seamflow

@@ -3,11 +3,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "partition/errors.h"
 #include "partition/formats/stl.h"
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
@@ -38,55 +41,41 @@ std::uint64_t declared_facets(std::string_view file)
     return from_bytes<std::uint32_t>(file.data() + title_bytes, std::endian::little);
 }
 
-/// Mixes the bits of the coordinates: multiplication carries them up, the shift brings them down again.
+/// Mixes the bits of the coordinates, zeros positive: multiplication carries them up, the shift brings them down again.
 std::size_t hash_of(const Corner& point)
 {
     std::uint64_t result = 0;
     for (const double x : point) {
-        result = (result ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U;
+        result = (result ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
         result ^= result >> 32U;
     }
     return static_cast<std::size_t>(result);
 }
 
-/// Joins the corners of facets to vertices, and facets to a mesh. Points with equal coordinates become the same vertex,
-/// numbered in the order in which they first appear. Positive and negative zero are equal; the vertex keeps the sign
-/// that came first.
-class FacetCollector {
+/// Gives points numbers, equal ones the same, in the order in which they first come. Positive and negative zero are
+/// equal; the point keeps the sign that came first.
+class PointNumbers {
   public:
-    explicit FacetCollector(const InputPosition& position)
-        : position_(position)
-        , builder_(position)
-        , slots_(1024, -1)
+    PointNumbers()
+        : slots_(1024, -1)
     {
     }
 
-    void add(const std::array<Corner, 3>& points)
-    {
-        const std::array<Index, 3> corners = {vertex(points[0]), vertex(points[1]), vertex(points[2])};
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-            position_.fault("two corners of the facet have the same coordinates; remove the facet");
-        else
-            builder_.add_face(corners);
-    }
+    Index operator()(const Corner& point);
 
-    PolygonMesh finish() { return builder_.finish(); }
+    [[nodiscard]] const std::vector<Corner>& points() const { return points_; }
 
   private:
-    Index vertex(const Corner& point);
     [[nodiscard]] std::size_t slot_of(const Corner& point) const;
     void grow();
 
-    const InputPosition& position_;
-    MeshBuilder builder_;
-    /// The points of the vertices, zeros positive.
     std::vector<Corner> points_;
-    /// A hash table with open addressing: vertices, or -1. Its length is a power of two.
+    /// A hash table with open addressing: numbers, or -1. Its length is a power of two.
     std::vector<Index> slots_;
 };
 
-/// The slot that holds the vertex at this point, or the free one where it belongs.
-std::size_t FacetCollector::slot_of(const Corner& point) const
+/// The slot that holds the number of this point, or the free one where it belongs.
+std::size_t PointNumbers::slot_of(const Corner& point) const
 {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash_of(point) & mask;
@@ -95,47 +84,90 @@ std::size_t FacetCollector::slot_of(const Corner& point) const
     return slot;
 }
 
-void FacetCollector::grow()
+void PointNumbers::grow()
 {
     slots_.assign(2 * slots_.size(), -1);
     for (std::size_t v = 0; v < points_.size(); ++v)
         slots_[slot_of(points_[v])] = static_cast<Index>(v);
 }
 
-/// The vertex at that point.
-Index FacetCollector::vertex(const Corner& point)
+Index PointNumbers::operator()(const Corner& point)
 {
-    const Corner key = {point[0] + 0.0, point[1] + 0.0, point[2] + 0.0};
-    const std::size_t slot = slot_of(key);
+    const std::size_t slot = slot_of(point);
     if (slots_[slot] >= 0)
         return slots_[slot];
-    const auto result = static_cast<Index>(points_.size());
-    builder_.add_vertex(point);
-    points_.push_back(key);
-    slots_[slot] = result;
+    const auto number = static_cast<Index>(points_.size());
+    points_.push_back(point);
+    slots_[slot] = number;
     if (2 * points_.size() > slots_.size())
         grow();
-    return result;
+    return number;
 }
 
+/// Joins the corners of facets to vertices, and facets to a mesh.
+class FacetCollector {
+  public:
+    /// Of a whole file.
+    explicit FacetCollector(const InputPosition& position)
+        : position_(position)
+        , builder_(position)
+    {
+    }
+
+    /// Of a slice, whose vertices are the points in it.
+    /// @param slice without vertices.
+    FacetCollector(const InputPosition& position, const MeshSlice& slice)
+        : position_(position)
+        , builder_(position, 0, slice)
+    {
+    }
+
+    void add(const std::array<Corner, 3>& points)
+    {
+        const std::array<Index, 3> corners = {numbers_(points[0]), numbers_(points[1]), numbers_(points[2])};
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+            position_.fault("two corners of the facet have the same coordinates; remove the facet");
+        else
+            builder_.add_face(corners);
+    }
+
+    [[nodiscard]] PointNumbers take_points() { return std::move(numbers_); }
+
+    PolygonMesh finish()
+    {
+        for (const Corner& point : numbers_.points())
+            builder_.add_vertex(point);
+        return builder_.finish();
+    }
+
+  private:
+    const InputPosition& position_;
+    MeshBuilder builder_;
+    PointNumbers numbers_;
+};
+
+/// Reads a whole file, or a slice of one.
 class TextReader {
   public:
-    TextReader(const std::filesystem::path& path, std::string_view text, FaultLog* faults)
-        : scanner_(path, text, {.comment = '\0'})
+    TextReader(const TextScanner& scanner, FaultLog* faults)
+        : scanner_(scanner)
         , collector_(scanner_)
     {
         scanner_.note_faults_in(faults);
     }
 
-    PolygonMesh read()
+    TextReader(const TextScanner& scanner, const MeshSlice& slice)
+        : scanner_(scanner)
+        , collector_(scanner_, slice)
     {
-        while (scanner_.next_line())
-            read_solid();
-        return collector_.finish();
     }
 
+    /// @param begins_in_solid, ends_in_solid for slices that do.
+    void read(bool begins_in_solid = false, bool ends_in_solid = false);
+
+    FacetCollector& collector() { return collector_; }
+
   private:
-    void read_solid();
     void read_facet();
     Corner read_corner();
     void next_line(std::string_view keyword);
@@ -145,15 +177,22 @@ class TextReader {
     FacetCollector collector_;
 };
 
-void TextReader::read_solid()
+void TextReader::read(bool begins_in_solid, bool ends_in_solid)
 {
-    expect("solid");
-    next_line("facet or endsolid");
-    while (!is_keyword(scanner_.peek(), "endsolid")) {
-        expect("facet");
-        read_facet();
-        next_line("facet or endsolid");
+    bool in_solid = begins_in_solid;
+    while (scanner_.next_line()) {
+        if (!in_solid) {
+            expect("solid");
+            in_solid = true;
+        } else if (is_keyword(scanner_.peek(), "endsolid")) {
+            in_solid = false;
+        } else {
+            expect("facet");
+            read_facet();
+        }
     }
+    if (in_solid != ends_in_solid)
+        next_line("facet or endsolid");
 }
 
 void TextReader::read_facet()
@@ -229,14 +268,9 @@ void require_room_for_facets(ByteScanner& scanner, std::string_view file)
                                  (file.size() - header_bytes) / facet_bytes));
 }
 
-PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+void read_facets(ByteScanner& scanner, std::uint64_t begin, std::uint64_t end, FacetCollector& collector)
 {
-    ByteScanner scanner(path, file, std::min(title_bytes, file.size()), std::endian::little);
-    scanner.note_faults_in(faults);
-    require_room_for_facets(scanner, file);
-    FacetCollector collector(scanner);
-    const auto n = scanner.read<std::uint32_t>();
-    for (std::uint64_t f = 0; f < n; ++f) {
+    for (std::uint64_t f = begin; f < end; ++f) {
         scanner.enter("facet", f);
         scanner.take(normal_bytes);
         const Corner a = read_point(scanner);
@@ -245,13 +279,110 @@ PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file
         scanner.take(attribute_bytes);
         collector.add({a, b, c});
     }
+}
+
+PolygonMesh read_binary(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+{
+    ByteScanner scanner(path, file, std::min(title_bytes, file.size()), std::endian::little);
+    scanner.note_faults_in(faults);
+    require_room_for_facets(scanner, file);
+    FacetCollector collector(scanner);
+    read_facets(scanner, 0, scanner.read<std::uint32_t>(), collector);
     scanner.require_end();
     return collector.finish();
 }
 
+/// Reads slices several at a time. The points of a slice become vertices of its own, and these those of the mesh.
+/// @param read called with a slice and where its faces belong; gives its points.
+PolygonMesh read_slices(Index n_slices, const Loop& loop,
+                        const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read)
+{
+    PolygonMesh mesh;
+    PointNumbers numbers;
+    std::vector<PointNumbers> of_slice(at(n_slices));
+    Points none(0, 3);
+    append_faces(
+        mesh, n_slices, loop,
+        [&](Index i, PolygonMesh& faces) {
+            of_slice[i] = read(i, {none, 0, faces});
+        },
+        [&](Index i, PolygonMesh& faces) {
+            std::vector<Index> number_of;
+            for (const Corner& point : of_slice[i].points())
+                number_of.push_back(numbers(point));
+            for (Index& v : faces.face_vertices)
+                v = number_of[v];
+            of_slice[i] = {};
+        });
+    const auto n = static_cast<Index>(numbers.points().size());
+    if (n == 0)
+        throw InputError("no vertices");
+    mesh.vertices = uninitialised_points(n);
+    mesh.vertices = Eigen::Map<const Points>(numbers.points().data()->data(), n, 3);
+    return mesh;
+}
+
+/// Slices of a text that begin at facets, but for the first.
+std::vector<std::string_view> slices_at_facets(const TextScanner& whole, std::size_t bytes)
+{
+    std::vector<std::string_view> slices;
+    const char* const end = whole.rest().data() + whole.rest().size();
+    const auto slice_between = [](const char* first, const char* last) {
+        return std::string_view(first, static_cast<std::size_t>(last - first));
+    };
+    const char* begin = whole.rest().data();
+    for (const std::string_view slice : whole.slices(bytes)) {
+        TextScanner scanner(whole, slice_between(slice.data() + slice.size(), end));
+        const char* line = scanner.rest().data();
+        while (scanner.next_line() && !is_keyword(scanner.peek(), "facet"))
+            line = scanner.rest().data();
+        if (scanner.rest().empty())
+            line = end;
+        if (line > begin)
+            slices.push_back(slice_between(begin, line));
+        begin = std::max(begin, line);
+    }
+    return slices;
+}
+
+/// @throws InputError if there is any fault, not necessarily naming it.
+PolygonMesh read_text_slices(const TextScanner& whole, const Slicing& slicing)
+{
+    const std::vector<std::string_view> slices = slices_at_facets(whole, slicing.bytes);
+    const auto n = static_cast<Index>(slices.size());
+    return read_slices(n, slicing.loop, [&](Index i, const MeshSlice& place) {
+        TextReader reader(TextScanner(whole, slices[i]), place);
+        reader.read(i > 0, i + 1 < n);
+        return reader.collector().take_points();
+    });
+}
+
+/// The same of a binary file.
+PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_view file, const Slicing& slicing)
+{
+    ByteScanner all(path, file, title_bytes, std::endian::little);
+    require_room_for_facets(all, file);
+    const auto n = all.read<std::uint32_t>();
+    const auto per_slice = static_cast<std::uint64_t>(elements_per_slice(slicing, facet_bytes));
+    ByteScanner(path, file, header_bytes + facet_bytes * n, std::endian::little).require_end();
+    return read_slices(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.loop,
+                       [&](Index i, const MeshSlice& place) {
+                           const std::uint64_t begin = at(i) * per_slice;
+                           ByteScanner scanner(path, file, header_bytes + facet_bytes * begin, std::endian::little);
+                           FacetCollector collector(scanner, place);
+                           read_facets(scanner, begin, std::min<std::uint64_t>(begin + per_slice, n), collector);
+                           return collector.take_points();
+                       });
+}
+
+bool has_size_of_binary(std::string_view file)
+{
+    return file.size() >= header_bytes && file.size() == header_bytes + facet_bytes * declared_facets(file);
+}
+
 bool is_text_stl(std::string_view file)
 {
-    if (file.size() >= header_bytes && file.size() == header_bytes + facet_bytes * declared_facets(file))
+    if (has_size_of_binary(file))
         return false;
     TextScanner scanner({}, file.substr(0, 1024));
     const bool solid = scanner.next_line() && is_keyword(scanner.token(), "solid");
@@ -260,11 +391,30 @@ bool is_text_stl(std::string_view file)
 
 }  // namespace
 
-MeshFile read_stl(const std::filesystem::path& path, std::string_view file, FaultLog* faults)
+bool is_stl(std::string_view file)
 {
-    if (is_text_stl(file))
-        return {TextReader(path, file, faults).read(), {FileFormat::Stl, Encoding::Ascii}};
-    return {read_binary(path, file, faults), {FileFormat::Stl, Encoding::BinaryLittleEndian}};
+    return has_size_of_binary(file) || is_text_stl(file);
+}
+
+MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
+{
+    const bool is_small = file.size() <= slicing.bytes;
+    if (!is_text_stl(file)) {
+        const auto in_one_go = [&] { return read_binary(path, file, faults); };
+        return {is_small
+                    ? in_one_go()
+                    : read_in_slices_if_faultless([&] { return read_binary_slices(path, file, slicing); }, in_one_go),
+                {FileFormat::Stl, Encoding::BinaryLittleEndian}};
+    }
+    const TextScanner whole(path, file, {.comment = '\0'});
+    const auto in_one_go = [&] {
+        TextReader reader(whole, faults);
+        reader.read();
+        return reader.collector().finish();
+    };
+    return {is_small ? in_one_go()
+                     : read_in_slices_if_faultless([&] { return read_text_slices(whole, slicing); }, in_one_go),
+            {FileFormat::Stl, Encoding::Ascii}};
 }
 
 }  // namespace seamflow

@@ -85,7 +85,7 @@ Eigen::Vector3f normal_of(const Facet& triangle)
     return u.stableNormalized().cross(v.stableNormalized()).stableNormalized().cast<float>();
 }
 
-void write_text_facet(OutputFile& file, const Facet& triangle)
+void write_text_facet(ByteWriter& file, const Facet& triangle)
 {
     file.line("facet normal", normal_of(triangle));
     file.text("outer loop\n");
@@ -94,7 +94,7 @@ void write_text_facet(OutputFile& file, const Facet& triangle)
     file.text("endloop\nendfacet\n");
 }
 
-void write_binary_facet(OutputFile& file, const Facet& triangle)
+void write_binary_facet(ByteWriter& file, const Facet& triangle)
 {
     const Eigen::Vector3f normal = normal_of(triangle);
     for (const float x : {normal[0], normal[1], normal[2]})
@@ -127,18 +127,20 @@ void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh
     }
 }
 
-void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding)
+void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing)
 {
     if (encoding == Encoding::Ascii)
         file.text("solid mesh\n");
     else
         write_binary_header(file, mesh.n_faces());
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        Facet triangle;
-        for (std::size_t k = 0; k < 3; ++k)
-            triangle[k] = mesh.vertices.row(mesh.face(f)[k]).transpose();
-        encoding == Encoding::Ascii ? write_text_facet(file, triangle) : write_binary_facet(file, triangle);
-    }
+    constexpr std::size_t facet_bytes = 128;
+    write_elements(
+        file, mesh.n_faces(), elements_per_slice(slicing, facet_bytes), slicing.loop, [&](ByteWriter& slice, Index f) {
+            Facet triangle;
+            for (std::size_t k = 0; k < 3; ++k)
+                triangle[k] = mesh.vertices.row(mesh.face(f)[k]).transpose();
+            encoding == Encoding::Ascii ? write_text_facet(slice, triangle) : write_binary_facet(slice, triangle);
+        });
     if (encoding == Encoding::Ascii)
         file.text("endsolid mesh\n");
 }

@@ -1,16 +1,21 @@
 #include "partition/io/input_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "partition/errors.h"
+#include "partition/io/gzip.h"
 
 namespace seamflow {
 
@@ -36,15 +41,87 @@ void require_regular(const std::filesystem::path& path)
         throw InputError(path.string() + ": the file is empty; export the mesh again");
 }
 
+/// A file without a name, in memory.
+class MemoryFile {
+  public:
+    /// @param path for messages only.
+    explicit MemoryFile(const std::filesystem::path& path)
+        : path_(path)
+        , descriptor_(::memfd_create("mesh", MFD_CLOEXEC))
+    {
+        if (descriptor_ < 0)
+            fail(path, errno);
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile()
+    {
+        if (descriptor_ >= 0)
+            ::close(descriptor_);
+    }
+
+    void append(std::string_view bytes)
+    {
+        while (!bytes.empty()) {
+            const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+            if (n < 0 && errno != EINTR)
+                fail(path_, errno);
+            bytes.remove_prefix(n > 0 ? static_cast<std::size_t>(n) : 0);
+        }
+    }
+
+    /// The descriptor, which becomes the caller's.
+    [[nodiscard]] int release() { return std::exchange(descriptor_, -1); }
+
+  private:
+    const std::filesystem::path& path_;
+    int descriptor_;
+};
+
+/// @returns how many bytes there were; 0 at the end.
+std::size_t read_some(const std::filesystem::path& path, int descriptor, std::span<char> bytes)
+{
+    while (true) {
+        const ssize_t n = ::read(descriptor, bytes.data(), bytes.size());
+        if (n >= 0)
+            return static_cast<std::size_t>(n);
+        if (errno != EINTR)
+            fail(path, errno);
+    }
+}
+
 }  // namespace
 
 OpenFile::OpenFile(const std::filesystem::path& path)
-    : path_(path)
+    : path_(is_standard_stream(path) ? "standard input" : path)
 {
-    require_regular(path);
-    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor_ < 0)
-        fail(path, errno);
+    if (is_standard_stream(path)) {
+        MemoryFile collected(path_);
+        std::vector<char> piece(std::size_t{1} << 18);
+        while (const std::size_t n = read_some(path_, STDIN_FILENO, piece))
+            collected.append({piece.data(), n});
+        descriptor_ = collected.release();
+        if (size() == 0)
+            throw InputError(path_.string() + ": there is nothing in it; export the mesh again");
+    } else {
+        require_regular(path);
+        descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        if (descriptor_ < 0)
+            fail(path, errno);
+    }
+    std::array<char, 2> begin{};
+    if (is_gzip({begin.data(), read(begin.data(), begin.size(), 0)}))
+        unpack();
+}
+
+void OpenFile::unpack()
+{
+    MemoryFile unpacked(path_);
+    unpack_gzip(path_, InputFile(*this).content(), [&](std::string_view piece) { unpacked.append(piece); });
+    ::close(descriptor_);
+    descriptor_ = unpacked.release();
+    if (size() == 0)
+        throw InputError(path_.string() + ": there is nothing in it; export the mesh again");
 }
 
 OpenFile::OpenFile(OpenFile&& other) noexcept
@@ -78,9 +155,25 @@ std::size_t OpenFile::read(char* bytes, std::size_t n, std::size_t offset) const
     }
 }
 
+const char* OpenFile::map(std::size_t n) const
+{
+    void* const mapped = ::mmap(nullptr, n, PROT_READ, MAP_PRIVATE, descriptor_, 0);
+    if (mapped == MAP_FAILED)
+        return nullptr;
+    static_cast<void>(::madvise(mapped, n, MADV_SEQUENTIAL));
+    return static_cast<const char*>(mapped);
+}
+
 InputFile::InputFile(const OpenFile& file)
 {
     const std::size_t expected = file.size();
+    constexpr std::size_t worth_mapping = std::size_t{1} << 20;
+    if (expected >= worth_mapping)
+        mapped_ = file.map(expected);
+    if (mapped_ != nullptr) {
+        size_ = expected;
+        return;
+    }
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
     constexpr std::size_t block = std::size_t{1} << 26;
     while (size_ < expected) {
@@ -89,6 +182,19 @@ InputFile::InputFile(const OpenFile& file)
             break;
         size_ += n;
     }
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : mapped_(std::exchange(other.mapped_, nullptr))
+    , bytes_(std::move(other.bytes_))
+    , size_(std::exchange(other.size_, 0))
+{
+}
+
+InputFile::~InputFile()
+{
+    if (mapped_ != nullptr)
+        ::munmap(const_cast<char*>(mapped_), size_);
 }
 
 }  // namespace seamflow

@@ -7,9 +7,18 @@
 
 namespace seamflow {
 
-/// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed.
+/// Whether a path is `-`, which stands for standard input or output.
+inline bool is_standard_stream(const std::filesystem::path& path)
+{
+    return path == "-";
+}
+
+/// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed. A file
+/// that is compressed by gzip (whatever its name is) is unpacked first, and what comes through standard input is
+/// collected, both in memory.
 class OpenFile {
   public:
+    /// @param path `-` for standard input.
     /// @throws InputError naming the file and the system's reason; also if it is empty, or not a regular file.
     explicit OpenFile(const std::filesystem::path& path);
     OpenFile(OpenFile&& other) noexcept;
@@ -18,32 +27,45 @@ class OpenFile {
     OpenFile& operator=(const OpenFile&) = delete;
     ~OpenFile();
 
-    /// As it was opened, for messages.
+    /// As it was opened, for messages; "standard input" for that.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     /// In bytes, as it is now.
     /// @throws InputError
     [[nodiscard]] std::size_t size() const;
 
+    /// Maps the first n bytes into memory, for reading from front to back.
+    /// @returns null if the system cannot do that.
+    [[nodiscard]] const char* map(std::size_t n) const;
+
     /// Reads n bytes from `offset` on, or a few less; 0 at the end of the file.
     /// @throws InputError
     std::size_t read(char* bytes, std::size_t n, std::size_t offset) const;
 
   private:
+    void unpack();
+
     std::filesystem::path path_;
     int descriptor_ = -1;
 };
 
-/// The whole of a file in memory.
+/// The whole of a file in memory. A large one is mapped: while it is, another program that cuts it off ends this one.
 class InputFile {
   public:
     /// @throws InputError
     explicit InputFile(const OpenFile& file);
+    InputFile(InputFile&& other) noexcept;
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(InputFile&&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile();
 
     /// The bytes of the file; valid as long as this object.
-    [[nodiscard]] std::string_view content() const { return {bytes_.get(), size_}; }
+    [[nodiscard]] std::string_view content() const { return {mapped_ != nullptr ? mapped_ : bytes_.get(), size_}; }
 
   private:
+    /// Null: `bytes_` has the content.
+    const char* mapped_ = nullptr;
     std::unique_ptr<char[]> bytes_;
     std::size_t size_ = 0;
 };

@@ -48,6 +48,9 @@ std::string in_quotes(std::string_view text);
 /// "1 vertex", "3 vertices": a count and the word for what is counted.
 std::string counted(std::uint64_t count, const std::string& singular, const std::string& plural);
 
+/// With a to z for A to Z.
+std::string lower_case(std::string_view text);
+
 /// Appends what a list does not have yet.
 void add_once(std::vector<std::string>& list, std::string_view what);
 

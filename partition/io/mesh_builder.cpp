@@ -21,6 +21,15 @@ MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number)
 {
 }
 
+MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number, const MeshSlice& slice)
+    : position_(position)
+    , first_number_(first_number)
+    , n_vertices_(slice.first_vertex)
+    , vertices_(&slice.vertices)
+    , mesh_(slice.faces)
+{
+}
+
 void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
 {
     coordinates_.reserve(3 * n_vertices);
@@ -30,21 +39,22 @@ void MeshBuilder::reserve(std::uint64_t n_vertices, std::uint64_t n_faces)
 
 void MeshBuilder::add_vertex(const std::array<double, 3>& position)
 {
-    if (coordinates_.size() >= 3 * most)
+    if (at(n_vertices_) >= most)
         position_.fail(fmt::format("more than {} vertices; divide the mesh into several files", most));
-    coordinates_.insert(coordinates_.end(), position.begin(), position.end());
+    if (vertices_ != nullptr)
+        vertices_->row(n_vertices_) << position[0], position[1], position[2];
+    else
+        coordinates_.insert(coordinates_.end(), position.begin(), position.end());
+    ++n_vertices_;
 }
 
-Index MeshBuilder::vertex(std::int64_t index, std::int64_t n) const
+Index MeshBuilder::refuse_vertex(std::int64_t index, std::int64_t n) const
 {
-    if (index < 0 || index >= n) {
-        const std::string there =
-            n == 0 ? "no vertices" : fmt::format("only the vertices {} to {}", first_number_, n - 1 + first_number_);
-        position_.fault(fmt::format("names vertex {}, but the file has {}; correct the face or export the mesh again",
-                                    index + first_number_, there));
-        return -1;
-    }
-    return static_cast<Index>(index);
+    const std::string there =
+        n == 0 ? "no vertices" : fmt::format("only the vertices {} to {}", first_number_, n - 1 + first_number_);
+    position_.fault(fmt::format("names vertex {}, but the file has {}; correct the face or export the mesh again",
+                                index + first_number_, there));
+    return -1;
 }
 
 bool MeshBuilder::are_distinct(std::span<const Index> corners)

@@ -10,6 +10,16 @@
 
 namespace seamflow {
 
+/// Where the elements of one slice of a file belong.
+struct MeshSlice {
+    /// Those of the whole file, with room for all.
+    Points& vertices;
+    /// The first of the slice.
+    Index first_vertex;
+    /// Gets the faces of the slice.
+    PolygonMesh& faces;
+};
+
 /// Collects the vertices and faces that a reader finds, and checks each face on its way in. Where faults are noted
 /// instead of thrown, faces that have any are left out.
 class MeshBuilder {
@@ -17,6 +27,12 @@ class MeshBuilder {
     /// @param position of the reader, for messages; has to outlive the builder.
     /// @param first_number the number of the first vertex in this format, for messages.
     explicit MeshBuilder(const InputPosition& position, Index first_number = 0);
+
+    /// A builder for one slice of a file, which has no need to be finished.
+    MeshBuilder(const InputPosition& position, Index first_number, const MeshSlice& slice);
+
+    MeshBuilder(const MeshBuilder&) = delete;
+    MeshBuilder& operator=(const MeshBuilder&) = delete;
 
     /// Makes room; the caller has checked that the file is long enough for so many.
     void reserve(std::uint64_t n_vertices, std::uint64_t n_faces);
@@ -30,26 +46,35 @@ class MeshBuilder {
     ///         all.
     void add_face(std::span<const Index> corners);
 
-    [[nodiscard]] Index n_vertices() const { return static_cast<Index>(coordinates_.size() / 3); }
+    /// How many there are so far, those before the slice included.
+    [[nodiscard]] Index n_vertices() const { return n_vertices_; }
 
     /// Checks that 0 <= index < n.
     /// @param n number of vertices that there are to choose from.
     /// @throws InputError
     /// @returns the index; -1 if that is not so and faults are noted.
-    [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const;
+    [[nodiscard]] Index vertex(std::int64_t index, std::int64_t n) const
+    {
+        return index >= 0 && index < n ? static_cast<Index>(index) : refuse_vertex(index, n);
+    }
 
     /// The mesh; the builder is empty afterwards.
     /// @throws InputError if there is no vertex.
     PolygonMesh finish();
 
   private:
+    [[nodiscard]] Index refuse_vertex(std::int64_t index, std::int64_t n) const;
     [[nodiscard]] bool are_distinct(std::span<const Index> corners);
     void leave_out_faces_without_vertices();
 
     const InputPosition& position_;
     Index first_number_;
+    Index n_vertices_ = 0;
     std::vector<double> coordinates_;
-    PolygonMesh mesh_;
+    /// Of a slice, else null: then they are collected in `coordinates_`.
+    Points* vertices_ = nullptr;
+    PolygonMesh own_;
+    PolygonMesh& mesh_ = own_;
     std::vector<Index> sorted_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,10 +14,13 @@
 #include <unistd.h>
 
 #include "partition/errors.h"
+#include "partition/io/input_file.h"
 
 namespace seamflow {
 
 namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
 std::filesystem::path folder_of(const std::filesystem::path& file)
 {
@@ -83,10 +87,19 @@ std::filesystem::path file_behind(const std::filesystem::path& path)
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path)
-    : path_(path)
-    , target_(file_behind(path))
-    , buffer_(std::size_t{1} << 20)
+    : ByteWriter(buffer_bytes)
+    , path_(is_standard_stream(path) ? "standard output" : path)
+    , is_stream_(is_standard_stream(path))
 {
+    if (is_gzip_name(path))
+        gzip_ = std::make_unique<GzipMember>();
+    if (is_stream_) {
+        descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+        if (descriptor_ < 0)
+            fail(errno);
+        return;
+    }
+    target_ = file_behind(path);
     struct stat old = {};
     const bool replaces = ::stat(target_.c_str(), &old) == 0;
     if (replaces && S_ISDIR(old.st_mode))
@@ -128,26 +141,95 @@ void OutputFile::fail(int error) const
                       "; check that the folder exists, that you may write there, and that there is room left");
 }
 
-void OutputFile::text(std::string_view text)
+void OutputFile::overflow(std::string_view text)
 {
-    while (!text.empty()) {
-        make_room(1);
-        const std::size_t n = std::min(text.size(), buffer_.size() - used_);
-        std::copy_n(text.data(), n, buffer_.data() + used_);
-        used_ += n;
-        text.remove_prefix(n);
-    }
+    flush();
+    if (text.size() > buffer_bytes)
+        put(text);
+    else
+        this->text(text);
 }
 
 void OutputFile::flush()
 {
-    for (std::size_t done = 0; done < used_;) {
-        const ssize_t n = ::write(descriptor_, buffer_.data() + done, used_ - done);
+    put(kept());
+    give_up();
+}
+
+void OutputFile::put(std::string_view bytes)
+{
+    if (gzip_ == nullptr)
+        return put_unpacked(bytes);
+    if (n_written_ == 0)
+        put_unpacked(GzipMember::head());
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), buffer_bytes))) {
+        const PackedPiece piece = pack_piece(bytes.substr(0, buffer_bytes));
+        gzip_->add(piece);
+        put_unpacked(piece.bytes);
+    }
+}
+
+void OutputFile::put_unpacked(std::string_view bytes)
+{
+    write(bytes, n_written_);
+    n_written_ += bytes.size();
+}
+
+void OutputFile::write(std::string_view bytes, std::size_t offset) const
+{
+    while (!bytes.empty()) {
+        const ssize_t n = is_stream_ ? ::write(descriptor_, bytes.data(), bytes.size())
+                                     : ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (n < 0 && errno != EINTR)
             fail(errno);
-        done += n > 0 ? static_cast<std::size_t>(n) : 0;
+        offset += n > 0 ? static_cast<std::size_t>(n) : 0;
+        bytes.remove_prefix(n > 0 ? static_cast<std::size_t>(n) : 0);
     }
-    used_ = 0;
+}
+
+void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Index, OutputBuffer&)>& make)
+{
+    struct Slice {
+        OutputBuffer made;
+        OutputBuffer to_write;
+        std::size_t offset = 0;
+        PackedPiece packed;
+    };
+    flush();
+    constexpr Index at_once = 32;
+    std::vector<Slice> round(at(std::min(n, at_once)));
+    // Each round writes what the one before has made, for only then it is known where that belongs.
+    for (Index begin = 0; begin < n + at_once; begin += at_once) {
+        for_each(loop, static_cast<Index>(round.size()), [&](Index i) {
+            Slice& slice = round[i];
+            write(slice.to_write.content(), slice.offset);
+            slice.to_write.clear();
+            slice.packed = {};
+            if (begin + i >= n)
+                return;
+            make(begin + i, slice.made);
+            if (gzip_ != nullptr) {
+                slice.packed = pack_piece(slice.made.content());
+                slice.made.clear();
+                slice.made.text(slice.packed.bytes);
+            }
+        });
+        for (Slice& slice : round) {
+            if (gzip_ != nullptr)
+                gzip_->add(slice.packed);
+            slice.offset = n_written_;
+            n_written_ += slice.made.content().size();
+            if (is_stream_) {
+                write(slice.made.content(), 0);
+                slice.made.clear();
+            }
+            std::swap(slice.made, slice.to_write);
+        }
+#ifdef SYNC_FILE_RANGE_WRITE
+        // So that there is less left for `commit` to wait for.
+        static_cast<void>(::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE));
+#endif
+    }
 }
 
 /// A temporary one: only by being renamed can a file replace another. Once it has it, nothing may fail before that is
@@ -171,6 +253,10 @@ void OutputFile::commit()
     // What takes memory comes first: with its name the file is there, and nothing may fail any more.
     const std::filesystem::path folder = folder_of(target_);
     flush();
+    if (gzip_ != nullptr)
+        put_unpacked(gzip_->tail());
+    if (is_stream_)
+        return;
     if (const int error = synchronise(descriptor_); error != 0)
         fail(error);
     if (temporary_.empty())

@@ -48,6 +48,19 @@ std::from_chars_result parse(const char* first, const char* last, double& value)
     return result;
 }
 
+/// from_chars, but faster for numbers without a sign.
+std::from_chars_result parse(const char* first, const char* last, std::int64_t& value)
+{
+    constexpr std::ptrdiff_t most_digits = 18;
+    const char* const end = last - first > most_digits ? first + most_digits : last;
+    const char* next = first;
+    for (; next < end && *next >= '0' && *next <= '9'; ++next)
+        value = 10 * value + (*next - '0');
+    if (next > first && (next == last || next < end))
+        return {next, std::errc()};
+    return std::from_chars(first, last, value);
+}
+
 }  // namespace
 
 TextScanner::TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax)
@@ -63,6 +76,42 @@ TextScanner::TextScanner(const std::filesystem::path& path, std::string_view tex
         next_ += 3;
 }
 
+TextScanner::TextScanner(const TextScanner& whole, std::string_view slice)
+    : TextScanner(whole)
+{
+    note_faults_in(nullptr);
+    cursor_ = line_end_ = next_ = slice.data();
+    end_ = slice.data() + slice.size();
+    continued_ = false;
+    line_ = 0;
+}
+
+/// Behind the line break of the line that goes on from there.
+const char* TextScanner::end_of_line(const char* from) const
+{
+    const auto* const line_break =
+        static_cast<const char*>(std::memchr(from, line_break_, static_cast<std::size_t>(end_ - from)));
+    return line_break != nullptr ? line_break + 1 : end_;
+}
+
+std::vector<std::string_view> TextScanner::slices(std::size_t bytes) const
+{
+    const auto may_be_continued = [&](const char* end) {
+        while (end > next_ && is_blank(end[-1]))
+            --end;
+        return syntax_.continuation && end > next_ && end[-1] == '\\';
+    };
+    std::vector<std::string_view> result;
+    for (const char* begin = next_; begin < end_;) {
+        const char* end = static_cast<std::size_t>(end_ - begin) > bytes ? end_of_line(begin + bytes) : end_;
+        while (end < end_ && may_be_continued(end))
+            end = end_of_line(end);
+        result.emplace_back(begin, static_cast<std::size_t>(end - begin));
+        begin = end;
+    }
+    return result;
+}
+
 std::string TextScanner::position_of(std::size_t line) const
 {
     return fmt::format("{}:{}", path_, line);
@@ -72,10 +121,8 @@ void TextScanner::load_line()
 {
     ++line_;
     cursor_ = next_;
-    const auto* const line_break =
-        static_cast<const char*>(std::memchr(next_, line_break_, static_cast<std::size_t>(end_ - next_)));
-    line_end_ = line_break != nullptr ? line_break : end_;
-    next_ = line_break != nullptr ? line_break + 1 : end_;
+    next_ = end_of_line(cursor_);
+    line_end_ = next_ > cursor_ && next_[-1] == line_break_ ? next_ - 1 : next_;
     const void* comment = nullptr;
     if (syntax_.comment != '\0')
         comment = std::memchr(cursor_, syntax_.comment, static_cast<std::size_t>(line_end_ - cursor_));
@@ -196,7 +243,7 @@ std::int64_t TextScanner::integer_before_slash(const char* what)
 {
     skip_blanks();
     std::int64_t value = 0;
-    const auto [last, error] = std::from_chars(after_plus(cursor_, line_end_), line_end_, value);
+    const auto [last, error] = parse(after_plus(cursor_, line_end_), line_end_, value);
     if (error != std::errc() || (!ends_token(last) && *last != '/'))
         fail(complaint_at_number(what, "a whole number"));
     cursor_ = last;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/io/input_position.h"
 
@@ -29,6 +30,13 @@ class TextScanner final : public InputPosition {
     /// @param path for messages only.
     /// @param text has to outlive the scanner.
     TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax = {});
+
+    /// A scanner for a slice of the text of another: its lines end alike, but are counted from 1.
+    TextScanner(const TextScanner& whole, std::string_view slice);
+
+    /// The rest of the text in slices that begin and end where lines do, none within a line that is continued.
+    /// @param bytes how long they are, up to the end of a line.
+    [[nodiscard]] std::vector<std::string_view> slices(std::size_t bytes) const;
 
     /// Goes to the next line with a token, whatever is left of the present one. False at the end of the text.
     bool next_line();
@@ -82,6 +90,7 @@ class TextScanner final : public InputPosition {
 
   private:
     [[nodiscard]] std::string position() const override { return position_of(line_); }
+    [[nodiscard]] const char* end_of_line(const char* from) const;
     [[nodiscard]] bool ends_token(const char* c) const;
     void load_line();
     void skip_blanks();

@@ -48,6 +48,7 @@ void require_usable_files(const CompareCommand& command)
     for (const auto& path : {command.report, command.error_map})
         if (!path.empty())
             results.push_back(path);
+    require_files(results);
     for (const auto& input : {command.reference, command.candidate}) {
         std::vector<std::filesystem::path> files = results;
         files.push_back(input);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/io/input_file.h"
 #include "samples/common/mesh_results.h"
 
 namespace seamflow {
@@ -17,9 +18,11 @@ std::filesystem::path interrupted_path(const std::filesystem::path& output, cons
 {
     std::filesystem::path path = output;
     std::error_code ignored;
-    do
-        path.replace_filename(path.stem().concat(".interrupted").concat(path.extension().string()));
-    while (std::filesystem::equivalent(path, input, ignored));
+    do {
+        const std::filesystem::path before = before_extension(path);
+        const std::string extension = path.string().substr(before.string().size());
+        path = before.string() + ".interrupted" + extension;
+    } while (std::filesystem::equivalent(path, input, ignored));
     return path;
 }
 
@@ -108,7 +111,10 @@ void LongRun::keep_last_step()
 
 std::filesystem::path LongRun::write_last_step() const
 {
-    const auto path = interrupted_path(command_->output, command_->input);
+    const std::filesystem::path output = is_standard_stream(command_->output)
+                                             ? std::filesystem::path("smooth" + extension_of(file_->kind.format))
+                                             : command_->output;
+    const auto path = interrupted_path(output, command_->input);
     write_state(path, file_->mesh, separated_ ? &*separated_ : nullptr, *file_);
     return path;
 }

@@ -14,11 +14,13 @@ namespace seamflow {
 /// @returns remarks for the user.
 /// @throws OutputError, InputError (see write_mesh_like).
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                     const PolygonMesh* separated, const MeshFile& input);
+                                     const PolygonMesh* separated, const MeshFile& input,
+                                     const Loop& loop = run_serially);
 
 /// Says what of the input such a file will not have.
 /// @param joined whether the sub-meshes will be.
 /// @returns remarks for the user.
-std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input);
+std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
+                                           const Loop& loop = run_serially);
 
 }  // namespace seamflow

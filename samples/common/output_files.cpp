@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "partition/errors.h"
+#include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
 
 namespace seamflow {
@@ -41,6 +42,8 @@ bool has_isolated_vertices(const PolygonMesh& mesh)
 
 void require_writable(const fs::path& path)
 {
+    if (is_standard_stream(path))
+        return;
     std::error_code ignored;
     const fs::path directory = directory_of(file_behind(path));
     if (path.empty() || fs::is_directory(path, ignored))
@@ -63,6 +66,14 @@ void require_different(const std::vector<fs::path>& paths)
         if (!places.insert(error ? fs::absolute(path).lexically_normal() : place).second)
             throw OptionError(path.string() + " is named for two different files: give each a name of its own");
     }
+}
+
+void require_files(const std::vector<fs::path>& paths)
+{
+    for (const fs::path& path : paths)
+        if (is_standard_stream(path))
+            throw OptionError("- stands for standard input and output, which only a mesh to read and one to write can "
+                              "be: name files for the others");
 }
 
 void require_storable(const PolygonMesh& mesh, const fs::path& path, const FileKind& kind)

@@ -9,12 +9,17 @@
 /// Checks of result files before the long work begins, so that no user waits an hour for a mistyped name.
 namespace seamflow {
 
-/// @throws OutputError if no file can be made at that place: its directory does not exist or may not be written to, or
+/// @throws OutputError if no file can be made at that place (`-` is none): its directory does not exist or may not be
+/// written to, or
 ///         the path names a directory.
 void require_writable(const std::filesystem::path& path);
 
 /// @throws OptionError if two of the files are the same one.
 void require_different(const std::vector<std::filesystem::path>& paths);
+
+/// For files other than meshes to read or write.
+/// @throws OptionError if one of them is `-`.
+void require_files(const std::vector<std::filesystem::path>& paths);
 
 /// @throws OutputError for a mesh that a file of that kind cannot hold (see write_mesh).
 void require_storable(const PolygonMesh& mesh, const std::filesystem::path& path, const FileKind& kind);

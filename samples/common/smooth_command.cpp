@@ -130,8 +130,10 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
 
 void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
 {
-    app.add_option("INPUT", command.input, "mesh: " + extensions_of())->required()->type_name("");
-    app.add_option("OUTPUT", command.output, "smoothed mesh")->required()->type_name("");
+    app.add_option("INPUT", command.input, "mesh: " + extensions_of() + ", .gz behind it or not; - for standard input")
+        ->required()
+        ->type_name("");
+    app.add_option("OUTPUT", command.output, "smoothed mesh; - for standard output")->required()->type_name("");
     app.add_option("--every-step", every_step, "also write the mesh after every step; %d is its number")
         ->type_name("PATTERN");
     app.add_option("--parts", command.parts, "write the cut: faces with colours and labels")->type_name("PARTS.ply");
@@ -264,6 +266,8 @@ void require_usable_files(const SmoothCommand& command)
     for (const auto& path : {command.parts, command.report, command.trace, command.task_graph, command.html})
         if (!path.empty())
             results.push_back(path);
+    require_files(results);
+    require_files({command.labels, command.fix});
     for (const auto& input : {command.input, command.labels, command.fix}) {
         std::vector<std::filesystem::path> files = results;
         if (!input.empty())

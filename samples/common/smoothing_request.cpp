@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/command_line.h"
@@ -52,12 +52,9 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
-MeshScale measure_scale(const PolygonMesh& mesh)
+MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
 {
-    MeshScale scale{.mean_edge = mean_edge_length(mesh, mesh.vertices, run_in_parallel)};
-    if (mesh.n_vertices() > 0)
-        scale.diagonal = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
-    return scale;
+    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, loop), .diagonal = extent_of(mesh.vertices)};
 }
 
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps)

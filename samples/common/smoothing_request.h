@@ -24,7 +24,7 @@ struct MeshScale {
     double diagonal = 0.0;
 };
 
-MeshScale measure_scale(const PolygonMesh& mesh);
+MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop = run_serially);
 
 /// How far a flow smooths, as a length on the surface: bumps of this radius are half as high after all steps, smaller
 /// ones lower yet, much larger ones hardly changed. A bump is one of z = a sin(πx/2R) sin(πy/2R), whose height each

@@ -336,7 +336,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
     const Eigen::Array4d rounding = assemble(before, loop);
     const Eigen::Array4d squared = squared_residual(loop);
-    after = before;
+    copy(loop, before, after);
     // There is nothing to smooth.
     if ((squared <= rounding).all())
         return {};

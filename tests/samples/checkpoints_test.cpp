@@ -43,6 +43,7 @@ TEST_CASE("the mesh of an interrupted run stands beside the output, never in pla
 {
     const test::TemporaryDirectory directory;
     CHECK(interrupted_path("a/smooth.ply", "b.ply") == "a/smooth.interrupted.ply");
+    CHECK(interrupted_path("a/smooth.ply.gz", "b.ply") == "a/smooth.interrupted.ply.gz");
     const auto input = directory.with("out.interrupted.obj", "");
     CHECK(interrupted_path(directory / "out.obj", input) == directory / "out.interrupted.interrupted.obj");
 }

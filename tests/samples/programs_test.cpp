@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -11,6 +12,7 @@
 using namespace seamflow;
 using test::Json;
 using test::Workshop;
+namespace fs = std::filesystem;
 
 TEST_CASE("help and success end with 0")
 {
@@ -253,6 +255,37 @@ TEST_CASE("smooth keeps what a file holds besides positions, over the file itsel
     CHECK(w.said().find("c.off does not have what the input holds besides the surface: texture coordinates, groups") !=
           std::string::npos);
     CHECK(w.json("report.json")["remarks"].dump().find("texture coordinates, groups") != std::string::npos);
+}
+
+TEST_CASE("a dash is standard input or output, compressed or not, and what a program says does not get into a mesh")
+{
+    const Workshop w;
+    const auto content = [&](const std::string& name) { return test::content_of(w.directory / name); };
+    REQUIRE(w.run(GENERATE " mixed ascii.ply --vertices 900") == 0);
+    REQUIRE(w.run(GENERATE " triangles binary.stl --vertices 900") == 0);
+    REQUIRE(w.run(GENERATE " mixed a.off --vertices 900") == 0);
+    for (const std::string name : {"mesh.obj", "ascii.ply", "binary.stl", "a.off"}) {
+        CAPTURE(name);
+        const std::string expected = "expected" + fs::path(name).extension().string();
+        REQUIRE(w.smooth(name + " " + expected + " --time-step-edges 1") == 0);
+        CHECK(w.run("(cat " + name + " | " SMOOTH " - - --time-step-edges 1 >piped)") == 0);
+        CHECK(content("piped") == content(expected));
+        CHECK(w.said().find("result     -") != std::string::npos);
+        CHECK(w.run("(gzip -c " + name + " | " SMOOTH " - - --time-step-edges 1 --quiet >piped)") == 0);
+        CHECK(content("piped") == content(expected));
+        CHECK(w.run("(cat " + name + " | " INSPECT " -)") == 0);
+        CHECK(w.run("(cat " + name + " | " COMPARE " - " + expected + ")") == 0);
+    }
+    CHECK(w.run("(" GENERATE " mixed - --vertices 900 >piped)") == 0);
+    CHECK(content("piped") == content("mesh.obj"));
+    CHECK(w.run("(" GENERATE " mixed - --vertices 900 >/dev/full)") == 5);
+    CHECK(w.said().find("standard output: cannot be written") != std::string::npos);
+    CHECK(w.run(INSPECT " - </dev/null") == 3);
+    CHECK(w.said().find("standard input: there is nothing in it") != std::string::npos);
+    CHECK(w.run("(echo v 1 2 | " INSPECT " -)") == 3);
+    CHECK(w.said().find("standard input:1: expected coordinate z") != std::string::npos);
+    CHECK(w.smooth("mesh.obj out.obj.gz --time-step-edges 1") == 0);
+    CHECK(w.run("(gzip -dc out.obj.gz | cmp - expected.obj)") == 0);
 }
 
 TEST_CASE("--labels cuts as told and --parts writes the cut")

@@ -110,6 +110,16 @@ ssize_t write(int descriptor, const void* bytes, std::size_t n)
     return next<ssize_t(int, const void*, std::size_t)>("write")(descriptor, bytes, n);
 }
 
+ssize_t pwrite(int descriptor, const void* bytes, std::size_t n, off_t offset)
+{
+    if (is_meant(descriptor)) {
+        if (fails("write"))
+            return -1;
+        n = shortened(n);
+    }
+    return next<ssize_t(int, const void*, std::size_t, off_t)>("pwrite")(descriptor, bytes, n, offset);
+}
+
 ssize_t writev(int descriptor, const iovec* pieces, int n)
 {
     if (is_meant(descriptor) && fails("write"))

@@ -166,8 +166,8 @@ TEST_CASE("the report has the tolerance that was chosen, and says why")
 
 TEST_CASE("the number of iterations of conjugate gradients is foreseen within a factor of two")
 {
-    for (const PolygonMesh& mesh : {make_triangles(10000), make_hexagons(10000), make_mixed_polygons(10000),
-                                    make_noisy_sphere(10000)})
+    for (const PolygonMesh& mesh :
+         {make_triangles(10000), make_hexagons(10000), make_mixed_polygons(10000), make_noisy_sphere(10000)})
         for (const Laplacian laplacian : test::symmetric_laplacians)
             for (const double step : {1.0, 5.0, 50.0})
                 for (const double tolerance : {1e-2, 1e-4}) {

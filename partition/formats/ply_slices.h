@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "partition/formats/ply_header.h"
+#include "partition/io/slices.h"
+#include "partition/io/text_scanner.h"
+
+namespace seamflow {
+
+/// Some elements of a PLY file that stand one behind the other. All elements are counted together, from 0.
+struct PlySlice {
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    std::string_view bytes = {};
+};
+
+/// Cuts what follows the header into slices.
+/// @param file the whole file. @param after_header stands at the last line of the header.
+/// @param elements the first ones of the header; in a text file the slices go on to its end.
+/// @throws InputError if those of a binary file are not all there.
+std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
+                                std::span<const PlyElement> elements, const Slicing& slicing);
+
+/// Calls `act` with every kind of elements in a slice and the numbers of the first element and the one behind the last
+/// among those of its kind.
+void for_each_kind(std::span<const PlyElement> elements, const PlySlice& slice, const auto& act)
+{
+    std::uint64_t first = 0;
+    for (const PlyElement& element : elements) {
+        const std::uint64_t begin = std::max(slice.begin, first);
+        const std::uint64_t end = std::min(slice.end, first + element.count);
+        if (begin < end)
+            act(element, begin - first, end - first);
+        first += element.count;
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace seamflow {
+
+/// Whether these bytes begin as a gzip file does.
+inline bool is_gzip(std::string_view bytes)
+{
+    return bytes.starts_with("\x1f\x8b");
+}
+
+/// Whether a file of this name is to be packed: its extension is `.gz`, in upper or lower case.
+bool is_gzip_name(const std::filesystem::path& path);
+
+/// Unpacks a gzip file of one member or several.
+/// @param path for messages only. @param take called with what is unpacked, piece by piece.
+/// @throws InputError if it is damaged or cut off, or if what comes out is implausibly much.
+void unpack_gzip(const std::filesystem::path& path, std::string_view packed,
+                 const std::function<void(std::string_view piece)>& take);
+
+/// Some bytes of a gzip file, packed without a view to others.
+struct PackedPiece {
+    std::string bytes;
+    /// Of what was packed.
+    std::uint32_t checksum = 0;
+    std::size_t size = 0;
+};
+
+PackedPiece pack_piece(std::string_view bytes);
+
+/// The one member of a gzip file that is put together of pieces.
+class GzipMember {
+  public:
+    /// What stands before the first piece.
+    [[nodiscard]] static std::string_view head();
+
+    /// To be called with every piece, in order.
+    void add(const PackedPiece& piece);
+
+    /// What stands behind the last piece.
+    [[nodiscard]] std::string tail() const;
+
+  private:
+    std::uint32_t checksum_ = 0;
+    std::size_t size_ = 0;
+};
+
+}  // namespace seamflow

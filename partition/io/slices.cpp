@@ -1,0 +1,110 @@
+#include "partition/io/slices.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <sys/mman.h>
+
+namespace seamflow {
+
+namespace {
+
+/// Asks the system for large pages where memory that has not been touched yet will lie. It need not heed that.
+void prefer_large_pages(void* memory, std::size_t n_bytes)
+{
+    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
+    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + n_bytes) / page * page;
+#ifdef MADV_HUGEPAGE
+    if (begin < end)
+        static_cast<void>(::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+#endif
+}
+
+/// Makes room for one more element of each of the parts, and for as many in each of the slices that follow, in large
+/// pages: to touch memory for the first time takes longer than to copy it.
+template <class Value>
+void make_room(std::vector<Value>& values, std::span<const PolygonMesh> parts, Index n_to_follow,
+               std::vector<Value> PolygonMesh::*member)
+{
+    std::size_t sum = values.size();
+    std::size_t largest = 0;
+    for (const PolygonMesh& part : parts) {
+        sum += (part.*member).size();
+        largest = std::max(largest, (part.*member).size());
+    }
+    if (sum <= values.capacity())
+        return;
+    values.reserve(sum + at(n_to_follow) * largest);
+    prefer_large_pages(values.data(), values.capacity() * sizeof(Value));
+}
+
+void append(PolygonMesh& mesh, const PolygonMesh& part)
+{
+    const Index first = mesh.n_corners();
+    static_cast<void>(sum_of_counts(first, part.n_corners()));
+    mesh.face_vertices.insert(mesh.face_vertices.end(), part.face_vertices.begin(), part.face_vertices.end());
+    std::transform(part.face_offsets.begin() + 1, part.face_offsets.end(), std::back_inserter(mesh.face_offsets),
+                   [first](Index end) { return first + end; });
+}
+
+}  // namespace
+
+Index sum_of_counts(std::int64_t a, std::int64_t b)
+{
+    if (a + b > std::numeric_limits<Index>::max())
+        throw InputError("too many elements for one file");
+    return static_cast<Index>(a + b);
+}
+
+std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const std::string_view> slices,
+                                      const Loop& loop)
+{
+    std::vector<std::int64_t> first(slices.size() + 1);
+    for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
+        TextScanner scanner(whole, slices[i]);
+        while (scanner.next_line())
+            ++first[i + 1];
+    });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
+}
+
+Points uninitialised_points(Index n)
+{
+    Points points(n, 3);
+    prefer_large_pages(points.data(), at(n) * 3 * sizeof(double));
+    return points;
+}
+
+void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
+                  const std::function<void(Index slice, PolygonMesh& faces)>& read,
+                  const std::function<void(Index slice, PolygonMesh& faces)>& finish)
+{
+    // So many that few threads wait, and so few that they need little memory.
+    constexpr Index at_once = 64;
+    std::vector<PolygonMesh> parts(at(std::min(n, at_once)));
+    for (Index begin = 0; begin < n; begin += at_once) {
+        parts.resize(at(std::min(at_once, n - begin)));
+        for_each(loop, static_cast<Index>(parts.size()), [&](Index i) {
+            parts[i].face_offsets.resize(1);
+            parts[i].face_vertices.clear();
+            read(begin + i, parts[i]);
+        });
+        const Index n_to_follow = n - begin - static_cast<Index>(parts.size());
+        make_room(mesh.face_offsets, parts, n_to_follow, &PolygonMesh::face_offsets);
+        make_room(mesh.face_vertices, parts, n_to_follow, &PolygonMesh::face_vertices);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (finish)
+                finish(begin + static_cast<Index>(i), parts[i]);
+            append(mesh, parts[i]);
+        }
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/errors.h"
+#include "partition/io/output_file.h"
+#include "partition/io/text_scanner.h"
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// How files are read and made by several threads: slice by slice.
+struct Slicing {
+    Loop loop = run_serially;
+    /// About how many bytes of a file are one.
+    std::size_t bytes = std::size_t{1} << 18;
+};
+
+/// How many elements of about `size` bytes make a slice; at least 1.
+inline Index elements_per_slice(const Slicing& slicing, std::size_t size)
+{
+    return static_cast<Index>(slicing.bytes / size + 1);
+}
+
+/// Writes n elements in slices of so many, several at a time.
+/// @param write called with what takes the bytes and the element.
+template <class Write>
+void write_elements(OutputFile& file, Index n, Index per_slice, const Loop& loop, Write&& write)
+{
+    file.slices(n / per_slice + (n % per_slice > 0 ? 1 : 0), loop, [&](Index i, OutputBuffer& slice) {
+        const Index begin = i * per_slice;
+        const Index end = begin + std::min(per_slice, n - begin);
+        for (Index element = begin; element < end; ++element)
+            write(slice, element);
+    });
+}
+
+/// The sum of two numbers of elements.
+/// @throws InputError if there are more than 2^31 - 1.
+Index sum_of_counts(std::int64_t a, std::int64_t b);
+
+/// How many lines with a token there are before each slice of a text and, at the end, in all of them.
+std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const std::string_view> slices,
+                                      const Loop& loop);
+
+/// #V by 3, in large pages where the system has them; the positions are still to be set.
+Points uninitialised_points(Index n);
+
+/// Reads the faces of n slices, several at a time, and appends them to those of the mesh.
+/// @param read called with a slice and an empty mesh, which gets the faces of the slice.
+/// @param finish called with the same, one slice after another, before its faces are appended.
+/// @throws InputError if there are more than 2^31 - 1 corners.
+void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
+                  const std::function<void(Index slice, PolygonMesh& faces)>& read,
+                  const std::function<void(Index slice, PolygonMesh& faces)>& finish = {});
+
+/// For faults of slices: nobody gets to read of them (see read_in_slices_if_faultless).
+class NoPosition final : public InputPosition {
+  private:
+    [[nodiscard]] std::string position() const override { return {}; }
+};
+
+/// Reads a file slice by slice. Which slice finds fault first is a matter of luck: a file with a fault is read again in
+/// one go, which complains about the first, and knows its line.
+template <class InSlices, class InOneGo>
+PolygonMesh read_in_slices_if_faultless(InSlices&& in_slices, InOneGo&& in_one_go)
+{
+    try {
+        return in_slices();
+    } catch (const InputError&) {
+        return in_one_go();
+    }
+}
+
+}  // namespace seamflow
