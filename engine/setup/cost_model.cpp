@@ -74,4 +74,20 @@ PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optiona
     return cost;
 }
 
+std::vector<CostConstant> cost_constants()
+{
+    const auto named = [](std::string_view name, const PerVertex& cost) -> CostConstant {
+        return {name, cost.constant, cost.per_coefficient};
+    };
+    return {named("cg: setup", setup_of_conjugate_gradients),
+            named("cg: step without iterations", step_of_conjugate_gradients),
+            named("cg: iteration", iteration),
+            named("sweep and converged: setup", setup_of_sweeps),
+            named("sweep: step", step_of_sweeps),
+            named("converged: step without iterations", step_of_converged),
+            named("converged: iteration", interface_iteration),
+            named("undecomposed: setup", setup_of_undecomposed),
+            named("undecomposed: step, 10000 vertices", step_of_undecomposed)};
+}
+
 }  // namespace seamflow

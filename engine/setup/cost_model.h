@@ -1,6 +1,7 @@
 #pragma once
 
-#include <span>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "engine/options/flow_options.h"
@@ -39,5 +40,15 @@ double predicted_iterations(const FlowSize& size, double tolerance);
 /// @param approach Sweep, Converged, ConjugateGradients or Undecomposed.
 /// @param tolerance of the steps, where they are converged.
 PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance = {});
+
+/// One of the constants, to be looked at: nanoseconds for each vertex, and for each coefficient of its row.
+struct CostConstant {
+    std::string_view name;
+    double per_vertex = 0.0;
+    double per_coefficient = 0.0;
+};
+
+/// All of them that are costs.
+std::vector<CostConstant> cost_constants();
 
 }  // namespace seamflow

@@ -81,6 +81,8 @@ void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
                           " vertices; --vertices is the largest number and must be no less");
     const bool equals_accuracy =
         app.count("--grid") > 0 || (app.count("--whole-run") > 0 && !command.options.peers.empty());
+    if (command.mode == BenchmarkMode::Explain && !is_symmetric(command.options.flow.laplacian))
+        throw OptionError("--explain: there is no choice for a Laplacian that is not symmetric");
     if (equals_accuracy && command.options.reference == Reference::None)
         throw OptionError("peers of equal accuracy need a --reference");
     if (command.vertices > most_vertices)
@@ -236,6 +238,17 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes("--mesh")
         ->excludes(export_folder)
         ->type_name("[FILE ...]");
+    app.add_flag_callback(
+           "--explain", [&] { command.mode = BenchmarkMode::Explain; },
+           "the model of costs by which ours chooses how it takes its steps: its constants, what it predicts for each "
+           "approach, and what each takes")
+        ->excludes(scaling)
+        ->excludes(sweep)
+        ->excludes("--grid")
+        ->excludes("--simulate-threads")
+        ->excludes("--peers")
+        ->excludes("--conditions")
+        ->excludes(export_folder);
     auto* whole_run =
         app.add_flag_callback(
                "--whole-run", [&] { command.mode = BenchmarkMode::WholeRun; },
@@ -243,6 +256,7 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
                "file to file and one step of cholmod; with --scaling for 10^4, 10^5, … vertices")
             ->excludes(sweep)
             ->excludes("--grid")
+            ->excludes("--explain")
             ->excludes("--simulate-threads")
             ->excludes("--conditions")
             ->excludes("--q")
@@ -265,8 +279,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     if (turns->count() > 0 && app.count("--grid") + whole_run->count() == 0)
         throw OptionError("--turns belongs to --grid and --whole-run");
     command.options.peers = peers_named(!peers.empty() ? peers : usual_peers(command.mode));
-    if (command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid && command.options.peers.empty() &&
-        reference->count() == 0)
+    if (command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid &&
+        command.mode != BenchmarkMode::Explain && command.options.peers.empty() && reference->count() == 0)
         command.options.reference = Reference::None;
     if (scaling->count() > 0 && app.count("--vertices") == 0)
         command.vertices = largest_of_scaling;

@@ -23,6 +23,8 @@ enum class BenchmarkMode {
     SimulateThreads,
     /// Many meshes, time steps and numbers of steps: who is the fastest.
     Grid,
+    /// One mesh, how ours chooses its approach.
+    Explain,
     /// One mesh, from file to file.
     WholeRun,
     /// The same of meshes of 10⁴, 10⁵, … vertices.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/options/option_names.h"
 #include "engine/tasks/stopwatch.h"
 #include "samples/benchmark/methods/fused_cg.h"
 #include "samples/benchmark/methods/peer_solver.h"
@@ -13,18 +14,11 @@ namespace seamflow {
 
 namespace {
 
-/// What a report tells of how steps were taken.
-std::string approach_of(const FlowReport& report)
-{
-    if (report.cut.n_sub_meshes() == 1)
-        return report.convergence.tolerance ? "cg" : "undecomposed";
-    return report.convergence.tolerance ? "converged" : "sweep";
-}
-
-/// The options of a task for the approach that its method names.
+/// The options of a task for the approach that its method names. Nothing is measured of steps, as by other methods.
 FlowOptions options_of(const MethodTask& task)
 {
     FlowOptions options = task.options;
+    options.report.measures = false;
     if (task.method == Method::OurSweep) {
         options.accuracy.approach = Approach::Sweep;
         options.accuracy.tolerance.reset();
@@ -34,7 +28,7 @@ FlowOptions options_of(const MethodTask& task)
     if (task.method == Method::OurCg)
         options.accuracy.approach = Approach::ConjugateGradients;
     if (task.method == Method::Undecomposed)
-        options.cut.subdomains = 1;
+        options.accuracy.approach = Approach::Undecomposed;
     return options;
 }
 
@@ -58,7 +52,7 @@ MethodResult run_ours(PolygonMesh mesh, const MethodTask& task)
         result.simulations.push_back(
             simulate(*report.schedule, static_cast<int>(median_step(result.steps)) + 1, threads));
     result.subdomains = report.cut.n_sub_meshes();
-    result.approach = approach_of(report);
+    result.approach = option_name(report.convergence.approach);
     result.remarks = report.remarks;
     result.positions = std::move(mesh.vertices);
     return result;

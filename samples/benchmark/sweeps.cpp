@@ -10,6 +10,7 @@
 #include "partition/topology.h"
 #include "samples/benchmark/case_json.h"
 #include "samples/benchmark/case_text.h"
+#include "samples/benchmark/explanation.h"
 #include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/matrix_market.h"
@@ -162,6 +163,14 @@ std::vector<BenchmarkCommand> meshes_of_grid(const BenchmarkCommand& command)
     return commands;
 }
 
+Json run_explanation(const BenchmarkCommand& command, std::ostream& out)
+{
+    const PolygonMesh mesh = load(command, command.vertices);
+    const Explanation explanation = explain(mesh, options_for(command, mesh).flow, command.options.reference);
+    print_explanation(out, explanation);
+    return explanation_json(explanation);
+}
+
 /// Of one mesh in all formats.
 void run_whole_of(const BenchmarkCommand& command, Index vertices, std::ostream& out, std::vector<WholeRun>& runs)
 {
@@ -236,6 +245,8 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_simulation(command, out);
     case BenchmarkMode::Grid:
         return run_grid(command, out);
+    case BenchmarkMode::Explain:
+        return run_explanation(command, out);
     case BenchmarkMode::WholeRun:
     case BenchmarkMode::WholeRunScaling:
         return run_whole_runs(command, out);

@@ -120,6 +120,32 @@ TEST_CASE("benchmark goes on where ours fails in a cell of its grid")
     CHECK(w.count_lines("said", "| quads | 10000 | failed | failed | failed | failed |") == 1);
 }
 
+TEST_CASE("benchmark explains by which costs ours chooses its approach")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --explain --vertices 3000 --steps 2 --json explained.json") == 0);
+    const Json json = w.json("explained.json");
+    REQUIRE(json["approaches"].size() == 4);
+    std::string cheapest;
+    double least = 1e300;
+    for (const auto& [name, approach] : json["approaches"].items()) {
+        CAPTURE(name);
+        CHECK(approach["measured"]["approach"] == name);
+        CHECK(approach["measured"]["v_max"].get<double>() < 1.0);
+        const Json& predicted = approach["predicted"];
+        const double all = predicted["setup_s"].get<double>() + 2.0 * predicted["step_s"].get<double>();
+        CHECK(predicted["all_s"].get<double>() == doctest::Approx(all));
+        if (all < least) {
+            least = all;
+            cheapest = name;
+        }
+    }
+    CHECK(json["chosen"] == cheapest);
+    CHECK(json["coefficients"].get<double>() == doctest::Approx(6.0));
+    CHECK(json["constants"].size() == 9);
+    CHECK(w.count_lines("said", cheapest + " *") == 1);
+}
+
 TEST_CASE("benchmark runs smooth from file to file beside peers of equal accuracy")
 {
     const Workshop w;
@@ -254,6 +280,8 @@ TEST_CASE("benchmark refuses wrong usage and unusable files")
                                   "--grid --reference none",
                                   "--grid --turns 0",
                                   "--turns 2",
+                                  "--explain --grid",
+                                  "--explain --laplacian ptackova-velho",
                                   "--whole-run --grid",
                                   "--whole-run --threads-sweep",
                                   "--whole-run --export exported",
