@@ -90,9 +90,10 @@ void require_valid_approach(const FlowOptions& options)
                           "explicit scheme");
     if (options.cut.subdomains > 1 || !options.cut.labels.empty())
         throw OptionError("approach is by conjugate gradients, which take the whole mesh: leave out the sub-meshes");
-    if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic)
-        throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit and "
-                          "the factorisation");
+    if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic ||
+        options.resources.precision != Precision::Automatic)
+        throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit, "
+                          "the factorisation and its precision");
 }
 
 void require_valid_constraints(const FlowOptions& options)

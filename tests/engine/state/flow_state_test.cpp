@@ -198,6 +198,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"converge_iterations", [](FlowOptions& o) { o.accuracy.converge_iterations = 7; }},
         {"reference", [](FlowOptions& o) { o.report.reference = true; }},
         {"factorisation", [](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; }},
+        {"precision", [](FlowOptions& o) { o.resources.precision = Precision::Double; }},
     };
     const PolygonMesh mesh = make_quads(100);
     const auto base = identify(mesh, {}).entries;
