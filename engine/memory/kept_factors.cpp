@@ -12,70 +12,50 @@ namespace seamflow {
 namespace {
 
 /// The sub-meshes by what their factors take, the largest first.
-std::vector<Index> largest_first(std::span<const FactorBytes> factors)
+std::vector<Index> largest_first(std::span<const std::size_t> factors)
 {
     std::vector<Index> order(factors.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](Index s, Index t) { return factors[s].whole > factors[t].whole; });
+    std::stable_sort(order.begin(), order.end(), [&](Index s, Index t) { return factors[s] > factors[t]; });
     return order;
 }
 
 /// Keeps these first sub-meshes in the order and no others.
-KeptFactors keep_first(std::span<const FactorBytes> factors, std::span<const Index> order, Index n_whole,
+KeptFactors keep_first(std::span<const std::size_t> factors, std::span<const Index> order, Index n_whole,
                        Index n_places)
 {
     KeptFactors kept;
     kept.whole.assign(factors.size(), 0);
     kept.n_whole = n_whole;
-    for (const Index s : order.first(n_whole))
+    for (const Index s : order.first(n_whole)) {
         kept.whole[s] = 1;
-    for (std::size_t s = 0; s < factors.size(); ++s)
-        kept.bytes += kept.whole[s] != 0 ? factors[s].whole : factors[s].on_interface;
+        kept.bytes += factors[s];
+    }
     if (at(n_whole) < order.size()) {
         kept.n_places = n_places;
-        kept.bytes_per_place = factors[order[n_whole]].whole;
+        kept.bytes_per_place = factors[order[n_whole]];
     }
     return kept;
 }
 
-/// Calls visit(number of the first in the order that are kept, what that takes at most) for every number but all.
-template <class Visit>
-void for_each_number_kept(std::span<const FactorBytes> factors, std::span<const Index> order, Index n_places,
-                          Visit&& visit)
-{
-    std::size_t bytes = 0;
-    for (const FactorBytes& factor : factors)
-        bytes += factor.on_interface;
-    for (std::size_t n_whole = 0; n_whole < order.size(); ++n_whole) {
-        const FactorBytes& next = factors[order[n_whole]];
-        visit(static_cast<Index>(n_whole), bytes + at(n_places) * next.whole);
-        bytes += next.whole - next.on_interface;
-    }
-}
-
 /// The most that fit with so many places; -1 where not even none do.
-Index most_kept_within(std::span<const FactorBytes> factors, std::span<const Index> order, Index n_places,
+Index most_kept_within(std::span<const std::size_t> factors, std::span<const Index> order, Index n_places,
                        std::size_t limit)
 {
     Index most = -1;
-    for_each_number_kept(factors, order, n_places, [&](Index n_whole, std::size_t bytes) {
-        if (bytes <= limit)
-            most = n_whole;
-    });
+    std::size_t bytes = 0;
+    for (std::size_t n_whole = 0; n_whole < order.size(); ++n_whole) {
+        const std::size_t next = factors[order[n_whole]];
+        if (bytes + at(n_places) * next <= limit)
+            most = static_cast<Index>(n_whole);
+        bytes += next;
+    }
     return most;
-}
-
-/// The least limit.
-std::size_t bytes_needed(std::span<const FactorBytes> factors, std::span<const Index> order, std::size_t of_all)
-{
-    std::size_t needed = of_all;
-    for_each_number_kept(factors, order, 1, [&](Index, std::size_t bytes) { needed = std::min(needed, bytes); });
-    return needed;
 }
 
 }  // namespace
 
-KeptFactors choose_kept_factors(std::span<const FactorBytes> factors, std::optional<std::size_t> limit, Index n_threads)
+KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optional<std::size_t> limit, Index n_threads)
 {
     const std::vector<Index> order = largest_first(factors);
     const auto n = static_cast<Index>(factors.size());
@@ -85,7 +65,7 @@ KeptFactors choose_kept_factors(std::span<const FactorBytes> factors, std::optio
     Index n_whole = -1;
     Index n_places = 0;
     Index least_rounds = std::numeric_limits<Index>::max();
-    // More places for those made twice leave less room to keep others: doubling them finds all that matters.
+    // More places for those made again leave less room to keep others: doubling them finds all that matters.
     for (Index places = 1;; places = std::min(2 * places, n_threads)) {
         const Index most = most_kept_within(factors, order, places, *limit);
         if (most < 0)
@@ -99,9 +79,8 @@ KeptFactors choose_kept_factors(std::span<const FactorBytes> factors, std::optio
             break;
     }
     if (n_whole < 0)
-        throw OptionError("memory_limit is " + std::to_string(*limit) +
-                          " bytes, but one factorisation, and the parts of all that a converged step keeps, take " +
-                          std::to_string(bytes_needed(factors, order, all.bytes)) +
+        throw OptionError("memory_limit is " + std::to_string(*limit) + " bytes, but one factorisation can take " +
+                          std::to_string(factors[order.front()]) +
                           ": raise it, or take sweeps (Approach::Sweep, --converge never)");
     return keep_first(factors, order, n_whole, n_places);
 }

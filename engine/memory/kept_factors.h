@@ -10,15 +10,8 @@
 
 namespace seamflow {
 
-/// What a sub-mesh's factor takes, in bytes.
-struct FactorBytes {
-    std::size_t whole = 0;
-    /// What of it has to be there while the equation on Γ is solved.
-    std::size_t on_interface = 0;
-};
-
-/// Which factors a converged step keeps from condensation until back substitution. The others are made twice; in
-/// between only their block on Γ is kept.
+/// Which factors a converged step keeps from condensation until back substitution. The others are made again whenever
+/// they are needed.
 struct KeptFactors {
     /// Per sub-mesh: 1 where the whole factor is kept.
     std::vector<std::uint8_t> whole;
@@ -26,7 +19,7 @@ struct KeptFactors {
     /// How many of the others may be there at once, and what the largest of these takes.
     Index n_places = 0;
     std::size_t bytes_per_place = 0;
-    /// What the former take, and what stays of the others on Γ.
+    /// What the former take.
     std::size_t bytes = 0;
 
     /// How many factors are there at once at most.
@@ -38,12 +31,11 @@ struct KeptFactors {
 
 /// Keeps the largest factors, as many as the limit allows, and leaves as many places for the others as lets them be
 /// made in the fewest rounds.
-/// @param factors of all sub-meshes.
+/// @param factors what those of all sub-meshes take, in bytes.
 /// @param limit in bytes. Empty: all are kept.
 /// @param n_threads at least 1: there are no more places than that.
-/// @throws OptionError if there is no room for what a step has to keep and one more factor; it tells how much that
-/// takes.
-KeptFactors choose_kept_factors(std::span<const FactorBytes> factors, std::optional<std::size_t> limit,
+/// @throws OptionError if there is no room for any factor; it tells how much that takes.
+KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optional<std::size_t> limit,
                                 Index n_threads);
 
 }  // namespace seamflow

@@ -93,9 +93,10 @@ void require_valid_approach(const FlowOptions& options)
     if (!is_symmetric(options.laplacian))
         throw OptionError("approach is by conjugate gradients, but the Laplacian ptackova-velho is not symmetric: use "
                           "fujiwara or alexa-wardetzky, or leave the approach automatic");
-    if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic)
-        throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit and "
-                          "the factorisation");
+    if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic ||
+        options.resources.precision != Precision::Automatic)
+        throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit, "
+                          "the factorisation and its precision");
 }
 
 void require_valid_constraints(const FlowOptions& options)

@@ -206,12 +206,17 @@ struct ResourceOptions {
     /// The most bytes that the factorisations of sub-meshes may take at once, at least 1. With less than one step
     /// needs, the flow throws an OptionError that tells how much that is. Empty: sweeps keep as few factorisations as
     /// keep all threads busy, converged steps keep all. With a limit, converged steps of Δ_F and Δ_A make the others
-    /// twice in each step; Δ_P needs all. UMFPACK's count by its own estimate. The limit does not change the result,
+    /// again whenever they are needed, and factors that may be in either precision count as if in double precision; Δ_P
+    /// needs all. UMFPACK's count by its own estimate. The limit does not change the result,
     /// nor does it hold for `reference`.
     std::optional<std::size_t> memory_limit = {};
     /// Whose factorisation solves the equations of sub-meshes. Changes the result by rounding alone. Converged steps of
     /// Δ_F and Δ_A have the library's own: their Schur complements come out of it.
     Factorisation factorisation = Factorisation::Automatic;
+    /// In which precision the factors of converged steps of Δ_F and Δ_A are. In single precision they take half the
+    /// memory and little more than half the time; as the residual is in double precision, steps converge to the same
+    /// tolerance. With Precision::Single, equations that single precision makes indefinite end the flow.
+    Precision precision = Precision::Automatic;
 };
 
 /// What a flow tells beside its result.

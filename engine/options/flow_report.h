@@ -128,6 +128,8 @@ struct ResourceReport {
     /// library's own; CHOLMOD's and UMFPACK's are not counted.
     Index live_factors = 0;
     std::size_t factor_memory_bytes = 0;
+    /// How many sub-meshes had a factor in single precision in the last step.
+    Index single_factors = 0;
 };
 
 /// What a flow did.

@@ -93,6 +93,12 @@ struct OptionNames<Factorisation> {
                                                        {"umfpack", Factorisation::Umfpack}};
 };
 
+template <>
+struct OptionNames<Precision> {
+    static constexpr NamedOption<Precision> list[]{
+        {"auto", Precision::Automatic}, {"single", Precision::Single}, {"double", Precision::Double}};
+};
+
 /// @throws OptionError for what is no value of the option.
 template <class Option>
 std::string_view option_name(Option value)

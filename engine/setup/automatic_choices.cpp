@@ -61,7 +61,8 @@ bool speaks_of_sub_meshes(const FlowOptions& options)
 {
     const FlowOptions defaults;
     return options.cut.subdomains > 0 || !options.cut.labels.empty() || options.interface != defaults.interface ||
-           options.resources.factorisation != defaults.resources.factorisation || options.resources.memory_limit ||
+           options.resources.factorisation != defaults.resources.factorisation ||
+           options.resources.precision != defaults.resources.precision || options.resources.memory_limit ||
            options.report.keep_gaps;
 }
 

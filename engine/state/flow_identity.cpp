@@ -82,7 +82,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
     const auto& [boundary, fixed_vertices, strict, rescale] = motion;
-    const auto& [threads, memory_limit, factorisation] = resources;
+    const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
     // These do not change results, or (steps) only where they end.
     static_cast<void>(steps);
@@ -119,6 +119,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"reference", reference ? "yes" : "no"},
         {"factorisation", text_of(factorisation)},
         {"measures", measures ? "yes" : "no"},
+        {"precision", text_of(precision)},
     }};
 }
 

@@ -1,6 +1,7 @@
 #include "engine/steppers/schur_stepper.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/setup/automatic_choices.h"
@@ -15,6 +16,9 @@ namespace {
 
 /// Wider sub-meshes, in √dt, do without a coarse space: it would save an iteration in nine, and cost more.
 constexpr double width_without_coarse_space = 8.0;
+
+/// What back substitution in single precision leaves of a residual, at most.
+constexpr double left_by_single = 1e-4;
 
 Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step)
 {
@@ -39,6 +43,7 @@ SchurStepper::SchurStepper(Decomposition decomposition, const PolygonMesh& mesh,
     , equation_(decomposition,
                 balancing_for(mesh, static_cast<Index>(decomposition.sub_meshes.size()), options.time_step))
 {
+    factors_.precision = options.resources.precision;
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(parts_.size());
     interface_.condensed.resize(equation_.copies().n_copies(), 3);
@@ -64,13 +69,19 @@ void SchurStepper::make_systems(Decomposition& decomposition, const FlowOptions&
     });
 }
 
+/// Of factors that may be in either precision, those in double precision count.
 void SchurStepper::limit_factors(const FlowOptions& options)
 {
-    std::vector<FactorBytes> bytes;
+    std::vector<std::size_t> bytes;
     for (const Part& part : parts_)
-        bytes.push_back({part.system->factor_bytes(), SchurComplement::copy_bytes(part.system->n_interface())});
+        bytes.push_back(factors_.precision == Precision::Single ? part.system->factor_bytes<float>()
+                                                                : part.system->factor_bytes<double>());
     factors_.plan = choose_kept_factors(bytes, options.resources.memory_limit, workspaces_.size());
     factors_.passing.emplace(factors_.plan.bytes_per_place);
+    if (options.resources.memory_limit)
+        factors_.memory = std::pmr::new_delete_resource();
+    else
+        factors_.memory = &factors_.pool;
 }
 
 void SchurStepper::make_graph()
@@ -103,71 +114,233 @@ void SchurStepper::take_turns(const std::vector<StepGraph::Node>& tasks)
         graph_.add_dependency(tasks[i - at(factors_.plan.n_places)], tasks[i]);
 }
 
-/// The equations of a sub-mesh, and their factor.
-std::pair<NeumannSystem::Assembled, LdlSolver::Factor> SchurStepper::assemble_and_factorise(Index s,
-                                                                                            SolverWorkspace& workspace)
+/// Vᵏ⁺¹ - Vᵏ, as far as the step has come: in the interior it stands in the place of the positions.
+/// @param increments receives #own by 3.
+void SchurStepper::fetch_increments(Index s, Points& increments) const
 {
-    Stopwatch watch;
     const Part& part = parts_[s];
-    const auto own = std::span(part.sub_mesh.local_to_global).first(part.sub_mesh.n_vertices);
-    const NeumannSystem::Assembled equations = part.system->assemble(localised(own, workspace), time_step_, workspace);
-    seconds_[s].assemble += watch.lap();
-    FactorMemory& memory = is_kept(s) ? factors_.kept : *factors_.passing;
-    LdlSolver::Factor factor = part.system->factorise(equations, memory, workspace.ldl);
-    seconds_[s].factorise += watch.lap();
-    return {equations, std::move(factor)};
+    const std::vector<Index>& vertices = part.system->unknowns();
+    const Index n_interior = part.system->n_interior();
+    set_rows(increments, part.sub_mesh.n_vertices);
+    increments.setZero();
+    for (Index u = 0; u < n_interior; ++u)
+        increments.row(vertices[u]) = positions_.row(part.sub_mesh.local_to_global[vertices[u]]);
+    const Index first = equation_.copies().first[s];
+    for (Index i = 0; i < part.system->n_interface(); ++i)
+        increments.row(vertices[n_interior + i]) = interface_.reached.row(equation_.copies().vertex[first + i]);
 }
 
-void SchurStepper::condense(Index s)
+/// Those whose factors are made again take turns.
+template <class Action>
+void SchurStepper::for_each_part(const Loop& loop, Action&& action)
+{
+    const auto act = [&](Index s) { run_for_sub_mesh(parts_[s].sub_mesh, s, [&] { action(s); }); };
+    std::vector<Index> passing;
+    for (Index s = 0; s < static_cast<Index>(parts_.size()); ++s)
+        if (!is_kept(s))
+            passing.push_back(s);
+    for_each(loop, static_cast<Index>(parts_.size()), [&](Index s) {
+        if (is_kept(s))
+            act(s);
+    });
+    for_each(loop, factors_.plan.n_places, [&](Index place) {
+        for (std::size_t i = at(place); i < passing.size(); i += at(factors_.plan.n_places))
+            act(passing[i]);
+    });
+}
+
+/// The equations of a sub-mesh with the workspace's increments.
+NeumannSystem::Assembled SchurStepper::assemble(Index s, SolverWorkspace& workspace) const
+{
+    const OwnVertices& sub_mesh = parts_[s].sub_mesh;
+    const Points& positions = localised(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
+    return parts_[s].system->assemble(positions, workspace.increments, time_step_, workspace);
+}
+
+NeumannSystem::Factor SchurStepper::factorise_and_condense(Index s, SolverWorkspace& workspace)
+{
+    Stopwatch watch;
+    Part& part = parts_[s];
+    const NeumannSystem::Assembled equations = assemble(s, workspace);
+    seconds_[s].assemble += watch.lap();
+    FactorMemory& memory = is_kept(s) ? *factors_.memory : *factors_.passing;
+    std::optional<NeumannSystem::Factor> factor =
+        part.system->factorise(equations, part.precision, memory, workspace.ldl);
+    part.precision = factor && factor->is_single() ? Precision::Single : Precision::Double;
+    if (!factor)
+        factor = part.system->factorise(equations, part.precision, memory, workspace.ldl);
+    seconds_[s].factorise += watch.lap();
+    condense_with(s, equations, *factor);
+    seconds_[s].solve += watch.lap();
+    return *std::move(factor);
+}
+
+void SchurStepper::condense_with(Index s, const NeumannSystem::Assembled& equations, NeumannSystem::Factor& factor)
+{
+    Part& part = parts_[s];
+    part.residual.setZero();
+    for (const Index v : std::span(part.system->unknowns()).first(part.system->n_interior()))
+        part.residual = part.residual.cwiseMax(equations.residual.row(v).cwiseAbs());
+    part.system->condense(equations, factor,
+                          interface_.condensed.middleRows(equation_.copies().first[s], part.system->n_interface()));
+}
+
+/// From Vᵏ⁺¹ = Vᵏ on.
+void SchurStepper::condense_in(Index s, Precision precision)
 {
     Part& part = parts_[s];
     SolverWorkspace& workspace = workspaces_.local();
     part.factor.reset();
-    auto [equations, factor] = assemble_and_factorise(s, workspace);
-    Stopwatch watch;
-    Points& condensed = workspace.increment;
-    part.system->condense(equations, factor, condensed);
-    const Index n = part.system->n_interface();
-    interface_.condensed.middleRows(equation_.copies().first[s], n) = condensed.bottomRows(n);
-    interface_.complements[s].take(factor,
-                                   is_kept(s) ? SchurComplement::Storage::Factor : SchurComplement::Storage::Copy);
-    if (is_kept(s))
-        part.factor = std::move(factor);
+    part.precision = precision;
     const std::vector<Index>& vertices = part.system->unknowns();
     for (Index u = 0; u < part.system->n_interior(); ++u)
-        positions_.row(part.sub_mesh.local_to_global[vertices[u]]) = condensed.row(u);
-    seconds_[s].solve += watch.lap();
+        positions_.row(part.sub_mesh.local_to_global[vertices[u]]).setZero();
+    set_rows(workspace.increments, part.sub_mesh.n_vertices);
+    workspace.increments.setZero();
+    NeumannSystem::Factor factor = factorise_and_condense(s, workspace);
+    part.system->take_schur_complement(factor, workspace.ldl, interface_.complements[s]);
+    if (is_kept(s))
+        part.factor = std::move(factor);
+}
+
+void SchurStepper::condense(Index s)
+{
+    // Without Γ there is no iteration: one solution is exact.
+    const bool is_exact = factors_.precision == Precision::Automatic && parts_[s].system->n_interface() == 0;
+    condense_in(s, is_exact ? Precision::Double : factors_.precision);
+}
+
+/// The factor as the last condensation has left it.
+NeumannSystem::Factor SchurStepper::take_factor(Index s, SolverWorkspace& workspace)
+{
+    if (parts_[s].factor)
+        return *std::exchange(parts_[s].factor, std::nullopt);
+    fetch_increments(s, workspace.increments);
+    return factorise_and_condense(s, workspace);
+}
+
+/// Goes on to an update of Γ.
+/// @param factor what condensation has left of it.
+/// @param workspace receives the increments.
+void SchurStepper::substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace)
+{
+    const NeumannSystem& system = *parts_[s].system;
+    fetch_increments(s, workspace.increments);
+    Points change(system.n_interface(), 3);
+    const Index first = equation_.copies().first[s];
+    for (Index i = 0; i < system.n_interface(); ++i) {
+        const Index v = equation_.copies().vertex[first + i];
+        change.row(i) = update.row(v) - interface_.reached.row(v);
+        workspace.increments.row(system.unknowns()[system.n_interior() + i]) = update.row(v);
+    }
+    system.back_substitute(factor, change, workspace.increments);
+}
+
+/// Goes on to an update of Γ, and condenses what it leaves.
+void SchurStepper::refine(Index s, const Points& update)
+{
+    Part& part = parts_[s];
+    SolverWorkspace& workspace = workspaces_.local();
+    NeumannSystem::Factor factor = take_factor(s, workspace);
+    substitute(s, factor, update, workspace);
+    const std::vector<Index>& vertices = part.system->unknowns();
+    for (Index u = 0; u < part.system->n_interior(); ++u)
+        positions_.row(part.sub_mesh.local_to_global[vertices[u]]) = workspace.increments.row(vertices[u]);
+    condense_with(s, assemble(s, workspace), factor);
+    if (is_kept(s))
+        part.factor = std::move(factor);
+}
+
+/// @returns what is left on Γ.
+const Points& SchurStepper::refine_all(const Points& update, const Loop& loop)
+{
+    for_each_part(loop, [&](Index s) { refine(s, update); });
+    interface_.reached = update;
+    return interface_.condensed;
+}
+
+bool SchurStepper::has_single() const
+{
+    return std::any_of(parts_.begin(), parts_.end(),
+                       [](const Part& part) { return part.precision == Precision::Single; });
+}
+
+/// The largest in each column.
+Point SchurStepper::interior_residual() const
+{
+    Point largest = Point::Zero();
+    for (const Part& part : parts_)
+        largest = largest.cwiseMax(part.residual);
+    return largest;
+}
+
+/// Refines the interiors until the back substitution that is still to come leaves no more than the tolerance. Mostly
+/// they are so by then.
+/// @param first what there was to begin with.
+/// @returns whether they have come so far.
+bool SchurStepper::refine_interiors(double tolerance, const Point& first, const Loop& loop)
+{
+    const auto is_small = [&](const Point& residual) {
+        return (left_by_single * residual.array() <= tolerance * first.array()).all();
+    };
+    Point residual = interior_residual();
+    while (!is_small(residual)) {
+        refine_all(interface_.update, loop);
+        const Point before = std::exchange(residual, interior_residual());
+        if (residual.maxCoeff() > 0.5 * before.maxCoeff())
+            return is_small(residual);
+    }
+    return true;
+}
+
+/// Whether Γ moves no more than rounding of positions would: what is left of such residuals says nothing.
+bool SchurStepper::is_at_rest() const
+{
+    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    return interface_.update.size() > 0 &&
+           interface_.update.cwiseAbs().maxCoeff() <= rounding * before_->cwiseAbs().maxCoeff();
+}
+
+/// @returns stagnation also where refinement of the interiors stagnates.
+InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, const Loop& loop)
+{
+    interface_.reached.setZero(equation_.copies().n_vertices(), 3);
+    const Point first = interior_residual();
+    InterfaceResult result = equation_.solve(
+        interface_.complements, interface_.condensed,
+        [&](const Points& update) -> const Points& { return refine_all(update, loop); }, interface_.guess, stop,
+        interface_.update, loop);
+    if (is_at_rest()) {
+        result.residual = std::min(result.residual, stop.tolerance);
+        result.stagnated = false;
+    } else if (has_single() && !refine_interiors(stop.tolerance, first, loop)) {
+        result.residual = std::max(result.residual, largest_ratio(interior_residual(), first));
+        result.stagnated = true;
+    }
+    return result;
 }
 
 InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Loop& loop)
 {
     interface_.guess.swap(interface_.update);
-    return equation_.solve(interface_.complements, interface_.condensed, interface_.guess, stop, interface_.update,
-                           loop);
+    const InterfaceResult result = solve_on_interface(stop, loop);
+    if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
+        return result;
+    for_each_part(loop, [&](Index s) { condense_in(s, Precision::Double); });
+    return solve_on_interface(stop, loop);
 }
 
 void SchurStepper::back_substitute(Index s)
 {
     Part& part = parts_[s];
     SolverWorkspace& workspace = workspaces_.local();
-    const LdlSolver::Factor factor =
-        part.factor ? *std::exchange(part.factor, std::nullopt) : assemble_and_factorise(s, workspace).second;
+    NeumannSystem::Factor factor = take_factor(s, workspace);
     Stopwatch watch;
-    const Index n_interior = part.system->n_interior();
-    const std::vector<Index>& vertices = part.system->unknowns();
+    substitute(s, factor, interface_.update, workspace);
     const std::vector<Index>& global = part.sub_mesh.local_to_global;
-    Points& solution = workspace.increment;
-    set_rows(solution, static_cast<Eigen::Index>(vertices.size()));
-    for (Index u = 0; u < n_interior; ++u)
-        solution.row(u) = positions_.row(global[vertices[u]]);
-    const Index first = equation_.copies().first[s];
-    for (Index i = 0; i < part.system->n_interface(); ++i)
-        solution.row(n_interior + i) = interface_.update.row(equation_.copies().vertex[first + i]);
-    NeumannSystem::back_substitute(factor, solution);
-    for (std::size_t u = 0; u < vertices.size(); ++u)
-        if (part.sub_mesh.owned[vertices[u]] != 0)
-            positions_.row(global[vertices[u]]) =
-                before_->row(global[vertices[u]]) + solution.row(static_cast<Eigen::Index>(u));
+    for (const Index v : part.system->unknowns())
+        if (part.sub_mesh.owned[v] != 0)
+            positions_.row(global[v]) = before_->row(global[v]) + workspace.increments.row(v);
     seconds_[s].solve += watch.lap();
 }
 
@@ -186,7 +359,15 @@ void SchurStepper::describe(FlowReport& report) const
 {
     report.cut.interface_vertices = interface_.n_vertices;
     report.resources.live_factors = factors_.plan.n_live();
-    report.resources.factor_memory_bytes = factors_.plan.bytes + factors_.passing->bytes();
+    report.resources.factor_memory_bytes = factors_.passing->bytes();
+    for (std::size_t s = 0; s < parts_.size(); ++s) {
+        const NeumannSystem& system = *parts_[s].system;
+        const bool is_single = parts_[s].precision == Precision::Single;
+        report.resources.single_factors += is_single ? 1 : 0;
+        if (is_kept(static_cast<Index>(s)))
+            report.resources.factor_memory_bytes +=
+                is_single ? system.factor_bytes<float>() : system.factor_bytes<double>();
+    }
     describe_parts(parts_, {}, report);
 }
 

@@ -22,8 +22,13 @@ namespace seamflow {
 ///
 ///     condense (each sub-mesh) ──► solve on Γ (see InterfaceEquation) ──► back-substitute (each sub-mesh)
 ///
-/// Where the memory limit does not let a sub-mesh's factor live until its back substitution, it is made again, by the
-/// same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time as there are places.
+/// Factors are in single precision where that loses few digits. The solution on Γ needs now and then what the whole
+/// step leaves there: then every sub-mesh solves for its interior and condenses what is left of its equations, measured
+/// in double precision. So a step is refined to any tolerance.
+///
+/// Where the memory limit does not let a sub-mesh's factor live until its back substitution, it is made again whenever
+/// it is needed, by the same arithmetic: the bits are the same. Such sub-meshes take turns, as many at a time as there
+/// are places.
 class SchurStepper final : public ConvergedStepper {
   public:
     /// @param progress must outlive the stepper.
@@ -47,25 +52,34 @@ class SchurStepper final : public ConvergedStepper {
     struct Part {
         OwnVertices sub_mesh;
         std::unique_ptr<NeumannSystem> system;
+        /// That of its factor in this step, or Automatic until it is known.
+        Precision precision = Precision::Automatic;
         /// From condensation to back substitution, where it is kept.
-        std::optional<LdlSolver::Factor> factor;
+        std::optional<NeumannSystem::Factor> factor;
+        /// The largest of the interior in each column, when it was condensed last.
+        Point residual = Point::Zero();
     };
     /// Where factors live.
     struct FactorStore {
+        Precision precision = Precision::Automatic;
         KeptFactors plan;
-        SharedFactorPool kept;
-        /// Of the factors that are made twice.
+        /// Of those kept: the pool, or the heap where there is a limit, as a factor may take another size in each step.
+        FactorMemory* memory = nullptr;
+        SharedFactorPool pool;
+        /// Of the factors that are made again.
         std::optional<SharedFactorPool> passing;
     };
     /// On Γ.
     struct Interface {
         Index n_vertices = 0;
-        std::vector<SchurComplement> complements;
-        /// What each sub-mesh has of the right-hand side.
+        std::vector<DenseFactor> complements;
+        /// What each sub-mesh has of the right-hand side, and later of what is left of it.
         Points condensed;
         /// Vᵏ⁺¹ - Vᵏ, and that of the step before, which has no rows in the first step.
         Points update;
         Points guess;
+        /// The update at which the interiors are, and `condensed`.
+        Points reached;
     };
 
     SchurStepper(Decomposition decomposition, const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
@@ -74,8 +88,23 @@ class SchurStepper final : public ConvergedStepper {
     void make_graph();
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void take_turns(const std::vector<StepGraph::Node>& tasks);
-    std::pair<NeumannSystem::Assembled, LdlSolver::Factor> assemble_and_factorise(Index s, SolverWorkspace& workspace);
+    template <class Action>
+    void for_each_part(const Loop& loop, Action&& action);
+    void fetch_increments(Index s, Points& increments) const;
+    NeumannSystem::Assembled assemble(Index s, SolverWorkspace& workspace) const;
+    NeumannSystem::Factor factorise_and_condense(Index s, SolverWorkspace& workspace);
+    void condense_with(Index s, const NeumannSystem::Assembled& equations, NeumannSystem::Factor& factor);
+    NeumannSystem::Factor take_factor(Index s, SolverWorkspace& workspace);
+    void substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace);
     void condense(Index s);
+    void condense_in(Index s, Precision precision);
+    void refine(Index s, const Points& update);
+    [[nodiscard]] bool has_single() const;
+    [[nodiscard]] Point interior_residual() const;
+    [[nodiscard]] bool is_at_rest() const;
+    bool refine_interiors(double tolerance, const Point& first, const Loop& loop);
+    const Points& refine_all(const Points& update, const Loop& loop);
+    InterfaceResult solve_on_interface(const IterationStop& stop, const Loop& loop);
     InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) override;
     void back_substitute(Index s);
     void restore_further(StepMemoryReader& memory) override;

@@ -154,6 +154,7 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["p"] = of_sub_meshes(report.cut, &SubMeshReport::p);
     json["live_factors"] = report.resources.live_factors;
     json["factor_memory_bytes"] = report.resources.factor_memory_bytes;
+    json["single_factors"] = report.resources.single_factors;
     json["seconds"] = seconds_json(run, report.seconds);
     json["steps"] = steps_json(report.steps, run.scale.mean_edge);
     json["displacement"] = total_json(report.displacement, run.scale.mean_edge);

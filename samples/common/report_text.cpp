@@ -62,6 +62,8 @@ void print_factors(std::ostream& out, const FlowReport& report)
     out << "factors    at most " << report.resources.live_factors << " at once";
     if (report.resources.factor_memory_bytes > 0)
         out << ", " << digits(static_cast<double>(report.resources.factor_memory_bytes) / 1e6, 4) << " MB";
+    if (report.resources.single_factors > 0)
+        out << ", " << report.resources.single_factors << " in single precision";
     out << '\n';
 }
 

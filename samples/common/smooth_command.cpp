@@ -119,11 +119,15 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice(app, "--factorisation", options.resources.factorisation,
                "whose factorisation solves the equations of sub-meshes; cholmod: UMFPACK where they are "
                "not symmetric; both keep fujiwara and alexa-wardetzky to sweeps [auto: the fastest]");
+    add_choice(
+        app, "--precision", options.resources.precision,
+        "of the factorisations of converged steps, which are refined to the tolerance in any; auto: single where "
+        "that loses few digits [auto]");
     add_integer(app, "--threads", options.resources.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
     add_bytes(
         app, "--memory-limit", options.resources.memory_limit,
         "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
-        "does not change the result; converged steps make twice what they cannot keep [sweeps: as little as keeps all "
+        "does not change the result; converged steps make again what they cannot keep [sweeps: as little as keeps all "
         "threads busy; converged steps: no limit]");
     app.add_flag("--reference", options.report.reference, "also run the undecomposed flow and give the distance to it");
 }
@@ -187,7 +191,7 @@ void require_consistent_approach(const CLI::App& app, const SmoothCommand& comma
         throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
     std::string of_sub_meshes = first_given(app, of_sub_meshes_alone);
     if (of_sub_meshes.empty() && approach == Approach::ConjugateGradients)
-        of_sub_meshes = first_given(app, {"--memory-limit", "--factorisation"});
+        of_sub_meshes = first_given(app, {"--memory-limit", "--factorisation", "--precision"});
     if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
         throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
                           " takes the whole mesh: leave one of them out");
@@ -202,9 +206,10 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
     require_consistent_approach(app, command, of_sweeps);
-    if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep &&
-        command.limits_iterations)
-        throw OptionError("--converge-iterations is for converged steps, but --converge never takes none");
+    if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
+        if (const std::string of_converged = first_given(app, {"--converge-iterations", "--precision"});
+            !of_converged.empty())
+            throw OptionError(of_converged + " is for converged steps, but --converge never takes none");
     if (app.count("--p") > 0)
         if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
             throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");

@@ -262,19 +262,22 @@ void set_zero(const FloatColumns& v, std::size_t n)
 
 }  // namespace
 
-void DenseFactor::take(const DenseLdl& factor)
+template <class Number>
+void DenseFactor::take(const DenseLdl<Number>& factor, double scale)
 {
     n_ = static_cast<Index>(factor.rows());
-    scale_ = n_ > 0 ? power_of_two_near(factor.diagonal().maxCoeff()) : 1.0;
+    const Eigen::VectorXd pivots = factor.diagonal().template cast<double>();
+    const double unit = n_ > 0 ? power_of_two_near(pivots.maxCoeff()) : 1.0;
+    scale_ = scale * unit;
     root_.assign(room(n_), 0.0F);
     inverse_.assign(room(n_), 0.0F);
     diagonal_.resize(n_);
-    const Eigen::VectorXd pivots = factor.diagonal();
     for (Index row = 0; row < n_; ++row) {
-        const double pivot = pivots[row] / scale_;
+        const double pivot = pivots[row] / unit;
         root_[row] = static_cast<float>(std::sqrt(pivot));
         inverse_[row] = static_cast<float>(1.0 / pivot);
-        diagonal_[row] = pivots[row] + factor.row(row).head(row).cwiseAbs2().dot(pivots.head(row));
+        diagonal_[row] = scale * (pivots[row] + factor.row(row).head(row).template cast<double>().cwiseAbs2().dot(
+                                                    pivots.head(row).transpose()));
     }
     Lower lower{nullptr, n_};
     lower_.assign(at(lower.tiles_before(static_cast<Index>(room(n_)))) * at(tile_size));
@@ -290,6 +293,9 @@ void DenseFactor::take(const DenseLdl& factor)
         }
     }
 }
+
+template void DenseFactor::take(const DenseLdl<float>&, double);
+template void DenseFactor::take(const DenseLdl<double>&, double);
 
 void DenseFactor::prefetch() const
 {

@@ -1,18 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "solvers/direct/ldl_solver.h"
 
 namespace seamflow {
-
-/// The largest power of two that is not above a positive number: what is divided by it loses no bit. 1 for numbers that
-/// are not positive, not finite, or so small that this power has no inverse.
-inline double power_of_two_near(double number)
-{
-    return number > 0x1p-1000 && std::isfinite(number) ? std::ldexp(1.0, std::ilogb(number)) : 1.0;
-}
 
 /// So many single-precision numbers, in whole cache lines.
 class AlignedFloats {
@@ -58,8 +50,10 @@ class DenseFactor {
     /// How many numbers a column of n has room for.
     [[nodiscard]] static std::size_t room(Index n) { return at((n + lanes - 1) / lanes * lanes); }
 
-    /// Takes a factorisation in double precision over.
-    void take(const DenseLdl& factor);
+    /// Takes a factorisation over.
+    /// @param scale by which the factor is to be multiplied: see LdlFactor::scale.
+    template <class Number>
+    void take(const DenseLdl<Number>& factor, double scale);
 
     [[nodiscard]] Index n() const { return n_; }
 

@@ -26,22 +26,22 @@ class OwnLdl final : public DirectSolver {
     }
 
     [[nodiscard]] Factorisation kind() const override { return Factorisation::Own; }
-    [[nodiscard]] std::size_t factor_bytes() const override { return solver_.factor_bytes(); }
+    [[nodiscard]] std::size_t factor_bytes() const override { return solver_.factor_bytes<double>(); }
 
   private:
     bool make_factor(std::span<const double> values, FactorMemory& memory, SolverWorkspace& workspace) override
     {
-        factor_ = solver_.factorise(values, memory, workspace.ldl);
+        factor_ = solver_.factorise<double>(values, memory, workspace.ldl);
         return factor_.has_value();
     }
-    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) override
+    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace&) override
     {
-        factor_->solve(right_hand_side, solution, workspace.ldl);
+        factor_->solve(right_hand_side, solution);
     }
     void free_factor() override { factor_.reset(); }
 
     LdlSolver solver_;
-    std::optional<LdlSolver::Factor> factor_;
+    std::optional<LdlFactor<double>> factor_;
 };
 
 /// By an LuSolver where the diagonal will do, by UMFPACK, which looks for better pivots, where it will not. Which of

@@ -15,6 +15,16 @@ enum class Factorisation {
     Umfpack,
 };
 
+/// In which precision the factors of a sub-mesh are that solve for corrections, whose residual is in double precision.
+enum class Precision {
+    /// Single where that loses few digits, else double.
+    Automatic,
+    /// Single everywhere.
+    Single,
+    /// Double everywhere.
+    Double,
+};
+
 /// Whether another library is asked for.
 constexpr bool is_foreign(Factorisation factorisation)
 {

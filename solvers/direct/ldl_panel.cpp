@@ -18,8 +18,8 @@ constexpr Index most_lanes = 16;
 /// Some rows of a panel times D Lᵀ of as many others as there are lanes.
 /// @param rows the first row's first entry; there are `width` from one row to the next.
 /// @param use(r, sums) takes the sums of row r.
-template <Index Rows, class Vector, class Use>
-[[gnu::always_inline]] inline void multiply(const double* rows, std::size_t width, const double* factors, Index n,
+template <Index Rows, class Vector, class Number, class Use>
+[[gnu::always_inline]] inline void multiply(const Number* rows, std::size_t width, const Number* factors, Index n,
                                             Use&& use)
 {
     Vector sums[Rows];
@@ -54,20 +54,20 @@ Targets in_order(Index first, Index n)
 
 /// The rows from that of the first target on times D Lᵀ of the targets, over the panel's columns [first, last).
 /// @param use(i, sums) takes the sums of the i-th of the rows; more than one call for each if there are many columns.
-template <class Vector, class Use>
-[[gnu::always_inline]] inline void multiply_all(const LdlPanel& panel, Index first, Index last, const Targets& targets,
-                                                Use&& use)
+template <class Vector, class Number, class Use>
+[[gnu::always_inline]] inline void multiply_all(const LdlPanel<Number>& panel, Index first, Index last,
+                                                const Targets& targets, Use&& use)
 {
     const std::size_t width = at(panel.width);
-    const double* rows = panel.values + at(targets.first) * width;
+    const Number* rows = panel.values + at(targets.first) * width;
     const Index n_rows = static_cast<Index>(panel.rows.size()) - targets.first;
-    std::array<double, at(chunk * Vector::lanes)> factors;
+    std::array<Number, at(chunk * Vector::lanes)> factors;
     for (Index begin = first; begin < last; begin += chunk) {
         const Index size = std::min(chunk, last - begin);
         if (targets.n < Vector::lanes)
-            std::fill_n(factors.begin(), at(size * Vector::lanes), 0.0);
+            std::fill_n(factors.begin(), at(size * Vector::lanes), Number{0});
         for (Index c = 0; c < size; ++c) {
-            const double pivot = panel.values[at(begin + c) * (width + 1)];
+            const Number pivot = panel.values[at(begin + c) * (width + 1)];
             for (Index t = 0; t < targets.n; ++t)
                 factors[c * Vector::lanes + targets.lane[t]] = pivot * rows[at(t) * width + at(begin + c)];
         }
@@ -92,16 +92,16 @@ template <class Vector, class Use>
 }
 
 /// An update of columns among as many neighbouring ones as there are lanes. The others in between lose 0.
-template <class Vector>
-[[gnu::always_inline]] inline void update_columns(const LdlPanel& earlier, Index place, Index n,
-                                                  const Index* target_rows, const LdlPanel& later)
+template <class Vector, class Number>
+[[gnu::always_inline]] inline void update_columns(const LdlPanel<Number>& earlier, Index place, Index n,
+                                                  const Index* target_rows, const LdlPanel<Number>& later)
 {
     const std::size_t width = at(later.width);
     const Index begin = std::max(Index{0}, std::min(target_rows[0], later.width - Vector::lanes));
     Targets targets{place, n, {}};
     for (Index t = 0; t < n; ++t)
         targets.lane[t] = target_rows[t] - begin;
-    double* columns = later.values + begin;
+    Number* columns = later.values + begin;
     if (later.width >= Vector::lanes)
         multiply_all<Vector>(earlier, 0, earlier.width, targets, [&](Index i, const Vector& sums) {
             sums.subtract_from(columns + at(target_rows[i]) * width);
@@ -113,13 +113,13 @@ template <class Vector>
 }
 
 /// Takes what the panel's columns [first, last) contribute away from the n after them.
-template <class Vector>
-[[gnu::always_inline]] inline void subtract_columns(const LdlPanel& panel, Index first, Index last, Index n)
+template <class Vector, class Number>
+[[gnu::always_inline]] inline void subtract_columns(const LdlPanel<Number>& panel, Index first, Index last, Index n)
 {
     if (first == last || n == 0)
         return;
     const std::size_t width = at(panel.width);
-    double* target = panel.values + at(last) * (width + 1);
+    Number* target = panel.values + at(last) * (width + 1);
     const Targets targets = in_order(last, n);
     if (n == Vector::lanes)
         multiply_all<Vector>(panel, first, last, targets,
@@ -131,14 +131,14 @@ template <class Vector>
 
 /// Factorises columns that depend on each other alone.
 /// @param Columns 1 to 4.
-template <Index Columns>
-[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel& panel, Index first)
+template <Index Columns, class Number>
+[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel<Number>& panel, Index first)
 {
     const std::size_t width = at(panel.width);
-    double* top = panel.values + at(first) * (width + 1);
-    double inverse[Columns];
-    double factor[Columns][Columns];
-    double* row = top;
+    Number* top = panel.values + at(first) * (width + 1);
+    Number inverse[Columns];
+    Number factor[Columns][Columns];
+    Number* row = top;
     bool positive = true;
     for (Index i = 0; i < Columns; ++i, row += width) {
         for (Index c = 0; c < i; ++c) {
@@ -150,12 +150,12 @@ template <Index Columns>
             row[i] -= row[c] * factor[i][c];
             row[c] = factor[i][c];
         }
-        positive &= row[i] > 0.0 && std::isfinite(row[i]);
-        inverse[i] = 1.0 / row[i];
+        positive &= row[i] > Number{0} && std::isfinite(row[i]);
+        inverse[i] = Number{1} / row[i];
     }
     const auto n_rows = static_cast<Index>(panel.rows.size());
     for (Index m = first + Columns; m < n_rows; ++m, row += width) {
-        double scaled[Columns];
+        Number scaled[Columns];
         for (Index c = 0; c < Columns; ++c) {
             scaled[c] = row[c];
             for (Index k = 0; k < c; ++k)
@@ -167,7 +167,8 @@ template <Index Columns>
     return positive;
 }
 
-[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel& panel, Index first, Index n)
+template <class Number>
+[[gnu::always_inline]] inline bool factorise_columns(const LdlPanel<Number>& panel, Index first, Index n)
 {
     switch (n) {
     case 0:
@@ -184,35 +185,33 @@ template <Index Columns>
 }
 
 struct SubtractUpdate {
-    template <Index Width>
-    void operator()(SimdWidth<Width>, const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
-                    const LdlPanel& later) const
+    template <Index Width, class Number>
+    void operator()(SimdWidth<Width>, const LdlPanel<Number>& earlier, Index place, Index n_columns,
+                    const Index* target_rows, const LdlPanel<Number>& later) const
     {
         for (Index t = 0, n = 0; t < n_columns; t += n) {
             const auto among = [&](Index width) { return count_neighbours(target_rows + t, n_columns - t, width); };
-            if constexpr (Width == 8)
+            if constexpr (Width * sizeof(double) >= 8 * sizeof(Number))
                 if (n_columns - t > 8 && (n = among(16)) > 8) {
-                    update_columns<SimdBlock<Width, 16>>(earlier, place + t, n, target_rows + t, later);
+                    update_columns<SimdBlock<Number, Width, 16>>(earlier, place + t, n, target_rows + t, later);
                     continue;
                 }
             if (n = among(8); n > 4)
-                update_columns<SimdBlock<Width, 8>>(earlier, place + t, n, target_rows + t, later);
-            else if (n = among(4); n > 2)
-                update_columns<SimdBlock<Width, 4>>(earlier, place + t, n, target_rows + t, later);
+                update_columns<SimdBlock<Number, Width, 8>>(earlier, place + t, n, target_rows + t, later);
             else {
-                n = among(2);
-                update_columns<SimdBlock<Width, 2>>(earlier, place + t, n, target_rows + t, later);
+                n = among(4);
+                update_columns<SimdBlock<Number, Width, 4>>(earlier, place + t, n, target_rows + t, later);
             }
         }
     }
 };
 
 struct FactorisePanel {
-    template <Index Width>
-    bool operator()(SimdWidth<Width>, const LdlPanel& panel) const
+    template <Index Width, class Number>
+    bool operator()(SimdWidth<Width>, const LdlPanel<Number>& panel) const
     {
-        using Four = SimdBlock<Width, 4>;
-        using Eight = SimdBlock<Width, 8>;
+        using Four = SimdBlock<Number, Width, 4>;
+        using Eight = SimdBlock<Number, Width, 8>;
         for (Index first = 0; first < panel.width; first += group) {
             const Index n = std::min(group, panel.width - first);
             const Index half = std::min(group / 2, n);
@@ -232,15 +231,22 @@ struct FactorisePanel {
 
 }  // namespace
 
-void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
-                     const LdlPanel& later, Index width)
+template <class Number>
+void subtract_update(const LdlPanel<Number>& earlier, Index place, Index n_columns, const Index* target_rows,
+                     const LdlPanel<Number>& later, Index width)
 {
     with_simd_width(width, SubtractUpdate(), earlier, place, n_columns, target_rows, later);
 }
 
-bool factorise_panel(const LdlPanel& panel, Index width)
+template <class Number>
+bool factorise_panel(const LdlPanel<Number>& panel, Index width)
 {
     return with_simd_width(width, FactorisePanel(), panel);
 }
+
+template void subtract_update(const LdlPanel<float>&, Index, Index, const Index*, const LdlPanel<float>&, Index);
+template void subtract_update(const LdlPanel<double>&, Index, Index, const Index*, const LdlPanel<double>&, Index);
+template bool factorise_panel(const LdlPanel<float>&, Index);
+template bool factorise_panel(const LdlPanel<double>&, Index);
 
 }  // namespace seamflow

@@ -9,9 +9,10 @@
 namespace seamflow {
 
 /// A block of columns of L, row by row; below the diagonal are the entries of L, on it those of D, above it nothing of
-/// use.
+/// use. Numbers are float or double.
+template <class Number>
 struct LdlPanel {
-    double* values;
+    Number* values;
     /// Number of columns.
     Index width;
     /// The unknowns whose rows these are, ascending: first those of the columns.
@@ -22,20 +23,27 @@ struct LdlPanel {
 /// @param place the first of the earlier block's rows that belong to columns of the later one; `n_columns` do.
 /// @param target_rows per unknown from rows[place] on of the earlier block: its row of the later one.
 /// @param width see with_simd_width: the result is the same with any.
-void subtract_update(const LdlPanel& earlier, Index place, Index n_columns, const Index* target_rows,
-                     const LdlPanel& later, Index width = register_width());
+template <class Number>
+void subtract_update(const LdlPanel<Number>& earlier, Index place, Index n_columns, const Index* target_rows,
+                     const LdlPanel<Number>& later, Index width = register_width());
 
 /// Factorises a block from which all that earlier blocks contribute has been taken away.
 /// @param width see with_simd_width: the result is the same with any.
 /// @returns whether all of D is positive and finite.
-bool factorise_panel(const LdlPanel& panel, Index width = register_width());
+template <class Number>
+bool factorise_panel(const LdlPanel<Number>& panel, Index width = register_width());
+
+/// Numbers in a row of three right-hand sides, and one that plays no part: so that rows are registers.
+constexpr Index ldl_row = 4;
 
 /// Eliminates a block's unknowns from three right-hand sides.
-/// @param x all unknowns by 3, row by row.
-void forward_substitute_panel(const LdlPanel& panel, double* x);
+/// @param x all unknowns by ldl_row, row by row.
+template <class Number>
+void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 /// Solves for a block's unknowns, with those of its other rows given.
-/// @param x all unknowns by 3, row by row.
-void back_substitute_panel(const LdlPanel& panel, double* x);
+/// @param x all unknowns by ldl_row, row by row.
+template <class Number>
+void back_substitute_panel(const LdlPanel<Number>& panel, Number* x);
 
 }  // namespace seamflow

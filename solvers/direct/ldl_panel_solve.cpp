@@ -11,79 +11,63 @@ namespace {
 constexpr Index columns_at_once = 4;
 
 /// One row of three right-hand sides.
+template <class Number>
 struct Row {
-    SimdVector<double, 2> xy{};
-    double z = 0.0;
+    SimdVector<Number, ldl_row> numbers{};
 
     Row() = default;
-    explicit Row(const double* x)
-        : xy{x[0], x[1]}
-        , z(x[2])
-    {
-    }
-    void subtract(double factor, const Row& row)
-    {
-        xy -= factor * row.xy;
-        z -= factor * row.z;
-    }
-    void divide(double divisor)
-    {
-        xy /= divisor;
-        z /= divisor;
-    }
-    void store(double* x) const
-    {
-        x[0] = xy[0];
-        x[1] = xy[1];
-        x[2] = z;
-    }
+    explicit Row(const Number* x) { load(x, numbers); }
+    void subtract(Number factor, const Row& row) { numbers -= factor * row.numbers; }
+    void divide(Number divisor) { numbers /= divisor; }
+    void store_to(Number* x) const { store(numbers, x); }
 };
 
-double* row_of(double* x, Index unknown)
+template <class Number>
+Number* row_of(Number* x, Index unknown)
 {
-    return x + 3 * at(unknown);
+    return x + at(ldl_row) * at(unknown);
 }
 
 /// Eliminates columns that depend on each other, from which all that earlier ones contribute has been taken away.
 /// @param Columns 1 to 4: in loops of so many known turns processors do not lose their way.
-template <Index Columns>
-void eliminate_columns(const LdlPanel& panel, Index first, double* x)
+template <Index Columns, class Number>
+void eliminate_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
     const std::size_t width = at(panel.width);
     const auto n_rows = static_cast<Index>(panel.rows.size());
-    double* own = row_of(x, panel.rows[first]);
-    const double* row = panel.values + at(first) * (width + 1);
-    Row known[Columns];
+    Number* own = row_of(x, panel.rows[first]);
+    const Number* row = panel.values + at(first) * (width + 1);
+    Row<Number> known[Columns];
     for (Index i = 0; i < Columns; ++i, row += width) {
-        known[i] = Row(own + 3 * i);
+        known[i] = Row(own + ldl_row * i);
         for (Index c = 0; c < i; ++c)
             known[i].subtract(row[c], known[c]);
-        known[i].store(own + 3 * i);
+        known[i].store_to(own + ldl_row * i);
     }
     for (Index m = first + Columns; m < n_rows; ++m, row += width) {
-        double* target = row_of(x, panel.rows[m]);
-        Row sum(target);
+        Number* target = row_of(x, panel.rows[m]);
+        Row<Number> sum(target);
         for (Index c = 0; c < Columns; ++c)
             sum.subtract(row[c], known[c]);
-        sum.store(target);
+        sum.store_to(target);
     }
 }
 
 /// Solves for columns that depend on each other and on later ones.
 /// @param Columns 1 to 4.
-template <Index Columns>
-void substitute_columns(const LdlPanel& panel, Index first, double* x)
+template <Index Columns, class Number>
+void substitute_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
     const std::size_t width = at(panel.width);
     const auto n_rows = static_cast<Index>(panel.rows.size());
-    double* own = row_of(x, panel.rows[first]);
-    const double* top = panel.values + at(first) * (width + 1);
-    Row sums[Columns];
+    Number* own = row_of(x, panel.rows[first]);
+    const Number* top = panel.values + at(first) * (width + 1);
+    Row<Number> sums[Columns];
     for (Index c = 0; c < Columns; ++c) {
-        sums[c] = Row(own + 3 * c);
+        sums[c] = Row(own + ldl_row * c);
         sums[c].divide(top[at(c) * (width + 1)]);
     }
-    const double* row = top + at(Columns) * width;
+    const Number* row = top + at(Columns) * width;
     for (Index m = first + Columns; m < n_rows; ++m, row += width) {
         const Row known(row_of(x, panel.rows[m]));
         for (Index c = 0; c < Columns; ++c)
@@ -92,7 +76,7 @@ void substitute_columns(const LdlPanel& panel, Index first, double* x)
     for (Index i = Columns; i-- > 0;) {
         for (Index c = 0; c < i; ++c)
             sums[c].subtract(top[at(i) * width + at(c)], sums[i]);
-        sums[i].store(own + 3 * i);
+        sums[i].store_to(own + ldl_row * i);
     }
 }
 
@@ -112,14 +96,16 @@ void with_known(Index n, Use use)
 
 }  // namespace
 
-void forward_substitute_panel(const LdlPanel& panel, double* x)
+template <class Number>
+void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x)
 {
     for (Index first = 0; first < panel.width; first += columns_at_once)
         with_known(std::min(columns_at_once, panel.width - first),
                    [&](auto n) { eliminate_columns<n>(panel, first, x); });
 }
 
-void back_substitute_panel(const LdlPanel& panel, double* x)
+template <class Number>
+void back_substitute_panel(const LdlPanel<Number>& panel, Number* x)
 {
     for (Index end = panel.width; end > 0;) {
         const Index n_columns = std::min(columns_at_once, end);
@@ -127,5 +113,10 @@ void back_substitute_panel(const LdlPanel& panel, double* x)
         with_known(n_columns, [&](auto n) { substitute_columns<n>(panel, end, x); });
     }
 }
+
+template void forward_substitute_panel(const LdlPanel<float>&, float*);
+template void forward_substitute_panel(const LdlPanel<double>&, double*);
+template void back_substitute_panel(const LdlPanel<float>&, float*);
+template void back_substitute_panel(const LdlPanel<double>&, double*);
 
 }  // namespace seamflow

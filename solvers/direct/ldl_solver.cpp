@@ -1,8 +1,11 @@
 #include "solvers/direct/ldl_solver.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "partition/errors.h"
@@ -14,7 +17,8 @@ namespace {
 
 /// In numbers: how far before it is used what substitution goes through backwards is asked for, and in what portions.
 constexpr std::ptrdiff_t substituted_ahead = 1024;
-constexpr std::ptrdiff_t cache_line = 64 / sizeof(double);
+template <class Number>
+constexpr std::ptrdiff_t cache_line = 64 / sizeof(Number);
 
 /// Per unknown, its supernode.
 std::vector<Index> blocks_of_unknowns(const SymbolicFactor& pattern)
@@ -23,6 +27,35 @@ std::vector<Index> blocks_of_unknowns(const SymbolicFactor& pattern)
     for (Index b = 0; b < pattern.n_supernodes(); ++b)
         std::fill_n(supernode_of.begin() + pattern.first[b], pattern.width(b), b);
     return supernode_of;
+}
+
+/// By what numbers are divided: a power of two near the largest, and 1 in double precision.
+template <class Number>
+double scale_of(std::span<const double> values)
+{
+    double largest = 0.0;
+    if constexpr (std::is_same_v<Number, float>)
+        for (const double value : values)
+            largest = std::max(largest, std::abs(value));
+    return power_of_two_near(largest);
+}
+
+/// Whether one of a panel's pivots is smaller than that part of the matrix's diagonal.
+template <class Number>
+bool has_small_pivot(const LdlPanel<Number>& panel, const std::vector<double>& diagonal, Number least_pivot)
+{
+    bool is_small = false;
+    for (Index c = 0; c < panel.width; ++c)
+        is_small |= panel.values[at(c) * at(panel.width + 1)] < least_pivot * static_cast<Number>(diagonal[c]);
+    return is_small;
+}
+
+template <class Number>
+void copy_diagonal(const LdlPanel<Number>& panel, std::vector<double>& diagonal)
+{
+    diagonal.resize(std::max(diagonal.size(), at(panel.width)));
+    for (Index c = 0; c < panel.width; ++c)
+        diagonal[c] = panel.values[at(c) * at(panel.width + 1)];
 }
 
 }  // namespace
@@ -76,34 +109,49 @@ void LdlSolver::find_places(const SparsePattern& upper, const std::vector<Index>
     }
 }
 
-std::optional<LdlSolver::Factor> LdlSolver::factorise(std::span<const double> values, FactorMemory& memory,
-                                                      LdlWorkspace& workspace) const
+template <class Number>
+std::optional<LdlFactor<Number>> LdlSolver::factorise(std::span<const double> values, FactorMemory& memory,
+                                                      LdlWorkspace& workspace, Number least_pivot) const
 {
-    auto numbers = take_numbers<double>(memory, at(panels_.back()));
-    double* factor = numbers.get();
+    auto numbers = take_numbers<Number>(memory, n_numbers());
+    Number* factor = numbers.get();
     if (workspace.row_of.size() < at(n())) {
         workspace.row_of.resize(n());
         workspace.target_rows.resize(n());
     }
-    std::fill_n(factor, panels_.back(), 0.0);
-    for (std::size_t k = 0; k < places_.size(); ++k)
-        factor[places_[k]] = values[k];
+    auto& last = std::get<std::vector<Number>>(workspace.last);
+    const std::size_t n_in_last = at(n_last_) * at(n_last_);
+    last.resize(std::max(last.size(), n_in_last));
+    std::fill_n(last.begin(), n_in_last, Number{});
+    std::fill_n(factor, n_factor_numbers(), Number{});
+    const double scale = scale_of<Number>(values.first(places_.size()));
+    const double inverse = 1.0 / scale;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        const Index place = places_[k];
+        (place < n_factor_numbers() ? factor[place] : last[place - n_factor_numbers()]) =
+            static_cast<Number>(inverse * values[k]);
+    }
     for (Index b = 0; b < pattern_.n_supernodes(); ++b) {
-        subtract_updates(b, factor, workspace);
-        if (!factorise_panel(panel(factor, b)))
+        LdlPanel<Number> block = panel(factor, b);
+        if (panels_[b] == n_factor_numbers())
+            block.values = last.data();
+        copy_diagonal(block, workspace.diagonal);
+        subtract_updates(block, b, factor, workspace);
+        if (!factorise_panel(block) || has_small_pivot(block, workspace.diagonal, least_pivot))
             return std::nullopt;
     }
-    return Factor(*this, std::move(numbers));
+    return LdlFactor<Number>(*this, std::move(numbers), scale);
 }
 
-void LdlSolver::subtract_updates(Index supernode, double* factor, LdlWorkspace& workspace) const
+template <class Number>
+void LdlSolver::subtract_updates(const LdlPanel<Number>& later, Index supernode, Number* factor,
+                                 LdlWorkspace& workspace) const
 {
-    const LdlPanel later = panel(factor, supernode);
     for (std::size_t i = 0; i < later.rows.size(); ++i)
         workspace.row_of[later.rows[i]] = static_cast<Index>(i);
     for (Index u = update_offsets_[supernode]; u < update_offsets_[supernode + 1]; ++u) {
         const Update& update = updates_[u];
-        const LdlPanel earlier = panel(factor, update.earlier);
+        const LdlPanel<Number> earlier = panel(factor, update.earlier);
         const auto rows = earlier.rows.subspan(update.place);
         for (std::size_t i = 0; i < rows.size(); ++i)
             workspace.target_rows[i] = workspace.row_of[rows[i]];
@@ -111,32 +159,36 @@ void LdlSolver::subtract_updates(Index supernode, double* factor, LdlWorkspace& 
     }
 }
 
-DenseLdl LdlSolver::Factor::last() const
+template <class Number>
+void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution)
 {
-    const Index n = solver_->n_last_;
-    return {n > 0 ? numbers_.get() + solver_->panels_[solver_->pattern_.n_supernodes() - 1] : nullptr, n, n};
-}
-
-void LdlSolver::Factor::solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const
-{
+    assert(solver_->n_last_ == 0);
     const Index n = solver_->n();
-    workspace.solution.resize(3 * at(n));
-    Eigen::Map<Points> x(workspace.solution.data(), n, 3);
-    x = right_hand_side;
-    forward_substitute(x.data(), n);
-    back_substitute(x.data(), n);
+    const double unit = scale_of<Number>(std::span(right_hand_side.data(), at(3) * at(n)));
+    Number* const x = rows();
+    for (Index i = 0; i < n; ++i) {
+        for (Index c = 0; c < 3; ++c)
+            x[ldl_row * i + c] = static_cast<Number>(right_hand_side(i, c) / unit);
+        x[ldl_row * i + 3] = Number{};
+    }
+    forward_substitute(n);
+    back_substitute(n);
     set_rows(solution, n);
-    solution = x;
+    for (Index i = 0; i < n; ++i)
+        for (Index c = 0; c < 3; ++c)
+            solution(i, c) = unit / scale_ * x[ldl_row * i + c];
 }
 
-void LdlSolver::Factor::forward_substitute(double* x, Index n) const
+template <class Number>
+void LdlFactor<Number>::forward_substitute(Index n)
 {
     const SymbolicFactor& pattern = solver_->pattern_;
     for (Index b = 0; b < pattern.n_supernodes() && pattern.first[b] < n; ++b)
-        forward_substitute_panel(solver_->panel(numbers_.get(), b), x);
+        forward_substitute_panel(solver_->panel(numbers_.get(), b), rows());
 }
 
-void LdlSolver::Factor::back_substitute(double* x, Index n) const
+template <class Number>
+void LdlFactor<Number>::back_substitute(Index n)
 {
     const SymbolicFactor& pattern = solver_->pattern_;
     const std::vector<Index>& panels = solver_->panels_;
@@ -144,10 +196,17 @@ void LdlSolver::Factor::back_substitute(double* x, Index n) const
         if (pattern.first[b] < n) {
             // Processors foresee only ways forward. Not in a function of its own: compilers leave out calls of
             // functions that do nothing but this.
-            for (std::ptrdiff_t i = panels[b]; i < panels[b + 1]; i += cache_line)
+            for (std::ptrdiff_t i = panels[b]; i < panels[b + 1]; i += cache_line<Number>)
                 __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
-            back_substitute_panel(solver_->panel(numbers_.get(), b), x);
+            back_substitute_panel(solver_->panel(numbers_.get(), b), rows());
         }
 }
+
+template class LdlFactor<float>;
+template class LdlFactor<double>;
+template std::optional<LdlFactor<float>> LdlSolver::factorise(std::span<const double>, FactorMemory&, LdlWorkspace&,
+                                                              float) const;
+template std::optional<LdlFactor<double>> LdlSolver::factorise(std::span<const double>, FactorMemory&, LdlWorkspace&,
+                                                               double) const;
 
 }  // namespace seamflow

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,16 +19,24 @@
 
 namespace seamflow {
 
+/// The largest power of two that is not above a positive number: what is divided by it loses no bit. 1 for numbers that
+/// are not positive, not finite, or so small that this power has no inverse.
+inline double power_of_two_near(double number)
+{
+    return number > 0x1p-1000 && std::isfinite(number) ? std::ldexp(1.0, std::ilogb(number)) : 1.0;
+}
+
 /// A dense L D Lᵀ row by row: D on the diagonal, L below it, nothing of use above it.
-using DenseLdl = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+template <class Number>
+using DenseLdl = Eigen::Map<const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+template <class Number>
+class LdlFactor;
 
 /// LDLᵀ factorisation of symmetric sparse matrices of one pattern, in the order in which the unknowns are. All but the
-/// numbers is known beforehand. Different threads may factorise and solve at the same time, each with a workspace of
-/// its own.
+/// numbers is known beforehand. Different threads may factorise at the same time, each with a workspace of its own.
 class LdlSolver {
   public:
-    class Factor;
-
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
     /// @param n_last number of unknowns that are kept together at the end.
@@ -37,15 +47,34 @@ class LdlSolver {
     [[nodiscard]] Index n() const { return pattern_.n(); }
 
     /// What a factor takes, in bytes.
-    [[nodiscard]] std::size_t factor_bytes() const { return at(panels_.back()) * sizeof(double); }
+    template <class Number>
+    [[nodiscard]] std::size_t factor_bytes() const
+    {
+        return n_numbers() * sizeof(Number);
+    }
 
+    /// Factorises in single or double precision.
     /// @param values one per entry of the pattern; needed only during the call.
     /// @param memory must outlive the factor, as must the solver.
-    /// @returns nothing where the matrix is not positive definite.
-    [[nodiscard]] std::optional<Factor> factorise(std::span<const double> values, FactorMemory& memory,
-                                                  LdlWorkspace& workspace) const;
+    /// @param least_pivot relative to the entry on the diagonal of the matrix: a pivot that is smaller has lost too
+    ///        many digits.
+    /// @returns nothing where the matrix is not positive definite, or a pivot too small.
+    template <class Number>
+    [[nodiscard]] std::optional<LdlFactor<Number>> factorise(std::span<const double> values, FactorMemory& memory,
+                                                             LdlWorkspace& workspace, Number least_pivot = {}) const;
+
+    /// What remains of the matrix that was factorised last for the last unknowns when all others are eliminated (Schur
+    /// complement), factorised too, in units of the factor's scale: in the workspace, until that is used again.
+    template <class Number>
+    [[nodiscard]] DenseLdl<Number> last(const LdlWorkspace& workspace) const
+    {
+        return {std::get<std::vector<Number>>(workspace.last).data(), n_last_, n_last_};
+    }
 
   private:
+    template <class Number>
+    friend class LdlFactor;
+
     /// What an earlier supernode takes away from columns of a later one.
     struct Update {
         Index earlier;
@@ -54,10 +83,17 @@ class LdlSolver {
         Index n_columns;
     };
 
+    /// Where those of the unknowns that are kept together would begin.
+    [[nodiscard]] Index n_factor_numbers() const { return n_last_ > 0 ? panels_.rbegin()[1] : panels_.back(); }
+    /// Of a factor, and of three right-hand sides for it.
+    [[nodiscard]] std::size_t n_numbers() const { return at(n_factor_numbers()) + at(ldl_row) * at(n()); }
     void list_updates(const std::vector<Index>& supernode_of);
     void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
-    void subtract_updates(Index supernode, double* factor, LdlWorkspace& workspace) const;
-    [[nodiscard]] LdlPanel panel(double* factor, Index supernode) const
+    template <class Number>
+    void subtract_updates(const LdlPanel<Number>& later, Index supernode, Number* factor,
+                          LdlWorkspace& workspace) const;
+    template <class Number>
+    [[nodiscard]] LdlPanel<Number> panel(Number* factor, Index supernode) const
     {
         return {factor + panels_[supernode], pattern_.width(supernode), pattern_.rows[supernode]};
     }
@@ -73,39 +109,45 @@ class LdlSolver {
     std::vector<Update> updates_;
 };
 
-/// L D Lᵀ of one matrix.
-class LdlSolver::Factor {
+/// L D Lᵀ of one matrix, in units of scale(), without the block of the last unknowns.
+/// @tparam Number float or double.
+template <class Number>
+class LdlFactor {
   public:
+    /// A power of two, so that single precision has room for a matrix of any unit; 1 in double precision.
+    [[nodiscard]] double scale() const { return scale_; }
+
     /// Solves for three right-hand sides.
+    /// @pre no unknowns are kept together at the end.
     /// @param solution n by 3; may be the right-hand side.
-    void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
+    void solve(const Columns& right_hand_side, Columns& solution);
 
-    /// Forward substitution for all unknowns but the last: x becomes L⁻¹ x above, and below what remains for the last
-    /// unknowns.
-    /// @param x n by 3.
-    void forward_substitute(Points& x) const { forward_substitute(x.data(), solver_->n() - solver_->n_last_); }
+    /// Memory of the factor's own for three right-hand sides or what becomes of them: n by ldl_row, row by row.
+    [[nodiscard]] Number* rows() { return numbers_.get() + solver_->n_factor_numbers(); }
 
-    /// Solves for all unknowns but the last.
-    /// @param x n by 3. In: what `forward_substitute` left, and the last unknowns; out: the solution.
-    void back_substitute(Points& x) const { back_substitute(x.data(), solver_->n() - solver_->n_last_); }
+    /// Forward substitution for all unknowns but the last: rows() become L⁻¹ rows() above, and below what remains for
+    /// the last unknowns.
+    void forward_substitute() { forward_substitute(solver_->n() - solver_->n_last_); }
 
-    /// What remains of the matrix for the last unknowns when all others are eliminated (Schur complement), factorised:
-    /// a view of this factor.
-    [[nodiscard]] DenseLdl last() const;
+    /// Solves for all unknowns but the last, in units of 1 / scale(). In rows(): what `forward_substitute` left, and
+    /// the last unknowns. Out: the solution.
+    void back_substitute() { back_substitute(solver_->n() - solver_->n_last_); }
 
   private:
     friend class LdlSolver;
-    Factor(const LdlSolver& solver, FactorNumbers<double> numbers)
+    LdlFactor(const LdlSolver& solver, FactorNumbers<Number> numbers, double scale)
         : solver_(&solver)
         , numbers_(std::move(numbers))
+        , scale_(scale)
     {
     }
 
-    void forward_substitute(double* x, Index n) const;
-    void back_substitute(double* x, Index n) const;
+    void forward_substitute(Index n);
+    void back_substitute(Index n);
 
     const LdlSolver* solver_;
-    FactorNumbers<double> numbers_;
+    FactorNumbers<Number> numbers_;
+    double scale_;
 };
 
 }  // namespace seamflow

@@ -53,30 +53,30 @@ template <class Number, class Vector>
     std::memcpy(to, &vector, sizeof vector);
 }
 
-/// So many neighbouring numbers in registers of `Width`, as many as that takes. Arrays of vectors that are wider than a
-/// register do not do as well: GCC keeps them in memory all the time, which takes ten times as long.
-/// @param Lanes a power of two.
-template <Index Width, Index Lanes>
+/// So many neighbouring numbers in registers, as many as that takes. Arrays of vectors that are wider than a register
+/// do not do as well: GCC keeps them in memory all the time, which takes ten times as long.
+/// @param Width of a register, in double-precision numbers. @param Lanes a power of two.
+template <class Number, Index Width, Index Lanes>
 struct SimdBlock {
     static constexpr Index lanes = Lanes;
-    static constexpr Index lanes_of_part = std::min(Lanes, Width);
+    static constexpr Index lanes_of_part = std::min(Lanes, Width* Index{sizeof(double) / sizeof(Number)});
     static constexpr Index n_parts = Lanes / lanes_of_part;
-    using Vector = SimdVector<double, lanes_of_part>;
+    using Vector = SimdVector<Number, lanes_of_part>;
 
     Vector part[n_parts] = {};
 
-    [[gnu::always_inline]] void load_from(const double* from)
+    [[gnu::always_inline]] void load_from(const Number* from)
     {
         for (Index p = 0; p < n_parts; ++p)
             load(from + p * lanes_of_part, part[p]);
     }
-    [[gnu::always_inline]] void add_product(double factor, const SimdBlock& numbers)
+    [[gnu::always_inline]] void add_product(Number factor, const SimdBlock& numbers)
     {
         for (Index p = 0; p < n_parts; ++p)
             part[p] += factor * numbers.part[p];
     }
     /// Takes all of them away from neighbouring entries.
-    [[gnu::always_inline]] void subtract_from(double* target) const
+    [[gnu::always_inline]] void subtract_from(Number* target) const
     {
         for (Index p = 0; p < n_parts; ++p) {
             Vector entries;
@@ -86,7 +86,7 @@ struct SimdBlock {
         }
     }
     /// The same with the first n.
-    [[gnu::always_inline]] void subtract_from(double* target, Index n) const
+    [[gnu::always_inline]] void subtract_from(Number* target, Index n) const
     {
         for (Index t = 0; t < n; ++t)
             target[t] -= part[t / lanes_of_part][t % lanes_of_part];

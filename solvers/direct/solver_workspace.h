@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,8 +17,10 @@ struct LdlWorkspace {
     std::vector<Index> row_of;
     /// Of one update.
     std::vector<Index> target_rows;
-    /// #unknowns by 3, row by row.
-    std::vector<double> solution;
+    /// Of the columns of a supernode: the matrix's diagonal.
+    std::vector<double> diagonal;
+    /// The block of unknowns that are kept together at the end, in either precision.
+    std::tuple<std::vector<float>, std::vector<double>> last;
 };
 
 /// What an LuSolver needs while it works: one for each thread. Grows to what the largest matrix needs.
@@ -58,14 +61,14 @@ struct SolverWorkspace {
     /// Per vertex.
     std::vector<double> diagonal;
     std::vector<double> mass;
-    /// #local by 3: dt K V.
-    Points product;
+    /// #local by 3: what positions leave of the equations.
+    Points residual;
+    /// #own by 3: Vᵏ⁺¹ - Vᵏ, in the making.
+    Points increments;
     Columns right_hand_side;
     Columns solution;
     /// #own by 3.
     Points positions;
-    /// #unknowns by 3: Vᵏ⁺¹ - Vᵏ, in the making.
-    Points increment;
     /// #local by 3: what is known of the other side, on Γ and in the halo.
     Points other_side;
 };

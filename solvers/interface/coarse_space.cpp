@@ -202,16 +202,15 @@ void CoarseSpace::analyse()
         energy_.diagonal_slots.push_back(upper.slot({u, u}));
 }
 
-void CoarseSpace::prepare(std::span<const SchurComplement> complements, std::span<const double> weights,
-                          const Loop& loop)
+void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Loop& loop)
 {
     if (size() == 0)
         return;
     set_functions(weights, loop);
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, complements[s].single()); });
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, complements[s]); });
     assemble();
     energy_.factor.reset();
-    energy_.factor = energy_.solver->factorise(energy_.values, energy_.memory, energy_.workspace);
+    energy_.factor = energy_.solver->factorise<double>(energy_.values, energy_.memory, energy_.workspace);
 }
 
 /// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
@@ -272,7 +271,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
             sum -= products_with_y_.row(place);
         coefficients_.row(energy_.unknown_of[f]) = sum;
     });
-    energy_.factor->solve(coefficients_, coefficients_, energy_.workspace);
+    energy_.factor->solve(coefficients_, coefficients_);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
             y.row(v) += values_at_[copy] * coefficients_.row(energy_.unknown_of[function_[copy]]);

@@ -7,10 +7,10 @@
 #include "partition/index_lists.h"
 #include "partition/loop.h"
 #include "solvers/direct/columns.h"
+#include "solvers/direct/dense_factor.h"
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/interface/interface_copies.h"
-#include "solvers/systems/schur_complement.h"
 
 namespace seamflow {
 
@@ -35,7 +35,7 @@ class CoarseSpace {
     /// Makes S Z and factorises E.
     /// @param complements one per sub-mesh.
     /// @param weights one per copy, positive, those of a vertex adding up to 1.
-    void prepare(std::span<const SchurComplement> complements, std::span<const double> weights, const Loop& loop);
+    void prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Loop& loop);
 
     /// y becomes y + Z E⁻¹ Zᵀ (residual - S y).
     /// @param residual, y one row per vertex of Γ.
@@ -54,7 +54,7 @@ class CoarseSpace {
         FactorPool memory;
         LdlWorkspace workspace;
         /// None where there are no functions, or E is not definite to rounding.
-        std::optional<LdlSolver::Factor> factor;
+        std::optional<LdlFactor<double>> factor;
     };
     /// What a sub-mesh adds.
     struct Share {

@@ -26,8 +26,9 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
         coarse_.emplace(copies_);
 }
 
-InterfaceResult InterfaceEquation::solve(std::span<const SchurComplement> complements, const Points& right_hand_sides,
-                                         const Points& guess, const IterationStop& stop, Points& x, const Loop& loop)
+InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, const Points& right_hand_sides,
+                                         const Residuals& residuals, const Points& guess, const IterationStop& stop,
+                                         Points& x, const Loop& loop)
 {
     x.setZero(copies_.n_vertices(), 3);
     weigh_copies(complements, loop);
@@ -38,7 +39,10 @@ InterfaceResult InterfaceEquation::solve(std::span<const SchurComplement> comple
     vectors_.begin(right_hand_side_, loop);
     const auto multiply = [&](const Points& p, Points& product) { this->multiply(complements, p, product, loop); };
     const auto precondition = [&](const Points& r, Points& z) { this->precondition(complements, r, z, loop); };
-    const auto measure = [&](const Points& at_x, Points& r) { measure_residual(complements, at_x, r, loop); };
+    const auto measure = [&](const Points& at_x, Points& r) {
+        sum_copies(residuals((at_x.array().rowwise() * unit.array()).matrix()), r, loop);
+        r.array().rowwise() /= unit.array();
+    };
     if (stop.iterations > 0)
         start(multiply, guess.array().rowwise() / unit.array(), x, loop);
     InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, loop)};
@@ -69,10 +73,10 @@ double InterfaceEquation::estimate_distance(const Point& unit) const
 }
 
 /// By the diagonals of the Schur complements.
-void InterfaceEquation::weigh_copies(std::span<const SchurComplement> complements, const Loop& loop)
+void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
-        const std::vector<double>& diagonal = complements[s].single().diagonal();
+        const std::vector<double>& diagonal = complements[s].diagonal();
         std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[s]);
     });
     for_each(loop, copies_.n_vertices(), [&](Index v) {
@@ -84,24 +88,7 @@ void InterfaceEquation::weigh_copies(std::span<const SchurComplement> complement
     });
 }
 
-/// In double precision. The shares of the right-hand side may cancel each other almost wholly: only their sum is used.
-void InterfaceEquation::measure_residual(std::span<const SchurComplement> complements, const Points& x,
-                                         Points& residual, const Loop& loop)
-{
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
-        const Index first = copies_.first[s];
-        const Index n = copies_.n_in(s);
-        Points local(n, 3);
-        for (Index i = 0; i < n; ++i)
-            local.row(i) = x.row(copies_.vertex[first + i]);
-        auto change = residual_copies_.middleRows(first, n);
-        change.setZero();
-        complements[s].subtract_product(local, change);
-    });
-    sum_copies(residual_copies_, residual, loop);
-    residual += right_hand_side_;
-}
-
+/// The shares may cancel each other almost wholly: only their sum is used.
 void InterfaceEquation::sum_copies(const Points& copies, Points& sums, const Loop& loop)
 {
     for_each(loop, copies_.n_vertices(), [&](Index v) {
@@ -130,7 +117,7 @@ void InterfaceEquation::start(const Multiply& multiply, const Points& guess, Poi
     vectors_.alpha.setOnes();
 }
 
-void InterfaceEquation::multiply(std::span<const SchurComplement> complements, const Points& direction, Points& product,
+void InterfaceEquation::multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
                                  const Loop& loop)
 {
     on_each(complements, direction, false, product, loop,
@@ -140,7 +127,7 @@ void InterfaceEquation::multiply(std::span<const SchurComplement> complements, c
             });
 }
 
-void InterfaceEquation::precondition(std::span<const SchurComplement> complements, const Points& residual,
+void InterfaceEquation::precondition(std::span<const DenseFactor> complements, const Points& residual,
                                      Points& preconditioned, const Loop& loop)
 {
     on_each(complements, residual, true, preconditioned, loop,
@@ -156,13 +143,13 @@ void InterfaceEquation::precondition(std::span<const SchurComplement> complement
 /// their own, so that single precision has room for lengths of any unit; `apply` returns which columns have its result,
 /// and by what that is to be multiplied.
 template <class Apply>
-void InterfaceEquation::on_each(std::span<const SchurComplement> complements, const Points& source, bool weighted,
+void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted,
                                 Points& target, const Loop& loop, Apply&& apply)
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[copy] : 1.0; };
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
         if (s + 1 < copies_.n_sub_meshes())
-            complements[s + 1].single().prefetch();
+            complements[s + 1].prefetch();
         const Index n = copies_.n_in(s);
         const Index first = copies_.first[s];
         const std::size_t room = DenseFactor::room(n);
@@ -193,7 +180,7 @@ void InterfaceEquation::on_each(std::span<const SchurComplement> complements, co
         // What was not finite may have been in a solution before.
         for (std::size_t c = 0; c < 6; ++c)
             std::fill(columns.x + c * room + at(n), columns.x + (c + 1) * room, 0.0F);
-        const std::pair<FloatColumns, double> applied = apply(complements[s].single(), columns, scratch);
+        const std::pair<FloatColumns, double> applied = apply(complements[s], columns, scratch);
         const FloatColumns& result = applied.first;
         const Point factor = applied.second * unit;
         for (Index i = 0; i < n; ++i) {

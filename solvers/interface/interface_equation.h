@@ -1,16 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
 #include "partition/loop.h"
+#include "solvers/direct/dense_factor.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
 #include "solvers/interface/interface_result.h"
 #include "solvers/krylov/conjugate_gradients.h"
-#include "solvers/systems/schur_complement.h"
 
 namespace seamflow {
 
@@ -29,7 +30,8 @@ enum class Balancing {
 /// sums over the sub-meshes, each with the Schur complement of its share A = M + dt K (see NeumannSystem), its interior
 /// I condensed. Solved for all three columns at once by conjugate gradients, preconditioned by Σ W_i
 /// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
-/// single precision, in units that leave it room; the residual is renewed in double precision without beginning anew.
+/// single precision, in units that leave it room; the residual is renewed, without beginning anew, from that of the
+/// whole step in double precision. So neither these products nor the factors of sub-meshes limit a tolerance.
 /// Sums are taken in a fixed order: the bits do not depend on how loops are run.
 class InterfaceEquation {
   public:
@@ -39,33 +41,35 @@ class InterfaceEquation {
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
+    /// What the step leaves on Γ at an x, the interiors following it: each sub-mesh's share, one row per copy.
+    using Residuals = std::function<const Points&(const Points& x)>;
+
     /// Solves.
     /// @param complements one per sub-mesh.
     /// @param right_hand_sides one row per copy: each sub-mesh's share g_i.
+    /// @param residuals is called now and then.
     /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
     /// @param guess one row per vertex of Γ: a direction in which the solution may be expected, or no rows.
     /// @param x receives the solution, one row per vertex of Γ.
     /// @returns the largest residual of x, y and z; as distance the largest row of the preconditioned residual, scaled
     ///          like the last iteration.
     /// @throws ComputationError if the right-hand side or the result is not finite.
-    InterfaceResult solve(std::span<const SchurComplement> complements, const Points& right_hand_sides,
-                          const Points& guess, const IterationStop& stop, Points& x, const Loop& loop);
+    InterfaceResult solve(std::span<const DenseFactor> complements, const Points& right_hand_sides,
+                          const Residuals& residuals, const Points& guess, const IterationStop& stop, Points& x,
+                          const Loop& loop);
 
   private:
-    void weigh_copies(std::span<const SchurComplement> complements, const Loop& loop);
+    void weigh_copies(std::span<const DenseFactor> complements, const Loop& loop);
     void sum_copies(const Points& copies, Points& sums, const Loop& loop);
-    void measure_residual(std::span<const SchurComplement> complements, const Points& x, Points& residual,
-                          const Loop& loop);
     template <class Multiply>
     void start(const Multiply& multiply, const Points& guess, Points& x, const Loop& loop);
     Point measure_right_hand_side();
     [[nodiscard]] double estimate_distance(const Point& unit) const;
-    void multiply(std::span<const SchurComplement> complements, const Points& direction, Points& product,
-                  const Loop& loop);
-    void precondition(std::span<const SchurComplement> complements, const Points& residual, Points& preconditioned,
+    void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product, const Loop& loop);
+    void precondition(std::span<const DenseFactor> complements, const Points& residual, Points& preconditioned,
                       const Loop& loop);
     template <class Apply>
-    void on_each(std::span<const SchurComplement> complements, const Points& source, bool weighted, Points& target,
+    void on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted, Points& target,
                  const Loop& loop, Apply&& apply);
 
     InterfaceCopies copies_;

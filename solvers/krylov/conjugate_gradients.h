@@ -74,7 +74,8 @@ void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, c
 
 /// Conjugate gradients for A X = B with a symmetric positive definite A, preconditioned (Saad, Iterative Methods for
 /// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: now and then the residual is
-/// measured anew, without beginning anew. Sums are taken in a fixed order: the bits do not depend on how loops are run.
+/// measured anew, without beginning anew; how far it had gone astray tells whether that is needed again. Sums are taken
+/// in a fixed order: the bits do not depend on how loops are run.
 /// @param multiply multiply(p, q) makes q = A p. @param precondition precondition(r, z) makes z = M⁻¹ r.
 /// @param measure measure(x, r) makes r = B - A X exactly.
 /// @param stop relative to the norms of B, for each column.
@@ -84,34 +85,50 @@ template <class Multiply, class Precondition, class Measure>
 IterationResult conjugate_gradients(const Multiply& multiply, const Precondition& precondition, const Measure& measure,
                                     const IterationStop& stop, Points& x, ConjugateGradientVectors& v, const Loop& loop)
 {
-    // A residual that is larger, relative to B, need not be measured; from one measurement to the next so many
-    // iterations, and so much of the residual; what may be left of it then without too little progress.
-    constexpr double largest_to_measure = 1e-3;
+    // From one measurement to the next so many iterations, and so much of the residual; what may be left of it then
+    // without too little progress.
     constexpr int most_iterations_at_once = 100;
     constexpr double most_reduction_at_once = 1e-4;
     constexpr double most_left = 0.5;
+    // How far rounding leads the residual astray, relative to what was measured before: until that has shown, and at
+    // least. Where so many times that is less than what is wanted, the last residual need not be measured.
+    constexpr double first_drift = 1e-4;
+    constexpr double least_drift = 1e-7;
+    constexpr double safety = 10.0;
 
+    const Point wanted = stop.tolerance * v.b_norms;
+    Point measured = v.b_norms;
+    Point drift = Point::Constant(first_drift);
+    const auto goals = [&] {
+        return Point(((1.0 - 1.0 / safety) * wanted).cwiseMax(most_reduction_at_once * measured));
+    };
+    const auto is_below = [](const Point& norms, const Point& limits) {
+        return (norms.array() <= limits.array()).all();
+    };
     const auto norms_as_measured = [&] {
-        if (const Point norms = column_norms(v.r, loop); largest_ratio(norms, v.b_norms) > largest_to_measure)
+        const Point norms = column_norms(v.r, loop);
+        const Point doubt = safety * drift.cwiseProduct(measured);
+        if (!is_below(norms, goals()) || is_below(norms.cwiseMax(doubt), wanted))
             return norms;
-        measure(x, v.r);
-        return column_norms(v.r, loop);
+        measure(x, v.z);
+        for_each(loop, static_cast<Index>(x.rows()), [&](Index i) { v.r.row(i) -= v.z.row(i); });
+        drift = quotients(column_norms(v.r, loop), measured).cwiseMax(least_drift);
+        v.r.swap(v.z);
+        return measured = column_norms(v.r, loop);
     };
     Point norms = norms_as_measured();
     StoppingCriterion criterion(stop, most_left, largest_ratio(norms, v.b_norms));
     while (!criterion.is_met()) {
-        const Point goals = (stop.tolerance * v.b_norms).cwiseMax(most_reduction_at_once * norms);
         const int most = std::min(criterion.iterations_left(), most_iterations_at_once);
         int iterations = 0;
-        for (bool is_reached = false; iterations < most && !is_reached; ++iterations) {
+        do {
             precondition(v.r, v.z);
             // Conjugate to the direction before even where the residual has just been measured.
             const Point beta = -quotients(column_products(v.z, v.q, loop), v.pq);
             for_each(loop, static_cast<Index>(x.rows()),
                      [&](Index i) { v.p.row(i) = v.z.row(i) + v.p.row(i).cwiseProduct(beta); });
             advance(multiply, x, v, loop);
-            is_reached = (column_norms(v.r, loop).array() <= goals.array()).all();
-        }
+        } while (++iterations < most && !is_below(column_norms(v.r, loop), goals()));
         const Point before = std::exchange(norms, norms_as_measured());
         criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));
         // Rounding can spoil the directions so much that they lead nowhere: new ones then.

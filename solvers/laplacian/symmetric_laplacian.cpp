@@ -11,17 +11,20 @@ namespace seamflow {
 
 namespace {
 
-/// Calls assemble_with(add), where add(v, w, c) adds c = factor · K_vw (V_w - V_v) to row v of the product, if it is
-/// wanted, and takes it from row w.
+/// Calls assemble_with(add), where add(v, w, k, d) with k = factor · K_vw and d = V_w - V_v adds what the pair has of
+/// the product, if that is wanted.
 template <class AssembleWith>
-void with_product(Points* product, AssembleWith&& assemble_with)
+void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
 {
     if (product == nullptr)
-        return assemble_with([](Index, Index, const Point&) {});
-    product->setZero();
-    assemble_with([&](Index v, Index w, const Point& change) {
-        product->row(v) += change;
-        product->row(w) -= change;
+        return assemble_with([](Index, Index, double, const Point&) {});
+    const Points& x = product->increments;
+    Points& result = product->result;
+    result.setZero();
+    assemble_with([&](Index v, Index w, double entry, const Point& difference) {
+        const Point change = entry * (difference + (x.row(w) - x.row(v)));
+        result.row(v) += change;
+        result.row(w) -= change;
     });
 }
 
@@ -55,18 +58,18 @@ class SymmetricEdges final : public SymmetricLaplacian {
     [[nodiscard]] std::vector<VertexPair> pairs() const override { return edges_; }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
-                  std::span<double> diagonal, std::span<double> mass, Points* product) override
+                  std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
     {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
-        with_product(product, [&](auto&& add_change) {
+        with_product(product, [&](auto&& add_to_product) {
             const auto add = [&](std::size_t begin, std::size_t end, double share) {
                 for (std::size_t i = begin; i < end; ++i) {
                     const VertexPair& e = edges_[i];
                     const Point difference = positions.row(e.second) - positions.row(e.first);
                     const typename Kernel::Edge edge(difference);
                     const double weight = edge.weight(share * factor);
-                    add_change(e.first, e.second, -weight * difference);
+                    add_to_product(e.first, e.second, -weight, difference);
                     values[slots[i]] -= weight;
                     for (const Index v : {e.first, e.second}) {
                         diagonal[v] += weight;
@@ -124,12 +127,12 @@ class SymmetricFaces final : public SymmetricLaplacian {
     }
 
     void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
-                  std::span<double> diagonal, std::span<double> mass, Points* product) override
+                  std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
     {
         std::fill(diagonal.begin(), diagonal.end(), 0.0);
         std::fill(mass.begin(), mass.end(), 0.0);
         const Index* slot = slots.data();
-        with_product(product, [&](auto&& add_change) {
+        with_product(product, [&](auto&& add_to_product) {
             const auto add = [&](const auto& face) {
                 const double scale = factor / face.divisor();
                 for (std::size_t i = 0; i < face.size(); ++i) {
@@ -139,7 +142,7 @@ class SymmetricFaces final : public SymmetricLaplacian {
                     mass[v] += face.mass(i);
                     for (std::size_t k = i + 1; k < face.size(); ++k) {
                         const double coefficient = row(k);
-                        add_change(v, face.corner(k), coefficient * face.difference(i, k));
+                        add_to_product(v, face.corner(k), coefficient, face.difference(i, k));
                         values[*slot++] += coefficient;
                     }
                 }

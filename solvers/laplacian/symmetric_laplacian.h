@@ -18,6 +18,15 @@ struct VertexPair {
     friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
 };
 
+/// A product with factor · K at positions V.
+struct StiffnessProduct {
+    /// #V by 3: X.
+    const Points& increments;
+    /// #V by 3: receives factor · K (V + X). The rows of K add up to zero: it is made of differences, and has no
+    /// rounding error of the size of V.
+    Points& result;
+};
+
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
 /// / val, Δ_A with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
 class SymmetricLaplacian {
@@ -35,11 +44,10 @@ class SymmetricLaplacian {
     /// @param positions at least #V by 3.
     /// @param slots one place per pair. Pairs that are not wanted all point to one place that nobody reads.
     /// @param diagonal, mass #V.
-    /// @param product nullptr, or of #V rows: receives factor · K V of the positions V. The rows of K add up to zero:
-    ///        it is made of differences, and has no rounding error of the size of V.
+    /// @param product may be nullptr.
     virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
                           std::span<double> values, std::span<double> diagonal, std::span<double> mass,
-                          Points* product = nullptr) = 0;
+                          const StiffnessProduct* product = nullptr) = 0;
 };
 
 /// Whose contributions a SymmetricLaplacian adds up.

@@ -1,6 +1,7 @@
 #include "solvers/systems/neumann_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -9,6 +10,14 @@
 #include "solvers/systems/checks.h"
 
 namespace seamflow {
+
+namespace {
+
+/// What a pivot in single precision has to be at least, relative to the matrix's diagonal: below it fewer than four
+/// digits may be left.
+constexpr float least_pivot_of_single = 1e-3F;
+
+}  // namespace
 
 NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian)
     : n_interface_(sub_mesh.interface.size())
@@ -56,32 +65,85 @@ SparsePattern NeumannSystem::number_unknowns(const SubMesh& sub_mesh)
     return std::move(pattern);
 }
 
-NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, double time_step,
+NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const Points& increments, double time_step,
                                                  SolverWorkspace& workspace) const
 {
-    set_rows(workspace.product, matrix_.n_vertices);
-    return {matrix_.fill(positions, time_step, 0, workspace, &workspace.product), workspace.product};
+    Points& residual = workspace.residual;
+    set_rows(residual, matrix_.n_vertices);
+    const StiffnessProduct product{increments, residual};
+    const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
+    for (const Index v : matrix_.vertex_of)
+        residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);
+    return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 
-LdlSolver::Factor NeumannSystem::factorise(const Assembled& equations, FactorMemory& memory,
-                                           LdlWorkspace& workspace) const
+std::optional<NeumannSystem::Factor> NeumannSystem::factorise(const Assembled& equations, Precision precision,
+                                                              FactorMemory& memory, LdlWorkspace& workspace) const
 {
     require_finite_equations(equations.matrix);
-    return require_factor(solver_.factorise(equations.matrix, memory, workspace));
+    if (precision == Precision::Double)
+        return Factor(require_factor(solver_.factorise<double>(equations.matrix, memory, workspace)), equations.unit);
+    auto single = solver_.factorise<float>(equations.matrix, memory, workspace,
+                                           precision == Precision::Automatic ? least_pivot_of_single : 0.0F);
+    if (!single && precision == Precision::Automatic)
+        return std::nullopt;
+    return Factor(require_factor(std::move(single)), equations.unit);
 }
 
-void NeumannSystem::condense(const Assembled& equations, const LdlSolver::Factor& factor, Points& condensed) const
+void NeumannSystem::take_schur_complement(const Factor& factor, const LdlWorkspace& workspace,
+                                          DenseFactor& complement) const
 {
-    set_rows(condensed, matrix_.n());
-    for (Index u = 0; u < matrix_.n(); ++u)
-        condensed.row(u) = -equations.product.row(matrix_.vertex_of[u]);
-    factor.forward_substitute(condensed);
+    std::visit(
+        [&]<class Number>(const LdlFactor<Number>& numbers) {
+            complement.take(solver_.last<Number>(workspace), numbers.scale());
+        },
+        factor.numbers_);
 }
 
-void NeumannSystem::back_substitute(const LdlSolver::Factor& factor, Points& solution)
+/// What is left on Γ itself stays in double precision: sub-meshes' shares of it cancel each other almost wholly.
+void NeumannSystem::condense(const Assembled& equations, Factor& factor, Eigen::Ref<Points> on_interface) const
 {
-    factor.back_substitute(solution);
-    require_finite_result(solution.allFinite());
+    std::visit(
+        [&]<class Number>(LdlFactor<Number>& numbers) {
+            const double scale = numbers.scale() * factor.unit_;
+            const double inverse = 1.0 / scale;
+            Number* const rows = numbers.rows();
+            std::fill_n(rows, at(ldl_row) * at(matrix_.n()), Number{});
+            for (Index u = 0; u < n_interior(); ++u) {
+                const double* const residual = equations.residual.row(matrix_.vertex_of[u]).data();
+                for (Index c = 0; c < 3; ++c)
+                    rows[ldl_row * u + c] = static_cast<Number>(inverse * residual[c]);
+            }
+            numbers.forward_substitute();
+            for (Index u = n_interior(); u < matrix_.n(); ++u)
+                for (Index c = 0; c < 3; ++c)
+                    on_interface(u - n_interior(), c) =
+                        equations.residual(matrix_.vertex_of[u], c) + scale * rows[ldl_row * u + c];
+        },
+        factor.numbers_);
+}
+
+void NeumannSystem::back_substitute(Factor& factor, const Points& on_interface, Points& increments) const
+{
+    std::visit(
+        [&]<class Number>(LdlFactor<Number>& numbers) {
+            const double inverse = 1.0 / factor.unit_;
+            Number* const rows = numbers.rows();
+            for (Index i = 0; i < n_interface_; ++i)
+                for (Index c = 0; c < 3; ++c)
+                    rows[ldl_row * (n_interior() + i) + c] = static_cast<Number>(inverse * on_interface(i, c));
+            numbers.back_substitute();
+            bool is_finite = true;
+            for (Index u = 0; u < n_interior(); ++u) {
+                double* const row = increments.row(matrix_.vertex_of[u]).data();
+                for (Index c = 0; c < 3; ++c) {
+                    row[c] += factor.unit_ * rows[ldl_row * u + c];
+                    is_finite &= std::isfinite(row[c]);
+                }
+            }
+            require_finite_result(is_finite);
+        },
+        factor.numbers_);
 }
 
 }  // namespace seamflow

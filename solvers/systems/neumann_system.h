@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
 #include "partition/index_lists.h"
+#include "solvers/direct/dense_factor.h"
+#include "solvers/direct/factorisation.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/systems/symmetric_matrix.h"
@@ -14,7 +18,9 @@ namespace seamflow {
 
 /// A sub-mesh's share A = M + dt K of the whole backward Euler system, assembled from its own faces alone: summed over
 /// the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ given, and
-/// its last block is the sub-mesh's Schur complement on Γ (see SchurComplement). For Δ_F and Δ_A. One thread at a time.
+/// its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what X leaves
+/// of the equations is measured in double precision, a factor may be in single precision. For Δ_F and Δ_A. One thread
+/// at a time.
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
@@ -24,43 +30,64 @@ class NeumannSystem {
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 
+    /// A factor, and what has become of the right-hand side in it.
+    class Factor;
+
     /// Number of vertices on Γ.
     [[nodiscard]] Index n_interface() const { return n_interface_; }
 
     /// Number of the other unknowns.
     [[nodiscard]] Index n_interior() const { return matrix_.n() - n_interface_; }
 
-    /// The own vertices that may move, in the order of the solution's rows: the interior, then Γ in its own order.
+    /// The own vertices that may move, in the order of the unknowns: the interior, then Γ in its own order.
     [[nodiscard]] const std::vector<Index>& unknowns() const { return matrix_.vertex_of; }
 
     /// What a factor takes, in bytes.
-    [[nodiscard]] std::size_t factor_bytes() const { return solver_.factor_bytes(); }
+    /// @tparam Number float or double.
+    template <class Number>
+    [[nodiscard]] std::size_t factor_bytes() const
+    {
+        return solver_.factor_bytes<Number>();
+    }
 
-    /// The equations A (Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ of a step, in a workspace: valid until that is used again.
+    /// The equations of a step, in a workspace: valid until that is used again.
     struct Assembled {
+        /// A.
         std::span<const double> matrix;
-        /// #local by 3: dt K Vᵏ.
-        const Points& product;
+        /// #local by 3: -dt K Vᵏ - A X at the unknowns.
+        const Points& residual;
+        /// A power of two near √dt: in this unit of length single precision has room for corrections.
+        double unit = 1.0;
     };
 
     /// @param positions at least #own by 3: Vᵏ.
+    /// @param increments #own by 3: X, so far.
     /// @param time_step dt, in length².
-    [[nodiscard]] Assembled assemble(const Points& positions, double time_step, SolverWorkspace& workspace) const;
+    [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
+                                     SolverWorkspace& workspace) const;
 
+    /// @param precision Automatic: single precision.
     /// @param memory must outlive the factor, as must the system.
+    /// @returns nothing where the precision is Automatic, and single precision would lose too many digits.
     /// @throws ComputationError if the equations are singular or not finite.
-    [[nodiscard]] LdlSolver::Factor factorise(const Assembled& equations, FactorMemory& memory,
-                                              LdlWorkspace& workspace) const;
+    [[nodiscard]] std::optional<Factor> factorise(const Assembled& equations, Precision precision, FactorMemory& memory,
+                                                  LdlWorkspace& workspace) const;
+
+    /// The Schur complement of the matrix that was factorised last.
+    /// @param factor of that matrix.
+    void take_schur_complement(const Factor& factor, const LdlWorkspace& workspace, DenseFactor& complement) const;
 
     /// Eliminates the interior from the equations.
-    /// @param condensed #unknowns by 3. Receives what back_substitute needs of the interior, and then this sub-mesh's
-    ///        share of the right-hand side on Γ.
-    void condense(const Assembled& equations, const LdlSolver::Factor& factor, Points& condensed) const;
+    /// @param factor keeps what back_substitute needs.
+    /// @param on_interface n_interface() by 3: receives this sub-mesh's share of the right-hand side on Γ.
+    void condense(const Assembled& equations, Factor& factor, Eigen::Ref<Points> on_interface) const;
 
-    /// Solves for the interior with Γ given.
-    /// @param solution #unknowns by 3. In: what condense left of the interior, and Vᵏ⁺¹ - Vᵏ on Γ. Out: Vᵏ⁺¹ - Vᵏ.
+    /// Solves for the correction of the interior, with that of Γ given.
+    /// @param factor what condense left of it.
+    /// @param on_interface n_interface() by 3.
+    /// @param increments #own by 3: the correction is added in the interior.
     /// @throws ComputationError if the result is not finite.
-    static void back_substitute(const LdlSolver::Factor& factor, Points& solution);
+    void back_substitute(Factor& factor, const Points& on_interface, Points& increments) const;
 
   private:
     SparsePattern number_unknowns(const SubMesh& sub_mesh);
@@ -70,6 +97,23 @@ class NeumannSystem {
     IndexLists faces_;
     SymmetricMatrix matrix_;
     LdlSolver solver_;
+};
+
+class NeumannSystem::Factor {
+  public:
+    [[nodiscard]] bool is_single() const { return std::holds_alternative<LdlFactor<float>>(numbers_); }
+
+  private:
+    friend class NeumannSystem;
+    template <class Number>
+    Factor(LdlFactor<Number> numbers, double unit)
+        : numbers_(std::move(numbers))
+        , unit_(unit)
+    {
+    }
+
+    std::variant<LdlFactor<float>, LdlFactor<double>> numbers_;
+    double unit_;
 };
 
 }  // namespace seamflow

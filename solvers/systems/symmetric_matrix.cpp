@@ -110,7 +110,7 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
 }
 
 std::span<double> SymmetricMatrix::fill(const Points& positions, double time_step, std::size_t n_further,
-                                        SolverWorkspace& workspace, Points* product) const
+                                        SolverWorkspace& workspace, const StiffnessProduct* product) const
 {
     const std::size_t n_values = at(n_entries()) + n_further;
     workspace.values.assign(n_values + 1, 0.0);

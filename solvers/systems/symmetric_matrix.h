@@ -69,7 +69,7 @@ struct SymmetricMatrix {
     /// @param product see SymmetricLaplacian::assemble.
     /// @returns the entries and the further values, in the workspace.
     std::span<double> fill(const Points& positions, double time_step, std::size_t n_further, SolverWorkspace& workspace,
-                           Points* product = nullptr) const;
+                           const StiffnessProduct* product = nullptr) const;
 };
 
 }  // namespace seamflow

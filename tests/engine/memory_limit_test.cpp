@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/options/option_names.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flow_kinds.h"
@@ -133,31 +134,37 @@ TEST_CASE("the limit is for the sub-meshes, not for the undecomposed flow that t
     CHECK(mean_curvature_flow(mesh, options).steps.back().distance->mean > 0.0);
 }
 
-TEST_CASE("converged steps keep to the limit, and what they make twice changes no bit of the result")
+TEST_CASE("converged steps keep to the limit, and what they make again changes no bit of the result")
 {
     const PolygonMesh mesh = make_mixed_polygons(3000);
-    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky}) {
-        CAPTURE(name_of(laplacian));
-        PolygonMesh boundless = mesh;
-        const FlowReport expected = mean_curvature_flow(boundless, limited_converged(laplacian));
-        const std::size_t all = expected.resources.factor_memory_bytes;
-        const std::size_t least = least_limit(mesh, limited_converged(laplacian));
-        CHECK(expected.resources.live_factors == expected.cut.n_sub_meshes());
-        CHECK(2 * least < all);
-        for (const int threads : {1, 4})
-            for (const std::size_t limit : {least, 2 * least, (least + all) / 2, all - 1, all}) {
-                CAPTURE(limit);
-                FlowOptions options = limited_converged(laplacian, threads);
-                options.resources.memory_limit = limit;
-                PolygonMesh limited = mesh;
-                const FlowReport report = mean_curvature_flow(limited, options);
-                CHECK(same_bits(limited.vertices, boundless.vertices));
-                CHECK(report.resources.factor_memory_bytes <= limit);
-                // Nothing stays but what has to.
-                if (limit == least)
-                    CHECK(report.resources.factor_memory_bytes == least);
-                CHECK((report.resources.live_factors < report.cut.n_sub_meshes()) == (limit < all));
-                CHECK(report.steps.back().residual == expected.steps.back().residual);
-            }
-    }
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky})
+        for (const Precision precision : {Precision::Automatic, Precision::Single, Precision::Double}) {
+            CAPTURE(name_of(laplacian));
+            CAPTURE(option_name(precision));
+            FlowOptions options = limited_converged(laplacian);
+            options.resources.precision = precision;
+            PolygonMesh boundless = mesh;
+            const FlowReport expected = mean_curvature_flow(boundless, options);
+            CHECK(expected.resources.live_factors == expected.cut.n_sub_meshes());
+            // Those that may be in either precision count as if they were in double precision.
+            const std::size_t all =
+                expected.resources.factor_memory_bytes * (precision == Precision::Automatic ? 2 : 1);
+            const std::size_t least = least_limit(mesh, options);
+            CHECK(2 * least < all);
+            for (const int threads : {1, 4})
+                for (const std::size_t limit : {least, 2 * least, (least + all) / 2, all - 1, all}) {
+                    CAPTURE(limit);
+                    options.resources.threads = threads;
+                    options.resources.memory_limit = limit;
+                    PolygonMesh limited = mesh;
+                    const FlowReport report = mean_curvature_flow(limited, options);
+                    CHECK(same_bits(limited.vertices, boundless.vertices));
+                    CHECK(report.resources.factor_memory_bytes <= limit);
+                    // Nothing stays but what has to.
+                    if (limit == least)
+                        CHECK(report.resources.factor_memory_bytes == least);
+                    CHECK((report.resources.live_factors < report.cut.n_sub_meshes()) == (limit < all));
+                    CHECK(report.steps.back().residual == expected.steps.back().residual);
+                }
+        }
 }

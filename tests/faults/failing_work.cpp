@@ -88,9 +88,10 @@ using namespace seamflow;
 using namespace seamflow::test;
 
 #define SEAMFLOW_ADD_TASK "_ZN8seamflow9TaskGraph8add_taskESt8functionIFvvEENS_12TaskPriorityE"
-#define SEAMFLOW_LDL                                                                                                   \
-    "_ZNK8seamflow9LdlSolver9factoriseESt4spanIKdLm18446744073709551615EERNSt3pmr15memory_resourceERNS_"               \
-    "12LdlWorkspaceE"
+#define SEAMFLOW_LDL(number)                                                                                           \
+    "_ZNK8seamflow9LdlSolver9factoriseI" number                                                                        \
+    "EESt8optionalINS_9LdlFactorIT_EEESt4spanIKdLm18446744073709551615EERNSt3pmr15memory_resourceERNS_"                \
+    "12LdlWorkspaceES4_"
 #define SEAMFLOW_LU                                                                                                    \
     "_ZNK8seamflow8LuSolver9factoriseESt4spanIKdLm18446744073709551615EERNSt3pmr15memory_resourceERNS_11LuWorkspaceE"
 
@@ -98,10 +99,13 @@ using Values = std::span<const double>;
 
 TaskGraph::Node real_add_task(TaskGraph* graph, std::function<void()> body,
                               TaskPriority priority) asm("__real_" SEAMFLOW_ADD_TASK);
-using LdlFactor = std::optional<LdlSolver::Factor>;
+using SingleFactor = std::optional<LdlFactor<float>>;
+using DoubleFactor = std::optional<LdlFactor<double>>;
 using LuFactor = std::optional<LuSolver::Factor>;
-LdlFactor real_ldl(const LdlSolver* solver, Values values, FactorMemory& memory,
-                   LdlWorkspace& workspace) asm("__real_" SEAMFLOW_LDL);
+SingleFactor real_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace,
+                      float least_pivot) asm("__real_" SEAMFLOW_LDL("f"));
+DoubleFactor real_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace,
+                      double least_pivot) asm("__real_" SEAMFLOW_LDL("d"));
 LuFactor real_lu(const LuSolver* solver, Values values, FactorMemory& memory,
                  LuWorkspace& workspace) asm("__real_" SEAMFLOW_LU);
 
@@ -136,11 +140,21 @@ TaskGraph::Node wrap_add_task(TaskGraph* graph, std::function<void()> body, Task
     return node;
 }
 
-LdlFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory,
-                   LdlWorkspace& workspace) asm("__wrap_" SEAMFLOW_LDL);
-LdlFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace)
+SingleFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace,
+                      float least_pivot) asm("__wrap_" SEAMFLOW_LDL("f"));
+SingleFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace,
+                      float least_pivot)
 {
-    LdlFactor factor = real_ldl(solver, values, memory, workspace);
+    SingleFactor factor = real_ldl(solver, values, memory, workspace, least_pivot);
+    return factor && factorisation_fails() ? std::nullopt : std::move(factor);
+}
+
+DoubleFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace,
+                      double least_pivot) asm("__wrap_" SEAMFLOW_LDL("d"));
+DoubleFactor wrap_ldl(const LdlSolver* solver, Values values, FactorMemory& memory, LdlWorkspace& workspace,
+                      double least_pivot)
+{
+    DoubleFactor factor = real_ldl(solver, values, memory, workspace, least_pivot);
     return factor && factorisation_fails() ? std::nullopt : std::move(factor);
 }
 

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/options/option_names.h"
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
@@ -155,6 +156,61 @@ TEST_CASE("converged steps give the same bits for every number of threads")
                   0);
         }
     }
+}
+
+TEST_CASE("in any precision converged steps reach the same tolerance")
+{
+    const PolygonMesh mesh = make_noisy_sphere(3000);
+    for (const Laplacian laplacian : test::symmetric_laplacians)
+        for (const double time_step : {0.002, 0.5}) {
+            FlowOptions options = converged(laplacian, 24);
+            options.time_step = time_step;
+            options.resources.precision = Precision::Double;
+            const Points expected = flowed(mesh, options);
+            for (const Precision precision : {Precision::Automatic, Precision::Single, Precision::Double}) {
+                CAPTURE(option_name(precision));
+                options.resources.precision = precision;
+                PolygonMesh moved = mesh;
+                const FlowReport report = mean_curvature_flow(moved, options);
+                CHECK(report.convergence.steps_short_of_tolerance == 0);
+                CHECK(test::largest_difference(moved.vertices, expected) < 1e-11);
+                CHECK((moved.vertices == expected) == (precision == Precision::Double));
+                CHECK(report.resources.single_factors == (precision == Precision::Double ? 0 : 24));
+            }
+        }
+}
+
+TEST_CASE("only sub-meshes in which single precision would lose too many digits are factorised in double precision")
+{
+    PolygonMesh mesh = make_triangles(3000);
+    // A sliver: far from the boundary one vertex comes very near another.
+    const auto corners = mesh.face(mesh.n_faces() / 2 + 50);
+    mesh.vertices.row(corners[0]) =
+        mesh.vertices.row(corners[1]) + 1e-6 * (mesh.vertices.row(corners[0]) - mesh.vertices.row(corners[1]));
+    const FlowOptions options = converged(Laplacian::Fujiwara, 24, 1e-8);
+    FlowOptions undecomposed = converged(Laplacian::Fujiwara, 1);
+    undecomposed.accuracy.tolerance.reset();
+    PolygonMesh moved = mesh;
+    const FlowReport report = mean_curvature_flow(moved, options);
+    CHECK(report.convergence.steps_short_of_tolerance == 0);
+    CHECK(report.resources.single_factors < 24);
+    CHECK(report.resources.single_factors >= 20);
+    CHECK(test::largest_difference(moved.vertices, flowed(mesh, undecomposed)) < 1e-8);
+}
+
+TEST_CASE("where refinement stagnates, all is factorised in double precision")
+{
+    const PolygonMesh mesh = make_triangles(2000);
+    FlowOptions options = converged(Laplacian::Fujiwara, 12, 1e-100);
+    PolygonMesh moved = mesh;
+    const FlowReport report = mean_curvature_flow(moved, options);
+    CHECK(report.convergence.steps_stagnated == 3);
+    CHECK(report.resources.single_factors == 0);
+    options.resources.precision = Precision::Double;
+    CHECK(flowed(mesh, options) == moved.vertices);
+    options.resources.precision = Precision::Single;
+    moved = mesh;
+    CHECK(mean_curvature_flow(moved, options).resources.single_factors == 12);
 }
 
 TEST_CASE("the unit of length changes no bit of the result")

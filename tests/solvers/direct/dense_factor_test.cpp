@@ -59,7 +59,7 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
         stored.diagonal() = diagonal;
         stored.triangularView<Eigen::StrictlyUpper>().setConstant(99.0);
         DenseFactor factor;
-        factor.take(DenseLdl(stored.data(), n, n));
+        factor.take(DenseLdl<double>(stored.data(), n, n), 1.0);
         const Eigen::MatrixXd S = L * diagonal.asDiagonal() * L.transpose();
         Eigen::Matrix<float, Eigen::Dynamic, 3> v(n, 3);
         for (float& value : v.reshaped())
@@ -86,7 +86,7 @@ TEST_CASE("a factorisation in double precision is multiplied with, and solved fo
 TEST_CASE("a matrix without rows has products, too")
 {
     DenseFactor factor;
-    factor.take(DenseLdl(nullptr, 0, 0));
+    factor.take(DenseLdl<double>(nullptr, 0, 0), 1.0);
     Column3 none(0);
     Column3 scratch(0);
     factor.multiply(none.columns(), scratch.columns());
@@ -99,13 +99,13 @@ TEST_CASE("a factorisation in any unit is the same but for its scale")
     Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stored;
     stored << 3.0, 0.0, 0.0, 0.5, 0.2, 0.0, -0.25, 0.7, 1.0;
     DenseFactor factor;
-    factor.take(DenseLdl(stored.data(), 3, 3));
+    factor.take(DenseLdl<double>(stored.data(), 3, 3), 1.0);
     CHECK(factor.scale() == 2.0);
     for (const double unit : {0x1p-300, 0x1p-100, 0x1p100, 0x1p300}) {
         auto scaled = stored;
         scaled.diagonal() *= unit;
         DenseFactor other;
-        other.take(DenseLdl(scaled.data(), 3, 3));
+        other.take(DenseLdl<double>(scaled.data(), 3, 3), 1.0);
         CHECK(other.scale() == 2.0 * unit);
         const auto applied = [&](const DenseFactor& to, auto function) {
             Column3 result(Eigen::Matrix3f::Identity());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -15,17 +16,18 @@ using namespace seamflow::test;
 namespace {
 
 /// A block with numbers of its own.
+template <class Number>
 struct Block {
     Index width;
     std::vector<Index> rows;
-    std::vector<double> values;
+    std::vector<Number> values;
 
-    LdlPanel panel() { return {values.data(), width, rows}; }
+    LdlPanel<Number> panel() { return {values.data(), width, rows}; }
 
     /// Row by row what is on and below the diagonal, and so of use.
-    [[nodiscard]] std::vector<double> lower() const
+    [[nodiscard]] std::vector<Number> lower() const
     {
-        std::vector<double> lower;
+        std::vector<Number> lower;
         for (std::size_t row = 0; row < rows.size(); ++row) {
             const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * at(width));
             lower.insert(lower.end(), begin,
@@ -36,13 +38,14 @@ struct Block {
 };
 
 /// @param rows ascending, the block's own among them.
-Block random_block(Index width, std::vector<Index> rows, RandomNumbers& random)
+template <class Number>
+Block<Number> random_block(Index width, std::vector<Index> rows, RandomNumbers& random)
 {
-    Block block{width, std::move(rows), {}};
+    Block<Number> block{width, std::move(rows), {}};
     block.values.resize(at(width) * block.rows.size());
-    std::generate(block.values.begin(), block.values.end(), [&] { return random.symmetric(); });
+    std::generate(block.values.begin(), block.values.end(), [&] { return static_cast<Number>(random.symmetric()); });
     for (Index c = 0; c < width; ++c)
-        block.values[at(c) * at(width + 1)] = 2.0 * static_cast<double>(block.rows.size());
+        block.values[at(c) * at(width + 1)] = 2 * static_cast<Number>(block.rows.size());
     return block;
 }
 
@@ -66,8 +69,9 @@ std::vector<Index> widths()
 }
 
 /// By the definition: an earlier block's rows times D Lᵀ of some of them.
-void subtract_by_definition(const LdlPanel& earlier, Index place, Index n_columns, const std::vector<Index>& targets,
-                            const LdlPanel& later)
+template <class Number>
+void subtract_by_definition(const LdlPanel<Number>& earlier, Index place, Index n_columns,
+                            const std::vector<Index>& targets, const LdlPanel<Number>& later)
 {
     const auto entry = [&](Index row, Index column) { return earlier.values[row * earlier.width + column]; };
     for (Index i = 0; i < static_cast<Index>(targets.size()); ++i)
@@ -77,9 +81,15 @@ void subtract_by_definition(const LdlPanel& earlier, Index place, Index n_column
                     entry(place + i, c) * entry(c, c) * entry(place + t, c);
 }
 
+/// How far results may be from what exact arithmetic would give, relative to 1.
+template <class Number>
+constexpr double rounding_of_panels = 1e4 * std::numeric_limits<Number>::epsilon();
+
 }  // namespace
 
-TEST_CASE("blocks take away from later ones what they contribute, with the same bits in registers of any width")
+TEST_CASE_TEMPLATE(
+    "blocks take away from later ones what they contribute, with the same bits in registers of any width", Number,
+    float, double)
 {
     RandomNumbers random(7);
     for (int round = 0; round < 300; ++round) {
@@ -96,37 +106,37 @@ TEST_CASE("blocks take away from later ones what they contribute, with the same 
         const Index place = earlier_width + random.below(3);
         std::vector<Index> earlier_rows(at(place) + targets.size());
         std::iota(earlier_rows.begin(), earlier_rows.end(), 0);
-        Block earlier = random_block(earlier_width, earlier_rows, random);
+        Block<Number> earlier = random_block<Number>(earlier_width, earlier_rows, random);
         std::vector<Index> later_rows(later_width + n_below);
         std::iota(later_rows.begin(), later_rows.end(), 0);
-        const Block before = random_block(later_width, later_rows, random);
+        const Block<Number> before = random_block<Number>(later_width, later_rows, random);
 
-        Block expected = before;
+        Block<Number> expected = before;
         const auto n_columns = static_cast<Index>(columns.size());
         subtract_by_definition(earlier.panel(), place, n_columns, targets, expected.panel());
-        Block first = before;
+        Block<Number> first = before;
         subtract_update(earlier.panel(), place, n_columns, targets.data(), first.panel(), 2);
-        const std::vector<double> result = first.lower();
-        const std::vector<double> wanted = expected.lower();
+        const std::vector<Number> result = first.lower();
+        const std::vector<Number> wanted = expected.lower();
         for (std::size_t i = 0; i < result.size(); ++i)
-            CHECK(result[i] == doctest::Approx(wanted[i]).epsilon(1e-12).scale(1e3));
+            CHECK(result[i] == doctest::Approx(wanted[i]).epsilon(rounding_of_panels<Number>).scale(1e3));
         for (const Index width : widths()) {
-            Block later = before;
+            Block<Number> later = before;
             subtract_update(earlier.panel(), place, n_columns, targets.data(), later.panel(), width);
             CHECK(later.lower() == result);
         }
     }
 }
 
-TEST_CASE("a block is factorised with the same bits in registers of any width")
+TEST_CASE_TEMPLATE("a block is factorised with the same bits in registers of any width", Number, float, double)
 {
     RandomNumbers random(8);
     for (int round = 0; round < 100; ++round) {
         const Index width = 1 + random.below(60);
         std::vector<Index> rows(width + random.below(30));
         std::iota(rows.begin(), rows.end(), 0);
-        const Block before = random_block(width, rows, random);
-        Block first = before;
+        const Block<Number> before = random_block<Number>(width, rows, random);
+        Block<Number> first = before;
         REQUIRE(factorise_panel(first.panel(), 2));
         for (std::size_t i = 0; i < rows.size(); ++i)
             for (Index column = 0; column <= std::min(static_cast<Index>(i), width - 1); ++column) {
@@ -135,26 +145,28 @@ TEST_CASE("a block is factorised with the same bits in registers of any width")
                 for (Index c = 0; c <= column; ++c)
                     sum += (static_cast<Index>(i) == c ? 1.0 : entry(i, c)) * entry(at(c), c) *
                            (column == c ? 1.0 : entry(at(column), c));
-                CHECK(sum == doctest::Approx(before.values[i * at(width) + at(column)]).epsilon(1e-12).scale(1e2));
+                CHECK(sum == doctest::Approx(before.values[i * at(width) + at(column)])
+                                 .epsilon(rounding_of_panels<Number>)
+                                 .scale(1e2));
             }
         for (const Index of_registers : widths()) {
-            Block block = before;
+            Block<Number> block = before;
             REQUIRE(factorise_panel(block.panel(), of_registers));
             CHECK(block.lower() == first.lower());
         }
     }
 }
 
-TEST_CASE("a pivot of zero will not do, wherever it comes")
+TEST_CASE_TEMPLATE("a pivot of zero will not do, wherever it comes", Number, float, double)
 {
     for (Index width = 1; width <= 12; ++width)
         for (Index zero = 0; zero < width; ++zero) {
-            Block block{width, std::vector<Index>(width), std::vector<double>(at(width) * at(width), 0.0)};
+            Block<Number> block{width, std::vector<Index>(width), std::vector<Number>(at(width) * at(width), Number{})};
             std::iota(block.rows.begin(), block.rows.end(), 0);
             for (Index c = 0; c < width; ++c)
-                block.values[at(c) * at(width + 1)] = c == zero ? 0.0 : 1.0;
+                block.values[at(c) * at(width + 1)] = c == zero ? Number{0} : Number{1};
             for (const Index of_registers : widths()) {
-                Block copy = block;
+                Block<Number> copy = block;
                 CHECK_FALSE(factorise_panel(copy.panel(), of_registers));
             }
         }

@@ -52,21 +52,35 @@ SymmetricMatrix arrow_matrix(Index n_first, Index n_last, RandomNumbers& random)
     return matrix;
 }
 
+template <class Number = double>
 Columns solved(const LdlSolver& solver, std::span<const double> values, const Columns& right, LdlWorkspace& workspace)
 {
-    const auto factor = solver.factorise(values, heap(), workspace);
+    auto factor = solver.factorise<Number>(values, heap(), workspace);
     REQUIRE(factor);
     Columns solution;
-    factor->solve(right, solution, workspace);
+    factor->solve(right, solution);
     return solution;
 }
 
 /// L D Lᵀ multiplied out.
-Eigen::MatrixXd product(const DenseLdl& factor)
+template <class Number>
+Eigen::MatrixXd product(const DenseLdl<Number>& factor)
 {
-    const Eigen::MatrixXd L = factor.triangularView<Eigen::UnitLower>();
-    return L * factor.diagonal().asDiagonal() * L.transpose();
+    const Eigen::MatrixXd numbers = factor.template cast<double>();
+    const Eigen::MatrixXd L = numbers.triangularView<Eigen::UnitLower>();
+    return L * numbers.diagonal().asDiagonal() * L.transpose();
 }
+
+/// The right-hand sides or solutions that a factor has.
+template <class Number>
+auto rows_of(LdlFactor<Number>& factor, Index n)
+{
+    return Eigen::Map<Eigen::Matrix<Number, Eigen::Dynamic, ldl_row, Eigen::RowMajor>>(factor.rows(), n, ldl_row);
+}
+
+/// How far results may be from exact ones, relative to them.
+template <class Number>
+constexpr double rounding = 1e4 * std::numeric_limits<Number>::epsilon();
 
 }  // namespace
 
@@ -76,16 +90,17 @@ TEST_CASE("three systems are solved at once, for one set of values after the oth
     LdlWorkspace workspace;
     for (const Index side : {1, 2, 3, 9, 20, 5}) {
         const SymmetricMatrix first = grid_matrix(side, 1.0, random);
-        for (const Index n_last : {0, 1, side, side * side}) {
-            LdlSolver solver(first.upper, n_last);
-            for (const double shift : {0.01, 1.0, 100.0}) {
-                const SymmetricMatrix matrix = grid_matrix(side, shift, random);
-                const Columns right = random_columns(side * side, random);
-                const Columns found = solved(solver, matrix.values, right, workspace);
-                CHECK((matrix.dense * found - right).norm() < 1e-11 * matrix.dense.norm());
-                LdlWorkspace another;
-                CHECK(solved(solver, matrix.values, right, another) == found);
-            }
+        const LdlSolver solver(first.upper);
+        for (const double shift : {0.01, 1.0, 100.0}) {
+            const SymmetricMatrix matrix = grid_matrix(side, shift, random);
+            const Columns right = random_columns(side * side, random);
+            const Columns found = solved(solver, matrix.values, right, workspace);
+            CHECK((matrix.dense * found - right).norm() < 1e-11 * matrix.dense.norm());
+            LdlWorkspace another;
+            CHECK(solved(solver, matrix.values, right, another) == found);
+            const Columns in_single = solved<float>(solver, matrix.values, right, workspace);
+            CHECK((matrix.dense * in_single - right).norm() < 1e-4 * matrix.dense.norm());
+            CHECK(in_single != found);
         }
     }
 }
@@ -97,60 +112,79 @@ TEST_CASE("without any entries that are zero there is one block, of any width")
     for (const Index n : {2, 3, 4, 5, 7, 8, 64, 67, 130, 201}) {
         const SymmetricMatrix matrix = full_matrix(n, random);
         LdlSolver solver(matrix.upper);
-        CHECK(solver.factor_bytes() == at(n) * at(n) * sizeof(double));
+        CHECK(solver.factor_bytes<double>() == (at(n) * at(n) + at(ldl_row * n)) * sizeof(double));
+        CHECK(solver.factor_bytes<float>() == solver.factor_bytes<double>() / 2);
         const Columns right = random_columns(n, random);
         const Columns found = solved(solver, matrix.values, right, workspace);
         CHECK((found - matrix.dense.llt().solve(right)).norm() < 1e-12 * matrix.dense.norm() * found.norm());
     }
 }
 
-TEST_CASE("blocks take away from any columns of a later one")
-{
-    RandomNumbers random(4);
-    LdlWorkspace workspace;
-    for (const Index n_last : {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 40})
-        for (const Index n_first : {1, 5, 80}) {
-            const SymmetricMatrix matrix = arrow_matrix(n_first, n_last, random);
-            LdlSolver solver(matrix.upper, n_last);
-            const Columns right = random_columns(n_first + n_last, random);
-            const Columns found = solved(solver, matrix.values, right, workspace);
-            CHECK((matrix.dense * found - right).norm() < 1e-13 * matrix.dense.norm());
-        }
-}
-
-TEST_CASE("the last block is the Schur complement, and the others are solved for with its unknowns given")
+TEST_CASE_TEMPLATE("the last block is the Schur complement, and the others are solved for with its unknowns given",
+                   Number, float, double)
 {
     RandomNumbers random(3);
     LdlWorkspace workspace;
-    for (const Index n_last : {1, 2, 6, 30, 75, 100}) {
-        const SymmetricMatrix matrix = grid_matrix(10, 0.1, random);
-        const Index n_first = 100 - n_last;
-        LdlSolver solver(matrix.upper, n_last);
-        const auto factor = solver.factorise(matrix.values, heap(), workspace);
-        REQUIRE(factor);
-        const Eigen::MatrixXd first = matrix.dense.topLeftCorner(n_first, n_first);
-        const Eigen::MatrixXd coupling = matrix.dense.bottomLeftCorner(n_last, n_first);
-        Eigen::MatrixXd schur = matrix.dense.bottomRightCorner(n_last, n_last);
-        const Eigen::LLT<Eigen::MatrixXd> inverse(first);
-        if (n_first > 0)
-            schur -= coupling * inverse.solve(coupling.transpose());
-        REQUIRE(factor->last().rows() == n_last);
-        CHECK((product(factor->last()) - schur).norm() < 1e-12 * schur.norm());
+    for (const double unit : {1.0, 0x1p-200, 0x1p200})
+        for (const bool is_arrow : {false, true})
+            for (const Index n_last : {1, 2, 3, 4, 5, 6, 7, 8, 9, 15, 16, 17, 30, 40, 75, 100}) {
+                SymmetricMatrix matrix =
+                    is_arrow ? arrow_matrix(100 - n_last, n_last, random) : grid_matrix(10, 0.1, random);
+                matrix.dense *= unit;
+                for (double& value : matrix.values)
+                    value *= unit;
+                const Index n_first = 100 - n_last;
+                const LdlSolver solver(matrix.upper, n_last);
+                auto factor = solver.factorise<Number>(matrix.values, heap(), workspace);
+                REQUIRE(factor);
+                const Eigen::MatrixXd first = matrix.dense.topLeftCorner(n_first, n_first);
+                const Eigen::MatrixXd coupling = matrix.dense.bottomLeftCorner(n_last, n_first);
+                Eigen::MatrixXd schur = matrix.dense.bottomRightCorner(n_last, n_last);
+                const Eigen::LLT<Eigen::MatrixXd> inverse(first);
+                if (n_first > 0)
+                    schur -= coupling * inverse.solve(coupling.transpose());
+                const DenseLdl<Number> last = solver.last<Number>(workspace);
+                REQUIRE(last.rows() == n_last);
+                CHECK((factor->scale() * product(last) - schur).norm() < rounding<Number> * schur.norm());
 
-        const Points right = random_columns(100, random);
-        Points x = right;
-        factor->forward_substitute(x);
-        Points condensed = right.bottomRows(n_last);
-        if (n_first > 0)
-            condensed -= coupling * inverse.solve(right.topRows(n_first));
-        CHECK((x.bottomRows(n_last) - condensed).norm() < 1e-12 * right.norm());
-        const Points given = random_columns(n_last, random);
-        x.bottomRows(n_last) = given;
-        factor->back_substitute(x);
-        CHECK(x.bottomRows(n_last) == given);
-        if (n_first > 0)
-            CHECK((first * x.topRows(n_first) + coupling.transpose() * given - right.topRows(n_first)).norm() <
-                  1e-12 * matrix.dense.norm() * x.norm());
+                auto x = rows_of(*factor, 100);
+                const Points right = random_columns(100, random);
+                x.setZero();
+                x.leftCols(3) = right.cast<Number>();
+                factor->forward_substitute();
+                Points condensed = right.bottomRows(n_last);
+                if (n_first > 0)
+                    condensed -= coupling * inverse.solve(right.topRows(n_first));
+                const auto found = [&] { return Points(x.leftCols(3).template cast<double>()); };
+                CHECK((found().bottomRows(n_last) - condensed).norm() < rounding<Number> * right.norm());
+                const Points given = random_columns(n_last, random).cast<Number>().template cast<double>();
+                x.bottomRows(n_last).leftCols(3) = given.cast<Number>();
+                factor->back_substitute();
+                CHECK(found().bottomRows(n_last) == given);
+                if (n_first > 0)
+                    CHECK(((first * found().topRows(n_first) + coupling.transpose() * given) / factor->scale() -
+                           right.topRows(n_first))
+                              .norm() < rounding<Number> * matrix.dense.norm() / factor->scale() * found().norm());
+            }
+}
+
+TEST_CASE("pivots that have lost too many digits are found out")
+{
+    RandomNumbers random(9);
+    LdlWorkspace workspace;
+    // Two unknowns that are nearly one: what the first leaves of the second's diagonal is 1e-4 of it.
+    SymmetricMatrix matrix = grid_matrix(6, 1.0, random);
+    const double stiff = 1e4 * matrix.dense.norm();
+    matrix.values[matrix.upper.slot({14, 14})] += stiff;
+    matrix.values[matrix.upper.slot({15, 15})] += stiff;
+    matrix.values[matrix.upper.slot({15, 14})] -= stiff;
+    for (const Index n_last : {0, 6, 30}) {
+        const LdlSolver solver(matrix.upper, n_last);
+        CHECK(solver.factorise<float>(matrix.values, heap(), workspace));
+        CHECK(solver.factorise<float>(matrix.values, heap(), workspace, 1e-6F));
+        CHECK_FALSE(solver.factorise<float>(matrix.values, heap(), workspace, 1e-2F));
+        CHECK_FALSE(solver.factorise<double>(matrix.values, heap(), workspace, 1e-2));
+        CHECK(solver.factorise<double>(matrix.values, heap(), workspace));
     }
 }
 
@@ -160,19 +194,23 @@ TEST_CASE("a matrix that is not positive definite is found out, and the solver g
     LdlWorkspace workspace;
     const SymmetricMatrix matrix = grid_matrix(8, 0.1, random);
     const Columns right = random_columns(64, random);
+    const LdlSolver whole(matrix.upper);
+    const Columns expected = solved(whole, matrix.values, right, workspace);
     for (const Index n_last : {0, 8}) {
-        LdlSolver solver(matrix.upper, n_last);
-        const Columns expected = solved(solver, matrix.values, right, workspace);
+        const LdlSolver solver(matrix.upper, n_last);
         for (const Index unknown : {0, 30, 63})
             for (const double pivot :
                  {-1.0, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::quiet_NaN()}) {
                 auto unfit = matrix.values;
                 unfit[matrix.upper.slot({unknown, unknown})] = pivot;
-                CHECK_FALSE(solver.factorise(unfit, heap(), workspace));
+                CHECK_FALSE(solver.factorise<double>(unfit, heap(), workspace));
+                CHECK_FALSE(solver.factorise<float>(unfit, heap(), workspace));
             }
-        CHECK_FALSE(solver.factorise(std::vector<double>(matrix.values.size(), 0.0), heap(), workspace));
-        CHECK(solved(solver, matrix.values, right, workspace) == expected);
+        const std::vector<double> zeros(matrix.values.size(), 0.0);
+        CHECK_FALSE(solver.factorise<double>(zeros, heap(), workspace));
+        CHECK_FALSE(solver.factorise<float>(zeros, heap(), workspace));
+        CHECK(solved(whole, matrix.values, right, workspace) == expected);
     }
 }
 
@@ -180,9 +218,9 @@ TEST_CASE("without unknowns there is nothing to do")
 {
     LdlWorkspace workspace;
     LdlSolver solver{SparsePattern{}};
-    CHECK(solver.factor_bytes() == 0);
+    CHECK(solver.factor_bytes<double>() == 0);
     CHECK(solved(solver, {}, Columns(0, 3), workspace).rows() == 0);
-    CHECK(solver.factorise({}, heap(), workspace)->last().rows() == 0);
+    CHECK(solver.last<double>(workspace).rows() == 0);
 }
 
 TEST_CASE("from the second time on nothing is allocated")
@@ -191,7 +229,8 @@ TEST_CASE("from the second time on nothing is allocated")
     LdlWorkspace workspace;
     const SymmetricMatrix large = grid_matrix(12, 1.0, random);
     const SymmetricMatrix small = grid_matrix(5, 1.0, random);
-    LdlSolver large_solver(large.upper, 12);
+    LdlSolver large_solver(large.upper);
+    LdlSolver with_last(large.upper, 12);
     LdlSolver small_solver(small.upper);
     const Columns right = random_columns(144, random);
     const Columns small_right = random_columns(25, random);
@@ -200,10 +239,11 @@ TEST_CASE("from the second time on nothing is allocated")
     FactorPool pool;
     const auto step = [&] {
         const long before = n_allocations();
-        const auto factor = large_solver.factorise(large.values, pool, workspace);
-        factor->solve(right, solution, workspace);
-        const auto small_factor = small_solver.factorise(small.values, pool, workspace);
-        small_factor->solve(small_right, small_solution, workspace);
+        auto factor = large_solver.factorise<double>(large.values, pool, workspace);
+        factor->solve(right, solution);
+        auto small_factor = small_solver.factorise<float>(small.values, pool, workspace);
+        small_factor->solve(small_right, small_solution);
+        CHECK(with_last.factorise<float>(large.values, pool, workspace));
         return n_allocations() - before;
     };
     CHECK(step() > 0);
@@ -241,6 +281,6 @@ TEST_CASE(
         const Columns right = random_columns(n, random);
         const Columns found = solved(solver, values, right, workspace);
         CHECK((dense * found - right).norm() < 1e-12 * right.norm());
-        CHECK(100 * solver.factor_bytes() <= 101 * LdlSolver(upper).factor_bytes());
+        CHECK(100 * solver.factor_bytes<double>() <= 101 * LdlSolver(upper).factor_bytes<double>());
     }
 }

@@ -14,18 +14,22 @@ using namespace seamflow::test;
 
 namespace {
 
-/// S x over all sub-meshes, in double precision.
-Points product(const InterfaceCopies& copies, const std::vector<SchurComplement>& complements, const Points& x)
+/// S x over all sub-meshes.
+Points product(const InterfaceCopies& copies, const std::vector<DenseFactor>& complements, const Points& x)
 {
     Points result = Points::Zero(x.rows(), 3);
     for (Index s = 0; s < copies.n_sub_meshes(); ++s) {
-        Points local(copies.n_in(s), 3);
+        const std::size_t room = DenseFactor::room(copies.n_in(s));
+        AlignedFloats numbers;
+        numbers.assign(6 * room);
+        const auto of = [&](std::size_t column, Index i) -> float& { return numbers.data()[column * room + at(i)]; };
         for (Index i = 0; i < copies.n_in(s); ++i)
-            local.row(i) = x.row(copies.vertex[copies.first[s] + i]);
-        Points share = Points::Zero(copies.n_in(s), 3);
-        complements[s].subtract_product(local, share);
+            for (Index c = 0; c < 3; ++c)
+                of(at(c), i) = static_cast<float>(x(copies.vertex[copies.first[s] + i], c));
+        complements[s].multiply(columns_at(numbers.data(), room), columns_at(numbers.data() + 3 * room, room));
         for (Index i = 0; i < copies.n_in(s); ++i)
-            result.row(copies.vertex[copies.first[s] + i]) -= share.row(i);
+            for (Index c = 0; c < 3; ++c)
+                result(copies.vertex[copies.first[s] + i], c) += complements[s].scale() * of(at(c) + 3, i);
     }
     return result;
 }
@@ -40,12 +44,13 @@ TEST_CASE("what is left of the residual after the correction has no part along a
         CAPTURE(cut.name);
         const Decomposition decomposition = test::decompose(cut);
         const InterfaceCopies copies(decomposition);
-        std::vector<SchurComplement> complements;
+        std::vector<DenseFactor> complements;
         for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
             const NeumannSystem system(sub_mesh, sub_mesh.face_vertices, Laplacian::Fujiwara);
-            const auto equations = system.assemble(localised(sub_mesh, cut.mesh.vertices), 0.05, workspace);
-            const auto factor = system.factorise(equations, heap(), workspace.ldl);
-            complements.emplace_back().take(factor, SchurComplement::Storage::Copy);
+            const Points increments = Points::Zero(sub_mesh.n_vertices, 3);
+            const auto equations = system.assemble(localised(sub_mesh, cut.mesh.vertices), increments, 0.05, workspace);
+            const auto factor = system.factorise(equations, Precision::Single, heap(), workspace.ldl);
+            system.take_schur_complement(*factor, workspace.ldl, complements.emplace_back());
         }
         std::vector<double> weights(copies.n_copies());
         std::map<std::vector<Index>, Index> stretches;

@@ -2,7 +2,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -22,26 +25,63 @@ using namespace seamflow::test;
 
 namespace {
 
-/// One step of a cut mesh as an equation on Γ.
+/// One step of a cut mesh as an equation on Γ, factorised in single precision.
 struct Equation {
-    Equation(const CutMesh& cut, Laplacian laplacian, double time_step, Balancing balancing = Balancing::Coarse)
+    /// A sub-mesh on its way to the solution.
+    struct Part {
+        std::unique_ptr<NeumannSystem> system;
+        std::optional<NeumannSystem::Factor> factor;
+        Points positions;
+        Points increments;
+    };
+
+    Equation(const CutMesh& cut, Laplacian laplacian, double dt, Balancing balancing = Balancing::Coarse)
         : decomposition(test::decompose(cut))
         , equation(decomposition, balancing)
+        , time_step(dt)
+        , parts(decomposition.sub_meshes.size())
+        , complements(parts.size())
         , right_hand_sides(equation.copies().n_copies(), 3)
     {
-        SolverWorkspace workspace;
-        complements.resize(decomposition.sub_meshes.size());
-        for (std::size_t s = 0; s < complements.size(); ++s) {
+        for (std::size_t s = 0; s < parts.size(); ++s) {
             const SubMesh& sub_mesh = decomposition.sub_meshes[s];
-            const NeumannSystem system(sub_mesh, sub_mesh.face_vertices, laplacian);
-            const auto equations = system.assemble(localised(sub_mesh, cut.mesh.vertices), time_step, workspace);
-            const auto factor = system.factorise(equations, heap(), workspace.ldl);
-            Points condensed;
-            system.condense(equations, factor, condensed);
-            complements[s].take(factor, SchurComplement::Storage::Copy);
-            right_hand_sides.middleRows(equation.copies().first[s], system.n_interface()) =
-                condensed.bottomRows(system.n_interface());
+            parts[s] = {std::make_unique<NeumannSystem>(sub_mesh, sub_mesh.face_vertices, laplacian),
+                        {},
+                        localised(sub_mesh, cut.mesh.vertices),
+                        Points::Zero(sub_mesh.n_vertices, 3)};
+            condense(s, right_hand_sides);
         }
+    }
+
+    /// This sub-mesh's share of the residual.
+    void condense(std::size_t s, Points& shares)
+    {
+        auto& [system, factor, positions, increments] = parts[s];
+        const auto equations = system->assemble(positions, increments, time_step, workspace);
+        if (!factor) {
+            factor = system->factorise(equations, Precision::Single, heap(), workspace.ldl);
+            system->take_schur_complement(*factor, workspace.ldl, complements[s]);
+        }
+        system->condense(equations, *factor, shares.middleRows(equation.copies().first[s], system->n_interface()));
+    }
+
+    /// What the whole step leaves at an x on Γ.
+    Points residuals(const Points& x)
+    {
+        Points shares(right_hand_sides.rows(), 3);
+        for (std::size_t s = 0; s < parts.size(); ++s) {
+            const NeumannSystem& system = *parts[s].system;
+            const std::vector<Index>& on_interface = decomposition.sub_meshes[s].interface.vertices;
+            Points change(system.n_interface(), 3);
+            for (Index i = 0; i < system.n_interface(); ++i) {
+                const Point wanted = x.row(equation.copies().vertex[equation.copies().first[s] + i]);
+                change.row(i) = wanted - parts[s].increments.row(on_interface[i]);
+                parts[s].increments.row(on_interface[i]) = wanted;
+            }
+            system.back_substitute(*parts[s].factor, change, parts[s].increments);
+            condense(s, shares);
+        }
+        return shares;
     }
 
     /// The rows of the vertices of Γ from those of the whole mesh.
@@ -57,14 +97,26 @@ struct Equation {
         return rows;
     }
 
+    /// From the old positions on.
     InterfaceResult solve(const IterationStop& stop, Points& x, const Points& guess = {})
     {
-        return equation.solve(complements, right_hand_sides, guess, stop, x, run_serially);
+        Points shares(right_hand_sides.rows(), 3);
+        for (std::size_t s = 0; s < parts.size(); ++s) {
+            parts[s].increments.setZero();
+            condense(s, shares);
+        }
+        return equation.solve(
+            complements, right_hand_sides,
+            [&](const Points& at_x) -> const Points& { return shares = residuals(at_x); }, guess, stop, x,
+            run_serially);
     }
 
     Decomposition decomposition;
     InterfaceEquation equation;
-    std::vector<SchurComplement> complements;
+    double time_step;
+    SolverWorkspace workspace;
+    std::vector<Part> parts;
+    std::vector<DenseFactor> complements;
     Points right_hand_sides;
 };
 
@@ -208,7 +260,7 @@ TEST_CASE("and within a factor of 10 where steps are short, the preconditioner b
 {
     const CutMesh cut = chessboard();
     for (const Laplacian laplacian : symmetric_laplacians)
-        for (const double tolerance : {1e-4, 1e-6}) {
+        for (const double tolerance : {1e-3, 1e-8}) {
             CAPTURE(name_of(laplacian));
             CAPTURE(tolerance);
             Equation problem(cut, laplacian, 500.0, Balancing::None);
