@@ -54,7 +54,7 @@ void print_losses(std::ostream& out, const std::vector<GridCell>& cells)
                        std::count_if(cells.begin(), cells.end(), is_lost), cells.size());
     for (const GridCell& cell : cells)
         if (is_lost(cell))
-            out << fmt::format("  {}, {} vertices, dt {}, {} steps: {} takes {:.2f} of the time of {}\n", cell.mesh,
+            out << fmt::format("  {}, {} vertices, dt {}, steps {}: {} takes {:.2f} of the time of {}\n", cell.mesh,
                                cell.vertices, cell.time_step_edges, cell.steps,
                                name_with_tolerance(*cell.fastest_peer()), cell.ratio(), cell.ours.result.approach);
     out << std::flush;

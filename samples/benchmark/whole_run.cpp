@@ -204,8 +204,8 @@ WholeRun run_whole(const PolygonMesh& mesh, const fs::path& given, const std::st
 
 void print_whole_run(std::ostream& out, const WholeRun& run)
 {
-    out << fmt::format("{}, {} vertices, {} of {:.1f} MB, {}, dt {} squared mean edge lengths, {} steps, {} threads, "
-                       "{} turns\n{:<34} {:>9} {:>9} {:>9}\n",
+    out << fmt::format("{}, {} vertices, {} of {:.1f} MB, {}, dt {} squared mean edge lengths, steps: {}, threads: {}, "
+                       "turns: {}\n{:<34} {:>9} {:>9} {:>9}\n",
                        run.mesh, run.vertices, run.format, static_cast<double>(run.file_bytes) / 1e6,
                        name_of(run.flow.laplacian), run.time_step_edges, run.flow.steps, run.flow.resources.threads,
                        run.smooth.seconds.size(), "seconds, from file to file", "least", "median", "ratio");

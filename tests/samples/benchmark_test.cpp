@@ -426,7 +426,7 @@ TEST_CASE("a grid ends with the ratios of all cells and with those that are lost
     CHECK(out.str().find("\n| mesh | vertices | dt 1 | dt 50 |\n| quads | 100 | 0.50, 1.50 | 25.00, – |\n"
                          "| scan.ply | 100 | 0.50, 1.50 | failed, 75.00 |\n") != std::string::npos);
     CHECK(out.str().find("ours is not the fastest in 2 of 8 cells\n"
-                         "  quads, 100 vertices, dt 1, 1 steps: other takes 0.50 of the time of") != std::string::npos);
+                         "  quads, 100 vertices, dt 1, steps 1: other takes 0.50 of the time of") != std::string::npos);
 }
 
 TEST_CASE("peers go by names")
