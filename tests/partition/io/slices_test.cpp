@@ -245,8 +245,11 @@ TEST_CASE("binary files, cut anywhere, are read as in one go; cut off and damage
                 check_reading(format, content.substr(0, content.size() - 1), bytes);
                 for (int i = 0; i < 20; ++i) {
                     std::string damaged = content;
-                    damaged[static_cast<std::size_t>(random.below(static_cast<int>(content.size())))] ^=
-                        static_cast<char>(1 + random.below(255));
+                    const auto place = static_cast<std::size_t>(random.below(static_cast<int>(content.size())));
+                    damaged[place] ^= static_cast<char>(1 + random.below(255));
+                    // A whole number of eight bytes that is not finite.
+                    if (i % 2 > 0)
+                        damaged.replace(place, 16, 16, '\xff');
                     check_reading(format, damaged, bytes);
                 }
             }
@@ -255,21 +258,25 @@ TEST_CASE("binary files, cut anywhere, are read as in one go; cut off and damage
 
 TEST_CASE("a file without faults is read slice by slice to its end, and not again in one go")
 {
-    const PolygonMesh mesh = any_mesh(1, true);
+    PolygonMesh mesh;
+    mesh.vertices = Points::Random(500, 3);
+    for (Index v = 0; v + 2 < mesh.n_vertices(); ++v)
+        mesh.add_face(std::array{v, v + 1, v + 2});
     std::vector<File> files{{FileFormat::Off, binary_off(mesh)}};
     for (const FileFormat format : {FileFormat::Obj, FileFormat::Off, FileFormat::Ply, FileFormat::Stl})
         files.push_back({format, written(mesh, {format, Encoding::Ascii})});
     for (const FileKind& kind : binary_kinds)
         files.push_back({kind.format, written(mesh, kind)});
-    for (const auto& [format, content] : files) {
-        CAPTURE(content.substr(0, 100));
-        Index n_slices = 0;
+    for (const File& file : files) {
+        CAPTURE(file.content.substr(0, 100));
+        int n_loops = 0;
         const Loop counting = [&](Index n, const LoopBody& body) {
             run_serially(n, body);
-            n_slices += n;
+            ++n_loops;
         };
-        read(format, content, {counting, 1}, nullptr);
-        CHECK(n_slices > mesh.n_faces() / 2);
+        read(file.format, file.content, {counting, 1}, nullptr);
+        constexpr int slices_at_once = 64;
+        CHECK(n_loops > mesh.n_faces() / slices_at_once);
     }
 }
 
