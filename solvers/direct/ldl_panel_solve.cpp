@@ -16,14 +16,14 @@ struct Row {
     SimdVector<Number, ldl_row> numbers{};
 
     Row() = default;
-    explicit Row(const Number* x) { load(x, numbers); }
-    void subtract(Number factor, const Row& row) { numbers -= factor * row.numbers; }
-    void divide(Number divisor) { numbers /= divisor; }
-    void store_to(Number* x) const { store(numbers, x); }
+    [[gnu::always_inline]] explicit Row(const Number* x) { load(x, numbers); }
+    [[gnu::always_inline]] void subtract(Number factor, const Row& row) { numbers -= factor * row.numbers; }
+    [[gnu::always_inline]] void divide(Number divisor) { numbers /= divisor; }
+    [[gnu::always_inline]] void store_to(Number* x) const { store(numbers, x); }
 };
 
 template <class Number>
-Number* row_of(Number* x, Index unknown)
+[[gnu::always_inline]] inline Number* row_of(Number* x, Index unknown)
 {
     return x + at(ldl_row) * at(unknown);
 }
@@ -31,7 +31,7 @@ Number* row_of(Number* x, Index unknown)
 /// Eliminates columns that depend on each other, from which all that earlier ones contribute has been taken away.
 /// @param Columns 1 to 4: in loops of so many known turns processors do not lose their way.
 template <Index Columns, class Number>
-void eliminate_columns(const LdlPanel<Number>& panel, Index first, Number* x)
+[[gnu::always_inline]] inline void eliminate_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
     const std::size_t width = at(panel.width);
     const auto n_rows = static_cast<Index>(panel.rows.size());
@@ -56,7 +56,7 @@ void eliminate_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 /// Solves for columns that depend on each other and on later ones.
 /// @param Columns 1 to 4.
 template <Index Columns, class Number>
-void substitute_columns(const LdlPanel<Number>& panel, Index first, Number* x)
+[[gnu::always_inline]] inline void substitute_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 {
     const std::size_t width = at(panel.width);
     const auto n_rows = static_cast<Index>(panel.rows.size());
@@ -82,7 +82,7 @@ void substitute_columns(const LdlPanel<Number>& panel, Index first, Number* x)
 
 /// use(n), n from 1 to 4 being known to the compiler.
 template <class Use>
-void with_known(Index n, Use use)
+[[gnu::always_inline]] inline void with_known(Index n, Use use)
 {
     if (n == 1)
         use(std::integral_constant<Index, 1>());
@@ -94,24 +94,40 @@ void with_known(Index n, Use use)
         use(std::integral_constant<Index, 4>());
 }
 
+struct EliminatePanel {
+    template <Index Width, class Number>
+    void operator()(SimdWidth<Width>, const LdlPanel<Number>& panel, Number* x) const
+    {
+        for (Index first = 0; first < panel.width; first += columns_at_once)
+            with_known(std::min(columns_at_once, panel.width - first),
+                       [&](auto n) { eliminate_columns<n>(panel, first, x); });
+    }
+};
+
+struct SubstitutePanel {
+    template <Index Width, class Number>
+    void operator()(SimdWidth<Width>, const LdlPanel<Number>& panel, Number* x) const
+    {
+        for (Index end = panel.width; end > 0;) {
+            const Index n_columns = std::min(columns_at_once, end);
+            end -= n_columns;
+            with_known(n_columns, [&](auto n) { substitute_columns<n>(panel, end, x); });
+        }
+    }
+};
+
 }  // namespace
 
 template <class Number>
 void forward_substitute_panel(const LdlPanel<Number>& panel, Number* x)
 {
-    for (Index first = 0; first < panel.width; first += columns_at_once)
-        with_known(std::min(columns_at_once, panel.width - first),
-                   [&](auto n) { eliminate_columns<n>(panel, first, x); });
+    with_simd_width(register_width(), EliminatePanel(), panel, x);
 }
 
 template <class Number>
 void back_substitute_panel(const LdlPanel<Number>& panel, Number* x)
 {
-    for (Index end = panel.width; end > 0;) {
-        const Index n_columns = std::min(columns_at_once, end);
-        end -= n_columns;
-        with_known(n_columns, [&](auto n) { substitute_columns<n>(panel, end, x); });
-    }
+    with_simd_width(register_width(), SubstitutePanel(), panel, x);
 }
 
 template void forward_substitute_panel(const LdlPanel<float>&, float*);
