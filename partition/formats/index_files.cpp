@@ -13,6 +13,7 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_source.h"
+#include "partition/index_lists.h"
 #include "partition/io/input_file.h"
 
 namespace seamflow {
