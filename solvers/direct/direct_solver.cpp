@@ -21,7 +21,7 @@ constexpr Index most_unknowns_for_lu = 20'000;
 class OwnLdl final : public DirectSolver {
   public:
     OwnLdl(const SparsePattern& upper, const EliminationTree& tree)
-        : solver_(upper, 0, tree)
+        : solver_(upper, {}, tree)
     {
     }
 
@@ -34,9 +34,9 @@ class OwnLdl final : public DirectSolver {
         factor_ = solver_.factorise<double>(values, memory, workspace.ldl);
         return factor_.has_value();
     }
-    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace&) override
+    void solve(const Columns& right_hand_side, Columns& solution, SolverWorkspace& workspace) override
     {
-        factor_->solve(right_hand_side, solution);
+        factor_->solve(right_hand_side, solution, workspace.ldl);
     }
     void free_factor() override { factor_.reset(); }
 

@@ -60,9 +60,10 @@ void copy_diagonal(const LdlPanel<Number>& panel, std::vector<double>& diagonal)
 
 }  // namespace
 
-LdlSolver::LdlSolver(const SparsePattern& upper, Index n_last, const EliminationTree& tree)
-    : n_last_(n_last)
-    , pattern_(make_symmetric_symbolic_factor(upper, n_last, tree, places_))
+LdlSolver::LdlSolver(const SparsePattern& upper, std::optional<Index> n_last, const EliminationTree& tree)
+    : n_last_(n_last.value_or(0))
+    , has_rows_(n_last.has_value())
+    , pattern_(make_symmetric_symbolic_factor(upper, n_last_, tree, places_))
 {
     panels_.reserve(pattern_.first.size());
     for (Index b = 0; b < pattern_.n_supernodes(); ++b) {
@@ -160,19 +161,22 @@ void LdlSolver::subtract_updates(const LdlPanel<Number>& later, Index supernode,
 }
 
 template <class Number>
-void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution)
+void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const
 {
     assert(solver_->n_last_ == 0);
     const Index n = solver_->n();
     const double unit = scale_of<Number>(std::span(right_hand_side.data(), at(3) * at(n)));
-    Number* const x = rows();
+    // There is no last block.
+    auto& rows_of_solution = std::get<std::vector<Number>>(workspace.last);
+    rows_of_solution.resize(std::max(rows_of_solution.size(), at(ldl_row) * at(n)));
+    Number* const x = rows_of_solution.data();
     for (Index i = 0; i < n; ++i) {
         for (Index c = 0; c < 3; ++c)
             x[ldl_row * i + c] = static_cast<Number>(right_hand_side(i, c) / unit);
         x[ldl_row * i + 3] = Number{};
     }
-    forward_substitute(n);
-    back_substitute(n);
+    forward_substitute(x, n);
+    back_substitute(x, n);
     set_rows(solution, n);
     for (Index i = 0; i < n; ++i)
         for (Index c = 0; c < 3; ++c)
@@ -180,15 +184,15 @@ void LdlFactor<Number>::solve(const Columns& right_hand_side, Columns& solution)
 }
 
 template <class Number>
-void LdlFactor<Number>::forward_substitute(Index n)
+void LdlFactor<Number>::forward_substitute(Number* x, Index n) const
 {
     const SymbolicFactor& pattern = solver_->pattern_;
     for (Index b = 0; b < pattern.n_supernodes() && pattern.first[b] < n; ++b)
-        forward_substitute_panel(solver_->panel(numbers_.get(), b), rows());
+        forward_substitute_panel(solver_->panel(numbers_.get(), b), x);
 }
 
 template <class Number>
-void LdlFactor<Number>::back_substitute(Index n)
+void LdlFactor<Number>::back_substitute(Number* x, Index n) const
 {
     const SymbolicFactor& pattern = solver_->pattern_;
     const std::vector<Index>& panels = solver_->panels_;
@@ -198,7 +202,7 @@ void LdlFactor<Number>::back_substitute(Index n)
             // functions that do nothing but this.
             for (std::ptrdiff_t i = panels[b]; i < panels[b + 1]; i += cache_line<Number>)
                 __builtin_prefetch(numbers_.get() + std::max(std::ptrdiff_t{0}, i - substituted_ahead));
-            back_substitute_panel(solver_->panel(numbers_.get(), b), rows());
+            back_substitute_panel(solver_->panel(numbers_.get(), b), x);
         }
 }
 

@@ -39,10 +39,10 @@ class LdlSolver {
   public:
     /// Analyses the pattern, which is needed only during the call.
     /// @param upper the entries on and above the diagonal, the whole diagonal among them.
-    /// @param n_last number of unknowns that are kept together at the end.
+    /// @param n_last number of unknowns that are kept together at the end; factors have rows() then.
     /// @param tree where it is known already, if no unknowns are kept together; otherwise empty.
     /// @throws ComputationError if the factor would have 2³¹ entries or more.
-    explicit LdlSolver(const SparsePattern& upper, Index n_last = 0, const EliminationTree& tree = {});
+    explicit LdlSolver(const SparsePattern& upper, std::optional<Index> n_last = {}, const EliminationTree& tree = {});
 
     [[nodiscard]] Index n() const { return pattern_.n(); }
 
@@ -85,8 +85,11 @@ class LdlSolver {
 
     /// Where those of the unknowns that are kept together would begin.
     [[nodiscard]] Index n_factor_numbers() const { return n_last_ > 0 ? panels_.rbegin()[1] : panels_.back(); }
-    /// Of a factor, and of three right-hand sides for it.
-    [[nodiscard]] std::size_t n_numbers() const { return at(n_factor_numbers()) + at(ldl_row) * at(n()); }
+    /// Of a factor, and of the three right-hand sides that one without its last block keeps.
+    [[nodiscard]] std::size_t n_numbers() const
+    {
+        return at(n_factor_numbers()) + (has_rows_ ? at(ldl_row) * at(n()) : 0);
+    }
     void list_updates(const std::vector<Index>& supernode_of);
     void find_places(const SparsePattern& upper, const std::vector<Index>& supernode_of);
     template <class Number>
@@ -99,6 +102,7 @@ class LdlSolver {
     }
 
     Index n_last_;
+    bool has_rows_;
     /// Per entry of the matrix: where it stands in the factor.
     std::vector<Index> places_;
     SymbolicFactor pattern_;
@@ -120,18 +124,19 @@ class LdlFactor {
     /// Solves for three right-hand sides.
     /// @pre no unknowns are kept together at the end.
     /// @param solution n by 3; may be the right-hand side.
-    void solve(const Columns& right_hand_side, Columns& solution);
+    void solve(const Columns& right_hand_side, Columns& solution, LdlWorkspace& workspace) const;
 
     /// Memory of the factor's own for three right-hand sides or what becomes of them: n by ldl_row, row by row.
+    /// @pre the solver was told how many unknowns come last.
     [[nodiscard]] Number* rows() { return numbers_.get() + solver_->n_factor_numbers(); }
 
     /// Forward substitution for all unknowns but the last: rows() become L⁻¹ rows() above, and below what remains for
     /// the last unknowns.
-    void forward_substitute() { forward_substitute(solver_->n() - solver_->n_last_); }
+    void forward_substitute() { forward_substitute(rows(), solver_->n() - solver_->n_last_); }
 
     /// Solves for all unknowns but the last, in units of 1 / scale(). In rows(): what `forward_substitute` left, and
     /// the last unknowns. Out: the solution.
-    void back_substitute() { back_substitute(solver_->n() - solver_->n_last_); }
+    void back_substitute() { back_substitute(rows(), solver_->n() - solver_->n_last_); }
 
   private:
     friend class LdlSolver;
@@ -142,8 +147,8 @@ class LdlFactor {
     {
     }
 
-    void forward_substitute(Index n);
-    void back_substitute(Index n);
+    void forward_substitute(Number* x, Index n) const;
+    void back_substitute(Number* x, Index n) const;
 
     const LdlSolver* solver_;
     FactorNumbers<Number> numbers_;

@@ -271,7 +271,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
             sum -= products_with_y_.row(place);
         coefficients_.row(energy_.unknown_of[f]) = sum;
     });
-    energy_.factor->solve(coefficients_, coefficients_);
+    energy_.factor->solve(coefficients_, coefficients_, energy_.workspace);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
             y.row(v) += values_at_[copy] * coefficients_.row(energy_.unknown_of[function_[copy]]);
