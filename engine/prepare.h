@@ -18,8 +18,8 @@ namespace seamflow {
 
 /// A flow before its first step: all that was decided about it, and what was measured for that.
 struct PreparedFlow {
-    /// What was asked for, with what was chosen where that left it open: the approach, the tolerance. Labels are those of the faces
-    /// that flow.
+    /// What was asked for, with what was chosen where that left it open: the approach, the tolerance. Labels are those
+    /// of the faces that flow.
     FlowOptions options;
     /// Of the mesh and what was asked for. Empty where nobody needs it.
     FlowIdentity identity;
