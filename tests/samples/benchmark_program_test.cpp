@@ -128,7 +128,8 @@ TEST_CASE("benchmark explains by which costs ours chooses its approach")
     REQUIRE(json["approaches"].size() == 4);
     std::string cheapest;
     double least = 1e300;
-    for (const auto& [name, approach] : json["approaches"].items()) {
+    for (const auto& [key, approach] : json["approaches"].items()) {
+        const std::string name = key;
         CAPTURE(name);
         CHECK(approach["measured"]["approach"] == name);
         CHECK(approach["measured"]["v_max"].get<double>() < 1.0);
@@ -163,7 +164,8 @@ TEST_CASE("benchmark runs smooth from file to file beside peers of equal accurac
         CHECK(run["v_max"].get<double>() == doctest::Approx(v_max).epsilon(1e-6));
         CHECK(run["smooth"]["turns_s"].size() == 2);
         double sum = 0.0;
-        for (const auto& [name, seconds] : run["phases"].items()) {
+        for (const auto& [key, seconds] : run["phases"].items()) {
+            const std::string name = key;
             CAPTURE(name);
             CHECK(seconds.get<double>() > 0.0);
             sum += seconds.get<double>();
