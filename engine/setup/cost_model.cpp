@@ -18,13 +18,15 @@ struct PerVertex {
     }
 };
 
-constexpr PerVertex iteration{3.5, 0.7};
+constexpr PerVertex iteration{4.5, 0.8};
+/// Of an iteration of however few vertices: its three loops begin and end.
+constexpr double seconds_per_iteration = 3e-5;
 constexpr PerVertex setup_of_conjugate_gradients{100.0, 25.0};
 constexpr PerVertex step_of_conjugate_gradients{20.0, 2.0};
 
 constexpr PerVertex setup_of_sweeps{300.0, 200.0};
 constexpr PerVertex step_of_sweeps{80.0, 14.0};
-constexpr PerVertex step_of_converged{120.0, 23.0};
+constexpr PerVertex step_of_converged{100.0, 18.0};
 constexpr PerVertex interface_iteration{10.0, 0.0};
 /// Larger meshes are cut by clusters of faces.
 constexpr Index large_mesh = 250'000;
@@ -32,9 +34,9 @@ constexpr double part_of_setup_if_large = 0.6;
 
 constexpr PerVertex setup_of_undecomposed{400.0, 55.0};
 /// Of a mesh of so many vertices; factors grow faster than meshes.
-constexpr PerVertex step_of_undecomposed{0.0, 75.0};
+constexpr PerVertex step_of_undecomposed{0.0, 55.0};
 constexpr double reference_vertices = 10'000.0;
-constexpr double growth_of_factors = 0.25;
+constexpr double growth_of_factors = 0.35;
 
 /// Of the bound, that iterations have been seen to take.
 constexpr double part_of_bound = 0.85;
@@ -57,7 +59,7 @@ PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optiona
     case Approach::ConjugateGradients:
         cost.setup = setup_of_conjugate_gradients.of(size);
         cost.step = step_of_conjugate_gradients.of(size) +
-                    predicted_iterations(size, tolerance.value_or(1.0)) * iteration.of(size);
+                    predicted_iterations(size, tolerance.value_or(1.0)) * (seconds_per_iteration + iteration.of(size));
         break;
     case Approach::Undecomposed:
         cost.setup = setup_of_undecomposed.of(size);

@@ -306,6 +306,9 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
             command.options.accuracy.approach = Approach::Sweep;
     if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
         command.options.accuracy.approach = Approach::Decomposed;
+    // Nobody would see it.
+    command.options.report.measures =
+        !(command.quiet && command.report.empty() && command.html.empty() && command.checkpoint.empty());
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);
