@@ -59,7 +59,7 @@ TEST_CASE("conjugate gradients take the undecomposed step, in double precision, 
             }
 }
 
-TEST_CASE("without a tolerance conjugate gradients leave less than sweeps, or than sub-meshes that are loosely converged")
+TEST_CASE("without a tolerance conjugate gradients leave less than sub-meshes do by their own choice")
 {
     for (const PolygonMesh& mesh : {make_triangles(9000), make_hexagons(9000), make_mixed_polygons(9000)})
         for (const double step : {1.0, 5.0, 50.0}) {
