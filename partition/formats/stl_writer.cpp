@@ -133,14 +133,15 @@ void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
         file.text("solid mesh\n");
     else
         write_binary_header(file, mesh.n_faces());
-    constexpr std::size_t facet_bytes = 128;
-    write_elements(
-        file, mesh.n_faces(), elements_per_slice(slicing, facet_bytes), slicing.loop, [&](ByteWriter& slice, Index f) {
-            Facet triangle;
-            for (std::size_t k = 0; k < 3; ++k)
-                triangle[k] = mesh.vertices.row(mesh.face(f)[k]).transpose();
-            encoding == Encoding::Ascii ? write_text_facet(slice, triangle) : write_binary_facet(slice, triangle);
-        });
+    constexpr std::size_t bytes_per_facet = 128;
+    write_elements(file, mesh.n_faces(), elements_per_slice(slicing, bytes_per_facet), slicing.loop,
+                   [&](ByteWriter& slice, Index f) {
+                       Facet triangle;
+                       for (std::size_t k = 0; k < 3; ++k)
+                           triangle[k] = mesh.vertices.row(mesh.face(f)[k]).transpose();
+                       encoding == Encoding::Ascii ? write_text_facet(slice, triangle)
+                                                   : write_binary_facet(slice, triangle);
+                   });
     if (encoding == Encoding::Ascii)
         file.text("endsolid mesh\n");
 }
