@@ -9,7 +9,7 @@ void ByteWriter::grow(std::size_t n)
 {
     const std::size_t room = std::max(used_ + n, 2 * room_);
     auto bytes = std::make_unique_for_overwrite<char[]>(room);
-    std::memcpy(bytes.get(), bytes_.get(), used_);
+    std::copy_n(bytes_.get(), used_, bytes.get());
     bytes_ = std::move(bytes);
     room_ = room;
 }

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -24,7 +24,7 @@ class ByteWriter {
     {
         if (room_ - used_ < text.size())
             return overflow(text);
-        std::memcpy(bytes_.get() + used_, text.data(), text.size());
+        std::copy(text.begin(), text.end(), bytes_.get() + used_);
         used_ += text.size();
     }
 
