@@ -113,8 +113,8 @@ PolygonMesh read_in_slices(std::string_view content)
 /// The mesh in the file, read in slices; nothing if it has faults or is no mesh.
 std::optional<PolygonMesh> mesh_in_slices(const FuzzedFile& file)
 {
-    const InputFile input{OpenFile(file.path())};
     try {
+        const InputFile input{OpenFile(file.path())};
         return read_in_slices(input.content());
     } catch (const InputError&) {
         return std::nullopt;
