@@ -113,6 +113,8 @@ PolygonMesh read_slices(const Layout& layout, std::string_view data, const Slici
     skimmer.fits();
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(sum_of_counts(0, from_bytes<std::uint32_t>(data.data(), layout.order)));
+    if (mesh.n_vertices() == 0)
+        throw InputError("there are no vertices");
     for_each(slicing.loop, mesh.n_vertices(), [&](Index v) {
         const char* const first = data.data() + counts_bytes + at(v) * vertex_bytes;
         for (Index k = 0; k < 3; ++k)
