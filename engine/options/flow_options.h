@@ -207,8 +207,8 @@ struct ResourceOptions {
     /// needs, the flow throws an OptionError that tells how much that is. Empty: sweeps keep as few factorisations as
     /// keep all threads busy, converged steps keep all. With a limit, converged steps of Δ_F and Δ_A make the others
     /// again whenever they are needed, and factors that may be in either precision count as if in double precision; Δ_P
-    /// needs all. UMFPACK's count by its own estimate. The limit does not change the result,
-    /// nor does it hold for `reference`.
+    /// needs all. UMFPACK's count by its own estimate. A limit asks for sub-meshes where the approach is automatic;
+    /// their result does not depend on it. It does not hold for `reference`.
     std::optional<std::size_t> memory_limit = {};
     /// Whose factorisation solves the equations of sub-meshes. Changes the result by rounding alone. Converged steps of
     /// Δ_F and Δ_A have the library's own: their Schur complements come out of it.

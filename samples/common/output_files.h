@@ -10,8 +10,7 @@
 namespace seamflow {
 
 /// @throws OutputError if no file can be made at that place (`-` is none): its directory does not exist or may not be
-/// written to, or
-///         the path names a directory.
+///         written to, or the path names a directory.
 void require_writable(const std::filesystem::path& path);
 
 /// @throws OptionError if two of the files are the same one.

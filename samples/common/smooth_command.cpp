@@ -127,8 +127,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_bytes(
         app, "--memory-limit", options.resources.memory_limit,
         "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
-        "does not change the result; converged steps make again what they cannot keep [sweeps: as little as keeps all "
-        "threads busy; converged steps: no limit]");
+        "asks for sub-meshes, and does not change their result; converged steps make again what they cannot keep "
+        "[sweeps: as little as keeps all threads busy; converged steps: no limit]");
     app.add_flag("--reference", options.report.reference, "also run the undecomposed flow and give the distance to it");
 }
 
