@@ -48,7 +48,7 @@ constexpr double longest_step_of_sweeps = 16.0;
 /// steps than loosely converged sub-meshes, by the largest distance and by the mean one (measured: see
 /// engine/accuracy.md).
 constexpr double tolerance_of_gradients = 3e-3;
-constexpr double tolerance_of_gradients_if_long = 3e-5;
+constexpr double tolerance_of_gradients_if_long = 1e-4;
 
 /// How often the predicted number of iterations may come to be needed.
 constexpr double safety_of_prediction = 2.0;

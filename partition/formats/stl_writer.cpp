@@ -17,7 +17,7 @@ namespace seamflow {
 
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason)
+[[noreturn]] void refuse_mesh(const std::filesystem::path& path, const std::string& reason)
 {
     throw OutputError(fmt::format("{}: cannot be written: {}; write {}, which can hold this mesh", path.string(),
                                   reason, extensions_of(FormatGroup::Polygons)));
@@ -27,8 +27,8 @@ void require_triangles(const std::filesystem::path& path, const PolygonMesh& mes
 {
     for (Index f = 0; f < mesh.n_faces(); ++f)
         if (mesh.face(f).size() != 3)
-            refuse(path, fmt::format("face {} (numbered from 0) has {} sides, but STL holds triangles only", f,
-                                     mesh.face(f).size()));
+            refuse_mesh(path, fmt::format("face {} (numbered from 0) has {} sides, but STL holds triangles only", f,
+                                          mesh.face(f).size()));
 }
 
 void require_no_isolated_vertex(const std::filesystem::path& path, const PolygonMesh& mesh)
@@ -38,17 +38,19 @@ void require_no_isolated_vertex(const std::filesystem::path& path, const Polygon
         used[v] = true;
     const auto unused = std::find(used.begin(), used.end(), false);
     if (unused != used.end())
-        refuse(path, fmt::format("vertex {} (numbered from 0) belongs to no face, and STL holds only vertices of faces",
-                                 unused - used.begin()));
+        refuse_mesh(path,
+                    fmt::format("vertex {} (numbered from 0) belongs to no face, and STL holds only vertices of faces",
+                                unused - used.begin()));
 }
 
 void require_floats(const std::filesystem::path& path, const PolygonMesh& mesh)
 {
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         if (mesh.vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
-            refuse(path, fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single precision "
-                                     "of binary STL",
-                                     v));
+            refuse_mesh(path,
+                        fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single precision "
+                                    "of binary STL",
+                                    v));
 }
 
 template <class Scalar>
@@ -65,9 +67,10 @@ void require_distinct_corners(const std::filesystem::path& path, const PolygonMe
         const auto corners = mesh.face(f);
         for (std::size_t k = 0; k < 3; ++k)
             if (coincide<Scalar>(mesh, corners[k], corners[(k + 1) % 3]))
-                refuse(path, fmt::format("the vertices {} and {} of face {} (all numbered from 0) are one and the same "
-                                         "point{}",
-                                         corners[k], corners[(k + 1) % 3], f, precision));
+                refuse_mesh(path,
+                            fmt::format("the vertices {} and {} of face {} (all numbered from 0) are one and the same "
+                                        "point{}",
+                                        corners[k], corners[(k + 1) % 3], f, precision));
     }
 }
 

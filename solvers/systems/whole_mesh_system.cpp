@@ -1,6 +1,7 @@
 #include "solvers/systems/whole_mesh_system.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "partition/cut/boxes.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 #include "solvers/krylov/sums.h"
@@ -21,100 +23,94 @@ namespace {
 struct RowGeometry {
     const PolygonMesh& mesh;
     const Topology& topology;
+    /// By vertices, and by rows.
     const Points& positions;
-    std::span<const Index> offsets;
-    std::span<const Index> columns;
-
-    [[nodiscard]] std::span<const Index> neighbours(Index v) const
-    {
-        return columns.subspan(offsets[v], offsets[v + 1] - offsets[v]);
-    }
+    const Points& of_rows;
+    const IndexLists& boxes;
+    const std::vector<Index>& row_of;
+    BlockRowMatrix& matrix;
 };
 
-/// Calls entry(place, K_vw) with the place of w among the neighbours of v, maybe several times for one w; the rows of K
-/// add up to zero.
-/// @returns M_v.
+/// Calls entry(value, j, K_ij) for a row i, value() being the entry of the matrix, maybe several times for one j; the
+/// rows of K add up to zero.
+/// @returns M_i.
 template <EdgeKernel Kernel, class Entry>
-double visit_row(const RowGeometry& g, Index v, Entry&& entry)
+double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
-    const Point here = g.positions.row(v);
-    const std::span<const Index> neighbours = g.neighbours(v);
+    const Index v = g.boxes.values[place.row];
+    const Point here = g.of_rows.row(place.row);
     double mass = 0.0;
     if (g.topology.kind[v] != VertexKind::Boundary) {
-        for (std::size_t i = 0; i < neighbours.size(); ++i) {
-            const typename Kernel::Edge edge(here - g.positions.row(neighbours[i]));
-            entry(i, -edge.weight(1.0));
+        int n_edges = 0;
+        g.matrix.for_each_entry(place, [&](Index j, float& value) {
+            const typename Kernel::Edge edge(here - g.of_rows.row(j));
+            entry([&]() -> float& { return value; }, j, -edge.weight(1.0));
             mass += edge.mass();
-        }
-        return mass / static_cast<double>(neighbours.size());
+            ++n_edges;
+        });
+        return mass / n_edges;
     }
     // Each half-edge is half of its edge.
     const std::span<const Index> corners = g.topology.corners_at(v);
     for (const Index corner : corners)
         for (const Index end : {g.topology.next(g.mesh, corner), g.topology.previous(g.mesh, corner)}) {
-            const Index w = g.mesh.face_vertices[end];
-            const typename Kernel::Edge edge(here - g.positions.row(w));
-            entry(std::find(neighbours.begin(), neighbours.end(), w) - neighbours.begin(), -edge.weight(0.5));
+            const Index j = g.row_of[g.mesh.face_vertices[end]];
+            const typename Kernel::Edge edge(here - g.of_rows.row(j));
+            entry([&]() -> float& { return g.matrix.entry(place, j); }, j, -edge.weight(0.5));
             mass += edge.mass();
         }
     return mass / static_cast<double>(2 * corners.size());
 }
 
 template <FaceKernel Kernel, class Entry>
-double visit_row(const RowGeometry& g, Index v, Entry&& entry)
+double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
-    const std::span<const Index> neighbours = g.neighbours(v);
     double mass = 0.0;
-    for (const Index corner : g.topology.corners_at(v)) {
+    for (const Index corner : g.topology.corners_at(g.boxes.values[place.row])) {
         const Index f = g.topology.face_of[corner];
-        measure_corner<Kernel>(
-            g.mesh.face(f), at(corner - g.mesh.face_offsets[f]), g.positions, [&](const auto& face, std::size_t i) {
-                const auto row = face.row(i, 1.0 / face.divisor());
-                for (std::size_t k = 0; k < face.size(); ++k)
-                    if (k != i)
-                        entry(std::lower_bound(neighbours.begin(), neighbours.end(), face.corner(k)) -
-                                  neighbours.begin(),
-                              row(k));
-                mass += face.mass(i);
-            });
+        measure_corner<Kernel>(g.mesh.face(f), at(corner - g.mesh.face_offsets[f]), g.positions,
+                               [&](const auto& face, std::size_t i) {
+                                   const auto row = face.row(i, 1.0 / face.divisor());
+                                   for (std::size_t k = 0; k < face.size(); ++k)
+                                       if (k != i) {
+                                           const Index j = g.row_of[face.corner(k)];
+                                           entry([&]() -> float& { return g.matrix.entry(place, j); }, j, row(k));
+                                       }
+                                   mass += face.mass(i);
+                               });
     }
     return mass;
 }
 
-/// Calls action(visit), where visit(v, entry) is visit_row of the Laplacian.
+/// Calls action(visit), where visit(place, entry) is visit_row of the Laplacian.
 template <class Action>
 void with_rows(Laplacian laplacian, const RowGeometry& geometry, Action&& action)
 {
     with_kernel(laplacian, [&]<class Kernel>(Kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>)
-            action([&](Index v, auto&& entry) { return visit_row<Kernel>(geometry, v, entry); });
+            action([&](const BlockRowMatrix::Place& place, auto&& entry) {
+                return visit_row<Kernel>(geometry, place, entry);
+            });
         else
             throw OptionError("the Laplacian is not symmetric");
     });
 }
 
-/// Finds the other vertices in the rows of a matrix, ascending.
+/// Finds the columns of the rows of a matrix.
 class RowPattern {
   public:
-    RowPattern(const PolygonMesh& mesh, const Topology& topology, Reach reach)
+    RowPattern(const PolygonMesh& mesh, const Topology& topology, const std::vector<Index>& row_of, Reach reach)
         : mesh_(&mesh)
         , topology_(&topology)
+        , row_of_(&row_of)
         , along_edges_(reach == Reach::Edges || mesh.n_corners() == 3 * mesh.n_faces())
     {
     }
 
-    [[nodiscard]] Index count(Index v)
-    {
-        if (next_are_all(v))
-            return static_cast<Index>(topology_->corners_at(v).size());
-        list(v);
-        return static_cast<Index>(neighbours_.size());
-    }
-
-    /// Those of v, until the next call.
+    /// Those of the row of v, ascending and without itself, until the next call.
     const std::vector<Index>& list(Index v)
     {
-        neighbours_.clear();
+        columns_.clear();
         for (const Index corner : topology_->corners_at(v)) {
             if (along_edges_) {
                 add(topology_->next(*mesh_, corner));
@@ -122,12 +118,12 @@ class RowPattern {
                     add(topology_->previous(*mesh_, corner));
                 continue;
             }
-            const auto face = mesh_->face(topology_->face_of[corner]);
-            neighbours_.insert(neighbours_.end(), face.begin(), face.end());
+            for (const Index w : mesh_->face(topology_->face_of[corner]))
+                columns_.push_back((*row_of_)[w]);
         }
-        sort_unique(neighbours_);
-        std::erase(neighbours_, v);
-        return neighbours_;
+        sort_unique(columns_);
+        std::erase(columns_, (*row_of_)[v]);
+        return columns_;
     }
 
   private:
@@ -137,18 +133,21 @@ class RowPattern {
         return along_edges_ && topology_->oriented && topology_->kind[v] == VertexKind::Interior;
     }
 
-    void add(Index corner) { neighbours_.push_back(mesh_->face_vertices[corner]); }
+    void add(Index corner) { columns_.push_back((*row_of_)[mesh_->face_vertices[corner]]); }
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
+    const std::vector<Index>* row_of_;
     bool along_edges_;
-    std::vector<Index> neighbours_;
+    std::vector<Index> columns_;
 };
 
 /// Single precision is good for so much in one go; what may be left of a residual then without it being too little
 /// progress.
 constexpr double most_reduction_at_once = 1e-4;
 constexpr double most_left = 0.5;
+/// The farthest vertex comes nearer more slowly than all on average.
+constexpr double slower_somewhere = 2.5;
 /// Passes that leave more of the residual say little of the rate at which updates become smaller.
 constexpr double shortest_pass = 0.1;
 
@@ -157,10 +156,46 @@ Eigen::Array4f to_row(const Point& point)
     return {static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]), 0.0F};
 }
 
-/// Where the denominator is not positive, 0.
-Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d& denominators)
+/// So many blocks keep that many threads busy; smaller ones leave more out of the preconditioner.
+constexpr Index most_blocks = 64;
+constexpr Index fewest_rows = 512;
+constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
+
+Index number_of_blocks(Index n_rows)
 {
-    return (denominators > 0.0).select(numerators / denominators, 0.0).cast<float>();
+    const Index wanted = std::max(std::min(n_rows / fewest_rows, most_blocks), n_rows / usual_rows);
+    return static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(wanted, 1))));
+}
+
+std::vector<Index> make_row_of(const IndexLists& boxes, const Loop& loop)
+{
+    std::vector<Index> row_of(boxes.values.size());
+    for_each(loop, static_cast<Index>(row_of.size()), [&](Index i) { row_of[boxes.values[i]] = i; });
+    return row_of;
+}
+
+/// Vertices that do not move have the row of the identity.
+BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const IndexLists& boxes,
+                           const std::vector<Index>& row_of, Reach reach, const Loop& loop)
+{
+    std::vector<Index> blocks{0};
+    for (Index box = 0; box < boxes.size(); ++box)
+        while (blocks.back() < boxes.offsets[box + 1])
+            blocks.push_back(std::min(blocks.back() + BlockRowMatrix::most_rows, boxes.offsets[box + 1]));
+    return {blocks,
+            [&](Index block) {
+                RowPattern pattern(mesh, topology, row_of, reach);
+                IndexLists rows;
+                for (Index i = blocks[block]; i < blocks[block + 1]; ++i) {
+                    if (topology.moves(boxes.values[i])) {
+                        const std::vector<Index>& columns = pattern.list(boxes.values[i]);
+                        rows.values.insert(rows.values.end(), columns.begin(), columns.end());
+                    }
+                    rows.close();
+                }
+                return rows;
+            },
+            loop};
 }
 
 }  // namespace
@@ -170,162 +205,94 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
-    , offsets_(at(mesh.n_vertices()) + 1, 0)
-    , diagonal_(mesh.n_vertices(), 1.0F)
+    , boxes_(divide_into_boxes(mesh.vertices, number_of_blocks(mesh.n_vertices()), loop))
+    , row_of_(make_row_of(boxes_, loop))
+    , matrix_(make_matrix(mesh, topology, boxes_, row_of_, traits_of(laplacian).reach, loop))
+    , moves_(at(mesh.n_vertices()))
+    , before_(mesh.n_vertices(), 3)
 {
-    for (Rows* rows : {&iterates_.residual, &iterates_.direction, &iterates_.product, &iterates_.increment})
-        rows->assign(mesh.n_vertices(), Row::Zero());
-    const Reach reach = traits_of(laplacian).reach;
-    for (const bool fill : {false, true}) {
-        for_each_block(loop, mesh.n_vertices(), [&](Index, Index begin, Index end) {
-            RowPattern pattern(mesh, topology, reach);
-            for (Index v = begin; v < end; ++v) {
-                if (!topology.moves(v))
-                    continue;
-                if (fill)
-                    std::ranges::copy(pattern.list(v), columns_.begin() + offsets_[v]);
-                else
-                    offsets_[v + 1] = pattern.count(v);
-            }
-        });
-        if (fill)
-            break;
-        if (std::accumulate(offsets_.begin(), offsets_.end(), std::int64_t{0}) > std::numeric_limits<Index>::max())
-            throw ComputationError("the equations of the whole mesh have more than 2147483647 coefficients: take "
-                                   "sub-meshes instead of conjugate gradients");
-        std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-        columns_.resize(offsets_.back());
-        values_.resize(offsets_.back());
-    }
+    for_each(loop, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(boxes_.values[i]) ? 1 : 0; });
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
-/// @returns of each column, the squared norm of what of the residual may be rounding.
-Eigen::Array4d WholeMeshSystem::assemble(const Points& before, const Loop& loop)
+WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loop& loop)
 {
-    const RowGeometry geometry{*mesh_, *topology_, before, offsets_, columns_};
-    Eigen::Array4d squared_sizes;
+    const RowGeometry geometry{*mesh_, *topology_, before, before_, boxes_, row_of_, matrix_};
+    using Sums = Eigen::Array<double, 8, 1>;
+    Sums sums;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
-        squared_sizes = sum_of<Eigen::Array4d>(loop, mesh_->n_vertices(), [&](Index v) -> Eigen::Array4d {
-            if (!topology_->moves(v))
-                return Eigen::Array4d::Zero();
-            float* const values = values_.data() + offsets_[v];
-            const Index* const columns = columns_.data() + offsets_[v];
-            std::fill(values, values_.data() + offsets_[v + 1], 0.0F);
+        sums = matrix_.sum_of_rows<Sums>(loop, [&](const BlockRowMatrix::Place& place) -> Sums {
+            const Index i = place.row;
+            if (moves_[i] == 0)
+                return Sums::Zero();
+            matrix_.for_each_entry(place, [](Index, float& value) { value = 0.0F; });
+            const Point here = before_.row(i);
             double diagonal = 0.0;
             Eigen::Array4d size = Eigen::Array4d::Zero();
             Point residual = Point::Zero();
-            const double mass = visit(v, [&](std::ptrdiff_t i, double k) {
+            const double mass = visit(place, [&](auto&& value, Index j, double k) {
                 const double entry = units_.stiffness * k;
-                const Point share = entry * (before.row(columns[i]) - before.row(v));
-                values[i] += static_cast<float>(entry);
+                const Point share = entry * (before_.row(j) - here);
+                // What stays has no equation.
+                if (moves_[j] != 0)
+                    value() += static_cast<float>(entry);
                 diagonal -= entry;
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
-            diagonal_[v] = static_cast<float>(units_.mass * mass + diagonal);
-            iterates_.residual[v] = to_row(units_.length * residual);
-            return size.square() / (units_.mass * mass + diagonal);
+            diagonal += units_.mass * mass;
+            matrix_.set_diagonal(i, static_cast<float>(diagonal));
+            matrix_.residual(i) = to_row(units_.length * residual);
+            Sums result;
+            const double inverse = 1.0 / diagonal;
+            result << size.square() * inverse, matrix_.residual(i).cast<double>().square() * inverse;
+            return result;
         });
     });
     const double unit = 4.0 * std::numeric_limits<double>::epsilon() * units_.length;
-    return unit * unit * squared_sizes;
-}
-
-/// product = A direction.
-/// @returns the inner products of the two.
-Eigen::Array4d WholeMeshSystem::multiply(const Loop& loop)
-{
-    return sum_of<Eigen::Array4d>(loop, mesh_->n_vertices(), [&](Index v) -> Eigen::Array4d {
-        const Row& p = iterates_.direction[v];
-        Row q = diagonal_[v] * p;
-        for (Index i = offsets_[v]; i < offsets_[v + 1]; ++i)
-            q += values_[i] * iterates_.direction[columns_[i]];
-        iterates_.product[v] = q;
-        return (p * q).cast<double>();
-    });
+    return {.rounding = unit * unit * sums.head<4>(), .residual = sums.tail<4>()};
 }
 
 /// residual = -dt K V' - M (V' - V) of the positions V' after the step so far, the weights being those of V.
-void WholeMeshSystem::measure(const Points& before, const Points& after, const Loop& loop)
+/// @returns the sum of its squares, each over the diagonal.
+double WholeMeshSystem::measure(const Points& before, const Loop& loop)
 {
-    const RowGeometry geometry{*mesh_, *topology_, before, offsets_, columns_};
+    const RowGeometry geometry{*mesh_, *topology_, before, before_, boxes_, row_of_, matrix_};
+    using Sum = Eigen::Array<double, 1, 1>;
+    Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
-        for_each_block(loop, mesh_->n_vertices(), [&](Index, Index begin, Index end) {
-            for (Index v = begin; v < end; ++v) {
-                if (!topology_->moves(v))
-                    continue;
-                const Index* const columns = columns_.data() + offsets_[v];
-                Point residual = Point::Zero();
-                const double mass = visit(v, [&](std::ptrdiff_t i, double k) {
-                    residual -= units_.stiffness * k * (after.row(columns[i]) - after.row(v));
-                });
-                residual -= units_.mass * mass * (after.row(v) - before.row(v));
-                iterates_.residual[v] = to_row(units_.length * residual);
-            }
+        squared = matrix_.sum_of_rows<Sum>(loop, [&](const BlockRowMatrix::Place& place) -> Sum {
+            const Index i = place.row;
+            if (moves_[i] == 0)
+                return Sum::Zero();
+            const Point there = after_.row(i);
+            Point residual = Point::Zero();
+            const double mass = visit(
+                place, [&](auto&&, Index j, double k) { residual -= units_.stiffness * k * (after_.row(j) - there); });
+            residual = units_.length * (residual - units_.mass * mass * (there - before_.row(i)));
+            matrix_.residual(i) = to_row(residual);
+            return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
         });
     });
+    return squared.value();
 }
 
-/// Σ r² / a of each column, a being the diagonal: in double precision, as a small residual has squares that are none in
-/// single precision.
-Eigen::Array4d WholeMeshSystem::squared_residual(const Loop& loop) const
+/// @param squared the sum of the residual's squares, each over the diagonal.
+WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Loop& loop)
 {
-    return sum_of<Eigen::Array4d>(loop, mesh_->n_vertices(), [&](Index v) -> Eigen::Array4d {
-        return iterates_.residual[v].cast<double>().square() / static_cast<double>(diagonal_[v]);
-    });
-}
-
-/// Conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, 2003, algorithm 9.1) for A increment =
-/// residual, preconditioned by the diagonal.
-/// @param goal the part of the residual that may be left.
-WholeMeshSystem::Pass WholeMeshSystem::iterate(double goal, int most_iterations, const Loop& loop)
-{
-    const Index n = mesh_->n_vertices();
-    Eigen::Array4d squared = squared_residual(loop);
+    PassStart start;
     // Makes the residual about 1 at each vertex.
-    Pass result;
-    result.scale = std::exp2(-std::ilogb(std::sqrt(squared.sum() / n)));
-    const auto scale = static_cast<float>(result.scale);
-    squared *= result.scale * result.scale;
-    const double first = squared.sum();
-    for_each(loop, n, [&](Index v) {
-        iterates_.residual[v] *= scale;
-        iterates_.direction[v] = iterates_.residual[v] / diagonal_[v];
-        iterates_.increment[v].setZero();
-    });
-    result.residual = 1.0;
-    while (result.iterations < most_iterations && result.residual > goal) {
-        const Row alpha = quotients(squared, multiply(loop));
-        const Eigen::Array4d squared_before = squared;
-        squared = sum_of<Eigen::Array4d>(loop, n, [&](Index v) -> Eigen::Array4d {
-            Row& r = iterates_.residual[v];
-            r -= alpha * iterates_.product[v];
-            return (r * r / diagonal_[v]).cast<double>();
-        });
-        const Row beta = quotients(squared, squared_before);
-        ++result.iterations;
-        result.residual = std::sqrt(squared.sum() / first);
-        std::vector<float> farthest(at(n / block_size) + 1, 0.0F);
-        for_each_block(loop, n, [&](Index block, Index begin, Index end) {
-            for (Index v = begin; v < end; ++v) {
-                Row& p = iterates_.direction[v];
-                const Row change = alpha * p;
-                farthest[block] = std::max(farthest[block], change.square().sum());
-                iterates_.increment[v] += change;
-                p = iterates_.residual[v] / diagonal_[v] + beta * p;
-            }
-        });
-        result.last_update = std::sqrt(*std::max_element(farthest.begin(), farthest.end()));
-    }
-    return result;
+    start.scale = std::exp2(-std::ilogb(std::sqrt(squared / matrix_.n_rows())));
+    start.squared = matrix_.start(static_cast<float>(start.scale), loop);
+    start.norm = std::sqrt(start.squared.sum()) / start.scale;
+    return start;
 }
 
 /// The updates that would follow, if they became smaller at the rate that they have had, summed up.
-double WholeMeshSystem::distance_after(const Pass& pass)
+double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
 {
     const double rate = std::pow(pass.residual, 1.0 / pass.iterations);
-    return rate < 1.0 ? pass.last_update * rate / (1.0 - rate) : pass.last_update;
+    return slower_somewhere * (rate < 1.0 ? pass.last_update * rate / (1.0 - rate) : pass.last_update);
 }
 
 WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
@@ -334,35 +301,53 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
-    const Eigen::Array4d rounding = assemble(before, loop);
-    const Eigen::Array4d squared = squared_residual(loop);
-    copy(loop, before, after);
+    for_each(loop, matrix_.n_rows(), [&](Index i) { before_.row(i) = before.row(boxes_.values[i]); });
+    const Sizes sizes = assemble(before, loop);
     // There is nothing to smooth.
-    if ((squared <= rounding).all())
+    if ((sizes.residual <= sizes.rounding).all()) {
+        copy(loop, before, after);
         return {};
-    const double first = std::sqrt(squared.sum());
+    }
+    matrix_.factorise(loop);
+    PassStart start = start_pass(sizes.residual.sum(), loop);
+    const double first = start.norm;
     StoppingCriterion criterion(stop, most_left, 1.0);
     double left = 1.0;
     double distance = 0.0;
+    // By rows, where the vertices are; nullptr where the result has been written.
+    const Points* reached = &before_;
     while (!criterion.is_met()) {
-        const Pass pass =
-            iterate(std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), loop);
-        const double length = root / pass.scale;
-        for_each(loop, mesh_->n_vertices(), [&](Index v) {
-            after.row(v) += length * iterates_.increment[v].head<3>().cast<double>().matrix().transpose();
-        });
+        const BlockRowMatrix::Result pass = matrix_.iterate(
+            start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), loop);
+        const double length = root / start.scale;
         const double before_pass = std::exchange(left, left * pass.residual);
         // What the first pass leaves is known well enough; later ones begin near what rounding leaves.
         const bool is_first = before_pass == 1.0;
-        if (!is_first || left > stop.tolerance || pass.residual <= most_reduction_at_once) {
-            measure(before, after, loop);
-            left = std::sqrt(squared_residual(loop).sum()) / first;
+        const bool is_last = is_first && left <= stop.tolerance && pass.residual > most_reduction_at_once;
+        const auto move = [&](const auto& from, auto&& to) {
+            for_each(loop, matrix_.n_rows(), [&](Index i) {
+                to(i) = from.row(i) + length * matrix_.increment(i).head<3>().cast<double>().matrix().transpose();
+            });
+        };
+        if (is_last) {
+            move(before_, [&](Index i) { return after.row(boxes_.values[i]); });
+            reached = nullptr;
+        } else {
+            after_.resize(matrix_.n_rows(), 3);
+            move(*reached, [&](Index i) { return after_.row(i); });
+            reached = &after_;
+            const double squared = measure(before, loop);
+            if (squared > 0.0)
+                start = start_pass(squared, loop);
+            left = squared > 0.0 ? start.norm / first : 0.0;
         }
         distance = pass.residual > shortest_pass && distance > 0.0
                        ? distance * left / before_pass
                        : length * distance_after(pass) * left / (before_pass * pass.residual);
         criterion.note(pass.iterations, left, left / before_pass);
     }
+    if (reached != nullptr)
+        for_each(loop, matrix_.n_rows(), [&](Index i) { after.row(boxes_.values[i]) = reached->row(i); });
     return {criterion.result(left), distance};
 }
 

@@ -1,15 +1,17 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "partition/index_lists.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/krylov/stopping_criterion.h"
 #include "solvers/laplacian/laplacian.h"
+#include "solvers/systems/block_row_matrix.h"
 
 namespace seamflow {
 
@@ -38,48 +40,46 @@ class WholeMeshSystem {
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Loop& loop);
 
   private:
-    /// Three columns, and one that is zero, so that a row is a register.
-    using Row = Eigen::Array4f;
-    using Rows = std::vector<Row>;
-    /// Of the iteration: the residual, the direction, its product with the matrix, the solution.
-    struct Iterates {
-        Rows residual;
-        Rows direction;
-        Rows product;
-        Rows increment;
-    };
     /// Factors that make numbers without dimension, near 1, which single precision can hold: √dt is the unit of length.
     struct Units {
         double stiffness = 0.0;
         double mass = 0.0;
         double length = 0.0;
     };
+    /// Of each column, the sum of the squares over the diagonal.
+    struct Sizes {
+        /// Of what of the residual may be rounding.
+        Eigen::Array4d rounding;
+        Eigen::Array4d residual;
+    };
     /// Iterations in single precision from one residual.
-    struct Pass : IterationResult {
-        /// The largest distance that the last one moved a vertex.
-        double last_update = 0.0;
+    struct PassStart {
         /// What residual and increment are multiplied by.
         double scale = 1.0;
+        /// Of each column of the scaled residual, in the norm of the inverse of the preconditioner.
+        Eigen::Array4d squared = Eigen::Array4d::Zero();
+        /// Of the residual, in the same norm.
+        double norm = 0.0;
     };
 
-    Eigen::Array4d assemble(const Points& before, const Loop& loop);
-    void measure(const Points& before, const Points& after, const Loop& loop);
-    [[nodiscard]] Eigen::Array4d squared_residual(const Loop& loop) const;
-    Eigen::Array4d multiply(const Loop& loop);
-    static double distance_after(const Pass& pass);
-    Pass iterate(double goal, int most_iterations, const Loop& loop);
+    Sizes assemble(const Points& before, const Loop& loop);
+    double measure(const Points& before, const Loop& loop);
+    PassStart start_pass(double squared, const Loop& loop);
+    static double distance_after(const BlockRowMatrix::Result& pass);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
     Laplacian laplacian_;
     /// That of this step.
     Units units_;
-    /// The matrix by rows, without its diagonal, which stands apart.
-    std::vector<Index> offsets_;
-    std::vector<Index> columns_;
-    std::vector<float> values_;
-    std::vector<float> diagonal_;
-    Iterates iterates_;
+    /// The vertices of rows, by blocks; and the rows of vertices.
+    IndexLists boxes_;
+    std::vector<Index> row_of_;
+    BlockRowMatrix matrix_;
+    /// By rows: whether they move, where they are before the step, and after it so far if the residual is renewed.
+    std::vector<std::uint8_t> moves_;
+    Points before_;
+    Points after_;
 };
 
 }  // namespace seamflow

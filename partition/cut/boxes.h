@@ -1,0 +1,16 @@
+#pragma once
+
+#include "partition/index_lists.h"
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Divides points among boxes with about as many points each: the leaves of a k-d tree (Bentley, Multidimensional
+/// Binary Search Trees, 1975) whose medians are those of a sample. The same boxes and orders however loops are run.
+/// @param positions #points by 3, all finite.
+/// @param n_boxes a power of two, at most 65,536.
+/// @returns the points in each box, along its longest side. Points at one place share a box; so boxes may be empty.
+IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Loop& loop);
+
+}  // namespace seamflow

@@ -1,0 +1,269 @@
+#include "solvers/systems/block_row_matrix.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Of the sizes of a block's entries, positive ones that do not count.
+constexpr double most_positive = 0.05;
+/// Of what is dropped, the part that is taken off the diagonal.
+constexpr float part_of_fill = 0.8F;
+/// Of the diagonal.
+constexpr float least_pivot = 0.1F;
+
+template <class Value>
+void reserve(std::unique_ptr<Value[]>& buffer, Index n)
+{
+    buffer = std::make_unique_for_overwrite<Value[]>(n);
+}
+
+/// Where the denominator is not positive, 0.
+Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d& denominators)
+{
+    return (denominators > 0.0).select(numerators / denominators, 0.0).cast<float>();
+}
+
+}  // namespace
+
+BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Loop& loop)
+    : blocks_(std::move(blocks))
+{
+    // Of each block, the columns of all rows, and where those in the block begin, those above the diagonal, those
+    // behind the block.
+    struct Lists {
+        IndexLists rows;
+        std::vector<std::array<Index, 3>> parts;
+    };
+    std::vector<Lists> lists(blocks_.size() - 1);
+    for (std::vector<Index>* begin : {&lower_.begin, &upper_.begin, &outer_.begin})
+        begin->assign(at(n_rows()) + 1, 0);
+    for_each_block(loop, [&](Index block, Index begin, Index end) {
+        lists[block] = {pattern(block), {}};
+        for (Index i = begin; i < end; ++i) {
+            const std::span<const Index> columns = lists[block].rows[i - begin];
+            const auto place = [&](Index column) {
+                return static_cast<Index>(std::lower_bound(columns.begin(), columns.end(), column) - columns.begin());
+            };
+            const std::array parts{place(begin), place(i), place(end)};
+            lists[block].parts.push_back(parts);
+            lower_.begin[i + 1] = parts[1] - parts[0];
+            upper_.begin[i + 1] = parts[2] - parts[1];
+            outer_.begin[i + 1] = static_cast<Index>(columns.size()) - parts[2] + parts[0];
+        }
+    });
+    const auto reserve_entries = [&](auto& entries) {
+        if (std::accumulate(entries.begin.begin(), entries.begin.end(), std::int64_t{0}) >
+            std::numeric_limits<Index>::max())
+            throw ComputationError("the equations of the whole mesh have more than 2147483647 coefficients: take "
+                                   "sub-meshes instead of conjugate gradients");
+        std::partial_sum(entries.begin.begin(), entries.begin.end(), entries.begin.begin());
+        reserve(entries.columns, entries.begin.back());
+        reserve(entries.values, entries.begin.back());
+    };
+    reserve_entries(lower_);
+    reserve_entries(upper_);
+    reserve_entries(outer_);
+    for (Buffer<float>* values : {&diagonal_, &pivot_, &inverse_, &shift_})
+        reserve(*values, n_rows());
+    for (Buffer<Row>* rows : {&residual_, &direction_, &step_, &product_, &increment_})
+        reserve(*rows, n_rows());
+    for_each_block(loop, [&](Index block, Index begin, Index end) {
+        const Lists of_block = std::move(lists[block]);
+        for (Index i = begin; i < end; ++i) {
+            const auto columns = of_block.rows[i - begin].begin();
+            const auto parts = of_block.parts[i - begin];
+            const auto inner = [&](Index column) { return static_cast<Inner>(column - begin); };
+            std::transform(columns + parts[0], columns + parts[1], lower_.columns.get() + lower_.begin[i], inner);
+            std::transform(columns + parts[1], columns + parts[2], upper_.columns.get() + upper_.begin[i], inner);
+            const auto place = std::copy(columns, columns + parts[0], outer_.columns.get() + outer_.begin[i]);
+            std::copy(columns + parts[2], of_block.rows[i - begin].end(), place);
+            // Until it is set, and where there are no columns, the row of the identity.
+            diagonal_[i] = 1.0F;
+            residual_[i].setZero();
+            product_[i].setZero();
+        }
+    });
+}
+
+float& BlockRowMatrix::entry(const Place& place, Index column)
+{
+    const Index inner = column - place.begin;
+    if (inner >= 0 && inner < most_rows)
+        if (float* const value = (column < place.row ? lower_ : upper_).find(place.row, static_cast<Inner>(inner)))
+            return *value;
+    return *outer_.find(place.row, column);
+}
+
+/// With entries that are not positive, those that fill the factors are dropped and taken off the diagonal in part, as
+/// in a modified factorisation (Gustafsson, A class of first order factorization methods, 1978), which preserves the
+/// sums of rows; no pivot is less than what keeps solutions bounded. Blocks with positive entries that count keep the
+/// diagonal: symmetric Gauss–Seidel.
+void BlockRowMatrix::factorise(const Loop& loop)
+{
+    const auto finish = [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            inverse_[i] = 1.0F / pivot_[i];
+            shift_[i] = diagonal_[i] - 2.0F * pivot_[i];
+        }
+    };
+    for_each_block(loop, [&](Index, Index begin, Index end) {
+        double positive = 0.0;
+        double all = 0.0;
+        for (Index e = lower_.begin[begin]; e < lower_.begin[end]; ++e) {
+            positive += std::max(lower_.values[e], 0.0F);
+            all += std::abs(lower_.values[e]);
+        }
+        if (positive > most_positive * all) {
+            std::copy(&diagonal_[begin], &diagonal_[end], &pivot_[begin]);
+            finish(begin, end);
+            return;
+        }
+        // Of each row so far, the sum of the entries above the diagonal.
+        std::vector<float> above(end - begin);
+        for (Index i = begin; i < end; ++i) {
+            float pivot = diagonal_[i];
+            for (Index e = lower_.begin[i]; e < lower_.begin[i + 1]; ++e) {
+                const Index k = lower_.columns[e];
+                const float value = lower_.values[e];
+                pivot -= value / pivot_[begin + k] * (value + part_of_fill * (above[k] - value));
+            }
+            float size = 0.0F;
+            for (Index e = upper_.begin[i]; e < upper_.begin[i + 1]; ++e) {
+                above[i - begin] += upper_.values[e];
+                size += std::abs(upper_.values[e]);
+            }
+            pivot_[i] = std::max({pivot, size, least_pivot * diagonal_[i]});
+        }
+        finish(begin, end);
+    });
+}
+
+Eigen::Array4d BlockRowMatrix::start(float scale, const Loop& loop)
+{
+    return sum_of_blocks<Eigen::Array4d>(loop, [&](Index begin, Index end) {
+        const Entries<Inner>::Product lower(lower_);
+        Eigen::Array4d sum = Eigen::Array4d::Zero();
+        for (Index i = begin; i < end; ++i) {
+            Row r = scale * residual_[i];
+            lower.subtract_from(r, i, &residual_[begin]);
+            residual_[i] = inverse_[i] * r;
+            sum += (residual_[i] * r).cast<double>();
+            direction_[i].setZero();
+            step_[i].setZero();
+            increment_[i].setZero();
+        }
+        return sum;
+    });
+}
+
+/// increment += α t; p = D r + β p; t = (D + Lᵀ)⁻¹ p.
+void BlockRowMatrix::solve_upper(const Row& alpha, const Row& beta, const Loop& loop)
+{
+    for_each_block(loop, [&, alpha = alpha, beta = beta](Index, Index begin, Index end) {
+        const Entries<Inner>::Product upper(upper_);
+        const float* const pivot = pivot_.get();
+        const float* const inverse = inverse_.get();
+        const Row* const residual = residual_.get();
+        Row* const direction = direction_.get();
+        Row* const step = step_.get();
+        Row* const increment = increment_.get();
+        for (Index i = end - 1; i >= begin; --i) {
+            increment[i] += alpha * step[i];
+            Row p = pivot[i] * residual[i] + beta * direction[i];
+            direction[i] = p;
+            upper.subtract_from(p, i, step + begin);
+            step[i] = inverse[i] * p;
+        }
+    });
+}
+
+/// q = (D + L)⁻¹ A t = t + (D + L)⁻¹ (p + (A - L - D - D - Lᵀ) t).
+/// @returns Σ p q.
+Eigen::Array4d BlockRowMatrix::solve_lower(const Loop& loop)
+{
+    return sum_of_blocks<Eigen::Array4d>(loop, [&](Index begin, Index end) {
+        const Entries<Inner>::Product lower(lower_);
+        const Entries<Index>::Product outer(outer_);
+        const float* const inverse = inverse_.get();
+        const float* const shift = shift_.get();
+        const Row* const direction = direction_.get();
+        const Row* const step = step_.get();
+        Row* const product = product_.get();
+        Eigen::Array4d sum = Eigen::Array4d::Zero();
+        for (Index i = begin; i < end; ++i) {
+            const Row t = step[i];
+            const Row p = direction[i];
+            Row q = -shift[i] * t;
+            outer.subtract_from(q, i, step);
+            q = p - q;
+            lower.subtract_from(q, i, product + begin);
+            q *= inverse[i];
+            product[i] = q;
+            sum += (p * (q + t)).cast<double>();
+        }
+        return sum;
+    });
+}
+
+/// r -= α q.
+/// @returns Σ r D r.
+Eigen::Array4d BlockRowMatrix::update_residual(const Row& alpha, const Loop& loop)
+{
+    return sum_of_blocks<Eigen::Array4d>(loop, [&, alpha = alpha](Index begin, Index end) {
+        const float* const pivot = pivot_.get();
+        const Row* const product = product_.get();
+        const Row* const step = step_.get();
+        Row* const residual = residual_.get();
+        Eigen::Array4d sum = Eigen::Array4d::Zero();
+        for (Index i = begin; i < end; ++i) {
+            const Row r = residual[i] - alpha * (product[i] + step[i]);
+            residual[i] = r;
+            sum += (pivot[i] * r * r).cast<double>();
+        }
+        return sum;
+    });
+}
+
+BlockRowMatrix::Result BlockRowMatrix::iterate(const Eigen::Array4d& squared_at_start, double goal, int most_iterations,
+                                               const Loop& loop)
+{
+    Eigen::Array4d squared = squared_at_start;
+    const double first = squared.sum();
+    Row alpha = Row::Zero();
+    Row beta = Row::Zero();
+    Result result;
+    result.residual = 1.0;
+    while (result.iterations < most_iterations && result.residual > goal) {
+        solve_upper(alpha, beta, loop);
+        alpha = quotients(squared, solve_lower(loop));
+        const Eigen::Array4d squared_before = squared;
+        squared = update_residual(alpha, loop);
+        beta = quotients(squared, squared_before);
+        ++result.iterations;
+        result.residual = std::sqrt(squared.sum() / first);
+    }
+    std::vector<float> farthest(blocks_.size(), 0.0F);
+    for_each_block(loop, [&](Index block, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            const Row change = alpha * step_[i];
+            increment_[i] += change;
+            farthest[block] = std::max(farthest[block], change.square().sum());
+        }
+    });
+    result.last_update = std::sqrt(*std::max_element(farthest.begin(), farthest.end()));
+    return result;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,190 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "partition/index_lists.h"
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+#include "solvers/krylov/stopping_criterion.h"
+
+namespace seamflow {
+
+/// A large symmetric positive definite matrix A, by blocks of consecutive rows and in single precision, and conjugate
+/// gradients with it for three columns at once. Their preconditioner is an incomplete factorisation of each diagonal
+/// block that changes nothing but the diagonal, (D + L) D⁻¹ (D + Lᵀ) with L the entries of A below the diagonal. So the
+/// product with A comes with its solution, and an iteration reads each entry once (Eisenstat, Efficient Implementation
+/// of a Class of Preconditioned Conjugate Gradient Methods, 1981; Saad, Iterative Methods for Sparse Linear Systems,
+/// 2003, 9.2.2). Sums are taken in a fixed order: the bits do not depend on how loops are run.
+class BlockRowMatrix {
+  public:
+    /// Three columns, and one that is zero, so that a row is a register.
+    using Row = Eigen::Array4f;
+    /// Most rows of a block.
+    static constexpr Index most_rows = 1 << 16;
+
+    /// The columns of each row of a block: ascending, without that of the diagonal; none where the row is that of the
+    /// identity.
+    using Pattern = std::function<IndexLists(Index block)>;
+
+    /// @param blocks #blocks + 1: the rows where they begin, and the number of rows.
+    /// @param pattern called once for each block, for several at a time.
+    /// @throws ComputationError if there are 2³¹ entries or more.
+    BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Loop& loop);
+
+    [[nodiscard]] Index n_rows() const { return blocks_.back(); }
+
+    /// A row of the block that begins there.
+    struct Place {
+        Index begin;
+        Index row;
+    };
+    /// Runs body(place) for the rows of a block, several blocks at a time.
+    /// @returns the sum of what it returns, of some matrix type.
+    template <class Sum, class Body>
+    Sum sum_of_rows(const Loop& loop, Body&& body) const;
+    /// Calls visit(column, value) for the entries of a row beside the diagonal.
+    template <class Visit>
+    void for_each_entry(const Place& place, Visit&& visit);
+    /// That entry of a row, which it has.
+    float& entry(const Place& place, Index column);
+    void set_diagonal(Index i, float value) { diagonal_[i] = value; }
+    [[nodiscard]] float diagonal(Index i) const { return diagonal_[i]; }
+    /// Of row i: set it, then start.
+    [[nodiscard]] Row& residual(Index i) { return residual_[i]; }
+    /// Of row i, after the iteration.
+    [[nodiscard]] const Row& increment(Index i) const { return increment_[i]; }
+
+    /// Makes the preconditioner, when all entries are set.
+    void factorise(const Loop& loop);
+    /// Turns the residual, times a scale, into what the iteration works on.
+    /// @returns of each column, the squared norm of the scaled residual, that of the inverse of the preconditioner.
+    Eigen::Array4d start(float scale, const Loop& loop);
+
+    struct Result : IterationResult {
+        /// The largest distance that the last iteration moved a row of the increment.
+        double last_update = 0.0;
+    };
+    /// A increment = residual, from 0 (after start).
+    /// @param squared what start returned; of the residual about 1 in each row, so that single precision holds it.
+    /// @param goal the part of the residual that may be left.
+    Result iterate(const Eigen::Array4d& squared, double goal, int most_iterations, const Loop& loop);
+
+  private:
+    /// What all threads fill, not the one that asks for the memory.
+    template <class Value>
+    using Buffer = std::unique_ptr<Value[]>;
+    /// Of a block, so that columns are short.
+    using Inner = std::uint16_t;
+    /// Some entries of each row.
+    template <class Column>
+    struct Entries {
+        std::vector<Index> begin;
+        Buffer<Column> columns;
+        Buffer<float> values;
+
+        /// Multiplies by the entries. Has pointers, as a row that is written could be anything to the compiler.
+        class Product {
+          public:
+            explicit Product(const Entries& entries)
+                : begin_(entries.begin.data())
+                , columns_(entries.columns.get())
+                , values_(entries.values.get())
+            {
+            }
+
+            /// @param rows by columns.
+            void subtract_from(Row& sum, Index i, const Row* rows) const
+            {
+                const Index end = begin_[i + 1];
+                for (Index e = begin_[i]; e < end; ++e)
+                    sum -= values_[e] * rows[columns_[e]];
+            }
+
+          private:
+            const Index* begin_;
+            const Column* columns_;
+            const float* values_;
+        };
+
+        /// The value of a column, or nullptr if there is none.
+        float* find(Index i, Column column)
+        {
+            const Column* const end = columns.get() + begin[i + 1];
+            const Column* const first = columns.get() + begin[i];
+            const Column* const place = std::lower_bound(first, end, column);
+            return place != end && *place == column ? &values[place - columns.get()] : nullptr;
+        }
+    };
+
+    /// Runs body(block, begin, end) for the rows of each block.
+    template <class Body>
+    void for_each_block(const Loop& loop, Body&& body) const
+    {
+        for_each(loop, static_cast<Index>(blocks_.size()) - 1,
+                 [&](Index block) { body(block, blocks_[block], blocks_[block + 1]); });
+    }
+    /// The sum of body(begin, end).
+    template <class Sum, class Body>
+    Sum sum_of_blocks(const Loop& loop, Body&& body) const
+    {
+        std::vector<Sum> parts(blocks_.size(), Sum::Zero());
+        for_each_block(loop, [&](Index block, Index begin, Index end) { parts[block] = body(begin, end); });
+        Sum sum = Sum::Zero();
+        for (const Sum& part : parts)
+            sum += part;
+        return sum;
+    }
+
+    void solve_upper(const Row& alpha, const Row& beta, const Loop& loop);
+    Eigen::Array4d solve_lower(const Loop& loop);
+    Eigen::Array4d update_residual(const Row& alpha, const Loop& loop);
+
+    std::vector<Index> blocks_;
+    /// Below the diagonal and above it in the block; their columns count from where it begins.
+    Entries<Inner> lower_;
+    Entries<Inner> upper_;
+    /// In other blocks.
+    Entries<Index> outer_;
+    Buffer<float> diagonal_;
+    /// D, its inverse, and the diagonal of A less 2 D.
+    Buffer<float> pivot_;
+    Buffer<float> inverse_;
+    Buffer<float> shift_;
+    /// Of the iteration: (D + L)⁻¹ r, r being the residual; the direction p; t = (D + Lᵀ)⁻¹ p; q - t with q = (D + L)⁻¹
+    /// A t; the solution.
+    Buffer<Row> residual_;
+    Buffer<Row> direction_;
+    Buffer<Row> step_;
+    Buffer<Row> product_;
+    Buffer<Row> increment_;
+};
+
+template <class Sum, class Body>
+Sum BlockRowMatrix::sum_of_rows(const Loop& loop, Body&& body) const
+{
+    return sum_of_blocks<Sum>(loop, [&](Index begin, Index end) {
+        Sum sum = Sum::Zero();
+        for (Index i = begin; i < end; ++i)
+            sum += body(Place{begin, i});
+        return sum;
+    });
+}
+
+template <class Visit>
+void BlockRowMatrix::for_each_entry(const Place& place, Visit&& visit)
+{
+    const Index i = place.row;
+    for (Entries<Inner>* part : {&lower_, &upper_})
+        for (Index e = part->begin[i]; e < part->begin[i + 1]; ++e)
+            visit(place.begin + part->columns[e], part->values[e]);
+    for (Index e = outer_.begin[i]; e < outer_.begin[i + 1]; ++e)
+        visit(outer_.columns[e], outer_.values[e]);
+}
+
+}  // namespace seamflow
