@@ -74,8 +74,8 @@ void require_valid_factorisation(const FlowOptions& options)
     if (is_foreign(options.resources.factorisation) && is_symmetric(options.laplacian) &&
         (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
         throw OptionError(
-            "factorisation is that of another library, but converged steps of the Laplacians fujiwara and "
-            "alexa-wardetzky need the Schur complements that the library's own gives: take sweeps "
+            "factorisation is that of another library, but converged steps of symmetric Laplacians need the "
+            "Schur complements that the library's own gives: take sweeps "
             "(Approach::Sweep, --converge never), or leave the factorisation automatic");
 }
 
@@ -91,8 +91,9 @@ void require_valid_approach(const FlowOptions& options)
     if (options.accuracy.approach == Approach::Undecomposed)
         return;
     if (!is_symmetric(options.laplacian))
-        throw OptionError("approach is by conjugate gradients, but the Laplacian ptackova-velho is not symmetric: use "
-                          "fujiwara or alexa-wardetzky, or leave the approach automatic");
+        throw OptionError(fmt::format("approach is by conjugate gradients, but the Laplacian {} is not symmetric: use "
+                                      "{}, or leave the approach automatic",
+                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic ||
         options.resources.precision != Precision::Automatic)
         throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit, "
@@ -101,10 +102,10 @@ void require_valid_approach(const FlowOptions& options)
 
 void require_valid_constraints(const FlowOptions& options)
 {
-    if (options.motion.boundary == Boundary::Free && options.laplacian == Laplacian::PtackovaVelho)
-        throw OptionError("boundary is free, but the Laplacian ptackova-velho has no natural boundary conditions (its "
-                          "rows there are one-sided and unstable): use fujiwara or alexa-wardetzky, or leave the "
-                          "boundary fixed");
+    if (options.motion.boundary == Boundary::Free && !is_symmetric(options.laplacian))
+        throw OptionError(fmt::format("boundary is free, but the Laplacian {} has no natural boundary conditions (its "
+                                      "rows there are one-sided and unstable): use {}, or leave the boundary fixed",
+                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
         throw OptionError("rescale is for results whose sub-meshes are joined; keep_gaps leaves them separate");
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())

@@ -117,7 +117,7 @@ enum class Approach {
     /// Converged sub-mesh by sub-mesh, to AccuracyOptions::tolerance or a loose one.
     Converged,
     /// The whole mesh by conjugate gradients, to AccuracyOptions::tolerance or a loose one: no sub-meshes, no
-    /// factorisation, and of all ways the least set-up. For Δ_F and Δ_A.
+    /// factorisation, and of all ways the least set-up. For Δ_F, Δ_A and Δ_B.
     ConjugateGradients,
     /// The whole mesh by one factorisation: exactly.
     Undecomposed,
@@ -165,7 +165,7 @@ struct InterfaceOptions {
 /// How near steps come to the undecomposed ones, and when a flow is given up.
 struct AccuracyOptions {
     /// Asks for the undecomposed step itself, in place of what InterfaceOptions says: to this residual, relative to
-    /// that of the positions before the step. For Δ_F and Δ_A it is the residual on Γ, or of all rows with
+    /// that of the positions before the step. For symmetric Laplacians it is the residual on Γ, or of all rows with
     /// Approach::ConjugateGradients. For Δ_P it is the distance
     /// between the positions that overlapping sub-meshes take from each other and those that they find. Where the
     /// equations of Δ_P are indefinite (it grows spikes then, undecomposed too), there are many iterations, fewer with
@@ -188,7 +188,7 @@ struct MotionOptions {
     /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
     /// Refuse meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
-    /// without length (Δ_F) or faces without area (Δ_A, Δ_P) leave the Laplacian undefined at vertices that should
+    /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
     /// move. Without it such vertices are held fixed, and a remark says how many.
     bool strict = false;
     /// Scales the result of each step. The flow itself goes on unscaled, and distances to the undecomposed flow are
@@ -205,17 +205,17 @@ struct ResourceOptions {
     int threads = 0;
     /// The most bytes that the factorisations of sub-meshes may take at once, at least 1. With less than one step
     /// needs, the flow throws an OptionError that tells how much that is. Empty: sweeps keep as few factorisations as
-    /// keep all threads busy, converged steps keep all. With a limit, converged steps of Δ_F and Δ_A make the others
-    /// again whenever they are needed, and factors that may be in either precision count as if in double precision; Δ_P
-    /// needs all. UMFPACK's count by its own estimate. A limit asks for sub-meshes where the approach is automatic;
-    /// their result does not depend on it. It does not hold for `reference`.
+    /// keep all threads busy, converged steps keep all. With a limit, converged steps of symmetric Laplacians make the
+    /// others again whenever they are needed, and factors that may be in either precision count as if in double
+    /// precision; Δ_P needs all. UMFPACK's count by its own estimate. A limit asks for sub-meshes where the approach is
+    /// automatic; their result does not depend on it. It does not hold for `reference`.
     std::optional<std::size_t> memory_limit = {};
     /// Whose factorisation solves the equations of sub-meshes. Changes the result by rounding alone. Converged steps of
-    /// Δ_F and Δ_A have the library's own: their Schur complements come out of it.
+    /// symmetric Laplacians have the library's own: their Schur complements come out of it.
     Factorisation factorisation = Factorisation::Automatic;
-    /// In which precision the factors of converged steps of Δ_F and Δ_A are. In single precision they take half the
-    /// memory and little more than half the time; as the residual is in double precision, steps converge to the same
-    /// tolerance. With Precision::Single, equations that single precision makes indefinite end the flow.
+    /// In which precision the factors of converged steps of symmetric Laplacians are. In single precision they take
+    /// half the memory and little more than half the time; as the residual is in double precision, steps converge to
+    /// the same tolerance. With Precision::Single, equations that single precision makes indefinite end the flow.
     Precision precision = Precision::Automatic;
 };
 

@@ -16,9 +16,9 @@
 
 namespace seamflow {
 
-/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for Δ_F and Δ_A: every sub-mesh condenses
-/// its equations to Γ, what remains is the equation of the Schur complement there, and then back substitution gives the
-/// interiors. One task graph, run once per step:
+/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
+/// condenses its equations to Γ, what remains is the equation of the Schur complement there, and then back substitution
+/// gives the interiors. One task graph, run once per step:
 ///
 ///     condense (each sub-mesh) ──► solve on Γ (see InterfaceEquation) ──► back-substitute (each sub-mesh)
 ///

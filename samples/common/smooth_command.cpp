@@ -118,7 +118,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                 "most iterations of a converged step [1000]");
     add_choice(app, "--factorisation", options.resources.factorisation,
                "whose factorisation solves the equations of sub-meshes; cholmod: UMFPACK where they are "
-               "not symmetric; both keep fujiwara and alexa-wardetzky to sweeps [auto: the fastest]");
+               "not symmetric; both keep symmetric Laplacians to sweeps [auto: the fastest]");
     add_choice(
         app, "--precision", options.resources.precision,
         "of the factorisations of converged steps, which are refined to the tolerance in any; auto: single where "

@@ -7,6 +7,7 @@
 #include "solvers/laplacian/alexa_wardetzky.h"
 #include "solvers/laplacian/fujiwara.h"
 #include "solvers/laplacian/ptackova_velho.h"
+#include "solvers/laplacian/virtual_refinement.h"
 
 namespace seamflow {
 
@@ -69,6 +70,8 @@ auto with_kernel(Laplacian laplacian, Action&& action)
         return action(Fujiwara{});
     case Laplacian::AlexaWardetzky:
         return action(AlexaWardetzky{});
+    case Laplacian::VirtualRefinement:
+        return action(VirtualRefinement{});
     case Laplacian::PtackovaVelho:
         return action(PtackovaVelho{});
     }

@@ -28,7 +28,7 @@ struct StiffnessProduct {
 };
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
-/// / val, Δ_A with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
+/// / val, Δ_A and Δ_B with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
 class SymmetricLaplacian {
   public:
     virtual ~SymmetricLaplacian() = default;

@@ -19,12 +19,12 @@ namespace seamflow {
 /// A sub-mesh's share A = M + dt K of the whole backward Euler system, assembled from its own faces alone: summed over
 /// the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ given, and
 /// its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what X leaves
-/// of the equations is measured in double precision, a factor may be in single precision. For Δ_F and Δ_A. One thread
-/// at a time.
+/// of the equations is measured in double precision, a factor may be in single precision. For symmetric Laplacians. One
+/// thread at a time.
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
-    /// @param faces its face_vertices: most of what Δ_A keeps of it, while Δ_F has its edges.
+    /// @param faces its face_vertices: most of what Δ_A and Δ_B keep of it, while Δ_F has its edges.
     /// @throws ComputationError if the analysis fails.
     NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian);
     NeumannSystem(const NeumannSystem&) = delete;

@@ -84,6 +84,15 @@ ReferenceOperators read_operators(const std::filesystem::path& path)
     return reference;
 }
 
+ReferenceStiffness read_stiffness(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceStiffness reference{mesh_from(data), {}, data.at("mass").get<std::vector<double>>()};
+    for (const json& entry : data.at("stiffness"))
+        reference.stiffness[entry[0].get<Index>()][entry[1].get<Index>()] += entry[2].get<double>();
+    return reference;
+}
+
 ReferenceFlow read_flow(const std::filesystem::path& path)
 {
     const json data = parse(path);

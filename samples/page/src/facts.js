@@ -22,7 +22,7 @@ export function element(name, attributes = {}, ...children) {
 
 const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 
-const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "ptackova-velho": "Ptáčková–Velho" };
+const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "virtual-refinement": "Virtual refinement", "ptackova-velho": "Ptáčková–Velho" };
 
 /** One line about a flow. */
 export function summary(mesh, report) {
