@@ -112,12 +112,35 @@ void require_valid_constraints(const FlowOptions& options)
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
 }
 
+void require_valid_flow(const FlowOptions& options)
+{
+    if (is_plain_flow(options))
+        return;
+    if (!is_symmetric(options.laplacian))
+        throw OptionError(fmt::format("flow is {}, but the Laplacian {} is not symmetric, and has no K to keep: use {}",
+                                      option_name(options.flow), name_of(options.laplacian),
+                                      names_of_symmetric_laplacians()));
+    if (options.scheme == Scheme::ExplicitEuler)
+        throw OptionError(fmt::format("flow is {}, which is for backward Euler steps: leave out the explicit scheme",
+                                      option_name(options.flow)));
+    if (options.accuracy.approach == Approach::ConjugateGradients)
+        throw OptionError(
+            fmt::format("approach is by conjugate gradients, which take the mean curvature flow alone, but "
+                        "flow is {}: leave the approach automatic",
+                        option_name(options.flow)));
+}
+
 bool has_tangential_derivative(Conditions conditions)
 {
     return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
 }
 
 }  // namespace
+
+bool is_plain_flow(const FlowOptions& options)
+{
+    return options.flow == FlowEquation::MeanCurvature;
+}
 
 bool takes_whole_mesh(Approach approach)
 {
@@ -165,6 +188,7 @@ void require_valid(const FlowOptions& options)
         require_valid_schwarz(options);
     require_valid_copies(options);
     require_valid_constraints(options);
+    require_valid_flow(options);
     require_valid_tolerance(options);
     require_valid_approach(options);
     require_valid_factorisation(options);

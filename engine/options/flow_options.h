@@ -46,6 +46,17 @@ enum class Scheme {
     ExplicitEuler,
 };
 
+/// Which flow is taken.
+enum class FlowEquation {
+    /// ∂V/∂t = -Δ(V) V, mean curvature flow.
+    MeanCurvature,
+    /// The conformalized flow of Kazhdan, Solomon and Ben-Chen (Can Mean-Curvature Flow Be Modified to Be
+    /// Non-Singular?,
+    /// 2012): (M(Vⁿ) + dt K(V⁰)) Vⁿ⁺¹ = M(Vⁿ) Vⁿ. Necks do not pinch; a closed surface without handles goes to a
+    /// sphere. K is assembled once. For symmetric Laplacians and backward Euler steps.
+    Conformalized,
+};
+
 /// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
 enum class PRule {
     /// η = 1, the paper's (which makes p* depend on the unit of length).
@@ -241,6 +252,8 @@ struct FlowOptions {
 
     /// Which discrete Laplacian drives the flow.
     Laplacian laplacian = Laplacian::Fujiwara;
+    /// Whether the Laplacian's K follows the surface.
+    FlowEquation flow = FlowEquation::MeanCurvature;
     /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
     /// positive and finite.
     double time_step = 0.0;
@@ -262,6 +275,10 @@ struct FlowOptions {
 
 /// Whether every sub-mesh keeps a copy of Γ of its own.
 bool is_classical(Conditions conditions);
+
+/// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ. Conjugate
+/// gradients on the whole mesh are for such flows alone.
+bool is_plain_flow(const FlowOptions& options);
 
 /// Whether steps are taken without sub-meshes.
 bool takes_whole_mesh(Approach approach);

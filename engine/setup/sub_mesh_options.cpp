@@ -17,10 +17,16 @@ bool predicts(const FlowOptions& options)
            options.interface.p_rule == PRule::Paper && options.interface.p_edge == PEdge::Automatic;
 }
 
-std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
-                                              const FlowOptions& options, SolverWorkspace& workspace)
+FlowTerms terms_of(const FlowOptions& options, const Points& first)
 {
-    SystemParts parts{sub_mesh, std::move(twin), options.laplacian, options.resources.factorisation};
+    return {.first = &first, .keeps_stiffness = options.flow == FlowEquation::Conformalized};
+}
+
+std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
+                                              const FlowOptions& options, const FlowTerms& terms,
+                                              SolverWorkspace& workspace)
+{
+    SystemParts parts{sub_mesh, std::move(twin), options.laplacian, options.resources.factorisation, terms};
     const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
         return make_system(std::move(parts), std::move(condition), workspace);
     };

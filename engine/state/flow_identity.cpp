@@ -77,7 +77,8 @@ std::string text_of(const PolygonMesh& mesh)
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, time_step, steps, scheme, cut, interface, accuracy, motion, resources, report] = options;
+    const auto& [laplacian, flow, time_step, steps, scheme, cut, interface, accuracy, motion, resources, report] =
+        options;
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -96,6 +97,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"version", SEAMFLOW_VERSION},
         {"mesh", text_of(mesh)},
         {"laplacian", text_of(laplacian)},
+        {"flow", text_of(flow)},
         {"time_step", text_of(time_step)},
         {"subdomains", text_of(subdomains)},
         {"labels", text_of(labels)},

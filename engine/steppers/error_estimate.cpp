@@ -47,6 +47,8 @@ ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMe
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
+    if (options.flow == FlowEquation::Conformalized)
+        first_ = mesh.vertices;
     if (laplacian_ == Laplacian::PtackovaVelho && equation_.size() > 0)
         solved_ = mesh.vertices;
 }
@@ -65,13 +67,25 @@ const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Ind
     return mean;
 }
 
+/// The positions whose K the step has, #local by 3.
+const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& first) const
+{
+    if (first_.rows() == 0)
+        return state.position;
+    const std::vector<Index>& global = state.sub_mesh->local_to_global;
+    set_rows(first, state.position.rows());
+    for (std::size_t v = 0; v < global.size(); ++v)
+        first.row(static_cast<Eigen::Index>(v)) = first_.row(global[v]);
+    return first;
+}
+
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     receive_solution(states, s, decomposition_->halo[s]);
     SubMeshState& state = states[s];
     Stopwatch watch;
     const Points& after = joined(states, s, workspace.other_side);
-    equation_.assemble(s, state.position, after, time_step_);
+    equation_.assemble(s, state.position, after, stiffness_at(state, workspace.positions), time_step_);
     if (solved_.rows() > 0)
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
             if (state.sub_mesh->owned[v] != 0)

@@ -29,7 +29,7 @@ class ErrorEstimate {
     /// Takes over the rows of a sub-mesh's own part of Γ, before it accepts Vᵏ⁺¹. Different sub-meshes may do so at the
     /// same time.
     /// @param states that of s has Vᵏ as its position; all around have solved.
-    /// @param workspace its `other_side` is overwritten.
+    /// @param workspace its `other_side` and `positions` are overwritten.
     void measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
     /// Notes how far the sub-mesh's own part of Γ was moved when it accepted Vᵏ⁺¹.
@@ -50,6 +50,7 @@ class ErrorEstimate {
 
   private:
     [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
+    [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
     void carry_over();
 
     const Decomposition* decomposition_;
@@ -57,6 +58,8 @@ class ErrorEstimate {
     const Topology* topology_;
     Laplacian laplacian_;
     double time_step_;
+    /// #V by 3: V⁰, where K is kept.
+    Points first_;
     /// Whether every sub-mesh has a copy of Γ of its own.
     bool has_copies_;
     ErrorEquation equation_;

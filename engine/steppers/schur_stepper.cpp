@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/setup/automatic_choices.h"
+#include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
@@ -47,21 +48,23 @@ SchurStepper::SchurStepper(Decomposition decomposition, const PolygonMesh& mesh,
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(parts_.size());
     interface_.condensed.resize(equation_.copies().n_copies(), 3);
-    make_systems(decomposition, options, progress);
+    make_systems(decomposition, mesh, options, progress);
     limit_factors(options);
     make_graph();
 }
 
 /// What is needed of sub-meshes later moves to where it is needed; the rest is no more when all are analysed.
-void SchurStepper::make_systems(Decomposition& decomposition, const FlowOptions& options, Progress& progress)
+void SchurStepper::make_systems(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+                                Progress& progress)
 {
+    const FlowTerms terms = terms_of(options, mesh.vertices);
     progress.expect(static_cast<double>(parts_.size()));
     for_each(run_in_parallel, static_cast<Index>(parts_.size()), [&](Index s) {
         progress.require_going_on();
         SubMesh sub_mesh = std::move(decomposition.sub_meshes[s]);
         run_for_sub_mesh(sub_mesh, s, [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
-            parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian);
+            parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian, terms);
         });
         parts_[s].sub_mesh = {std::move(sub_mesh.faces), sub_mesh.n_vertices, std::move(sub_mesh.local_to_global),
                               std::move(sub_mesh.owned)};

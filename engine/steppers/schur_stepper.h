@@ -83,7 +83,8 @@ class SchurStepper final : public ConvergedStepper {
     };
 
     SchurStepper(Decomposition decomposition, const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
-    void make_systems(Decomposition& decomposition, const FlowOptions& options, Progress& progress);
+    void make_systems(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+                      Progress& progress);
     void limit_factors(const FlowOptions& options);
     void make_graph();
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }

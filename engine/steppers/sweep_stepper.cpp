@@ -102,12 +102,13 @@ void SweepStepper::limit_factors(const FlowOptions& options)
 void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)
 {
     std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
+    const FlowTerms terms = terms_of(options, mesh.vertices);
     progress.expect(static_cast<double>(made.size()));
     for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
         progress.require_going_on();
         SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         run_for_sub_mesh(sub_mesh, s, [&] {
-            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, workspaces_.local());
+            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, terms, workspaces_.local());
             SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
         });

@@ -62,6 +62,9 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "--plain", [&options] { options = FlowOptions::plain(); },
         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
+    add_choice(app, "--flow", options.flow,
+               "conformalized: the weights of the Laplacian stay those of the input; necks do not pinch, and closed "
+               "surfaces without handles go to a sphere [mean-curvature]");
     add_amount(app, command.amount);
     add_choice(app, "--boundary", options.motion.boundary,
                "whether the rims of an open surface stay where they are or draw in freely [fixed]");

@@ -18,6 +18,8 @@ namespace seamflow {
 /// Laplacian itself has. Elsewhere it is AdaptedRobin, and where that is not well defined the row of the undecomposed
 /// step with Ŵ as it is (with the rows of Δ_A for Δ_P).
 /// @param sub_mesh must outlive the condition.
-std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian);
+/// @param stiffness_at see StarLaplacian; needed only during the call.
+std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian,
+                                                           const Points* stiffness_at = nullptr);
 
 }  // namespace seamflow

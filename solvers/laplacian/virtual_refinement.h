@@ -30,6 +30,8 @@ struct VirtualRefinement {
 
     /// |f|.
     static double size(std::span<const Index> corners, const Points& positions) { return area(corners, positions); }
+    /// |f| / p (paper, eq. 11).
+    static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
 
     /// The virtual vertex of a polygon. Positions are relative to the first corner: an offset of the mesh costs no
     /// precision.

@@ -20,6 +20,8 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
     auto assembler = make_assembler(
         parts.laplacian, {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, twin_, sub_mesh.n_vertices});
+    if (parts.terms.keeps_stiffness)
+        assembler = keep_stiffness(std::move(assembler), rows_of(*parts.terms.first, sub_mesh.local_to_global));
     const std::vector<MatrixEntry> laplacian_entries = assembler->entries();
 
     std::vector<MatrixEntry> entries;

@@ -19,7 +19,7 @@ constexpr float least_pivot_of_single = 1e-3F;
 
 }  // namespace
 
-NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian)
+NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian, const FlowTerms& terms)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
     , matrix_{make_symmetric_laplacian(laplacian, {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
@@ -27,6 +27,9 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacia
               sub_mesh.n_vertices + sub_mesh.n_halo}
     , solver_(number_unknowns(sub_mesh), n_interface_)
 {
+    if (terms.keeps_stiffness)
+        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
+                                           rows_of(*terms.first, sub_mesh.local_to_global));
     if (!matrix_.laplacian->uses_faces())
         faces_ = {};
 }

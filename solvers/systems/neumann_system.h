@@ -12,6 +12,7 @@
 #include "solvers/direct/factorisation.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
+#include "solvers/laplacian/flow_terms.h"
 #include "solvers/systems/symmetric_matrix.h"
 
 namespace seamflow {
@@ -26,7 +27,7 @@ class NeumannSystem {
     /// @param sub_mesh without overlap; needed only during the call.
     /// @param faces its face_vertices: most of what Δ_A and Δ_B keep of it, while Δ_F has its edges.
     /// @throws ComputationError if the analysis fails.
-    NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian);
+    NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian, const FlowTerms& terms = {});
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 

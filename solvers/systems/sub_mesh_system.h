@@ -9,6 +9,7 @@
 #include "partition/decomposition/sweep_plan.h"
 #include "solvers/conditions/transmission_condition.h"
 #include "solvers/direct/direct_solver.h"
+#include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -84,6 +85,7 @@ struct SystemParts {
     std::vector<Index> twin;
     Laplacian laplacian;
     Factorisation factorisation = Factorisation::Automatic;
+    FlowTerms terms = {};
 };
 
 /// The equations with a condition of any kind on Γ.

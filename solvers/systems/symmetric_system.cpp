@@ -16,6 +16,9 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
                                                          parts.twin, sub_mesh_->n_vertices + sub_mesh_->n_halo}),
               sub_mesh_->n_vertices + sub_mesh_->n_halo}
 {
+    if (parts.terms.keeps_stiffness)
+        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
+                                           rows_of(*parts.terms.first, sub_mesh_->local_to_global));
     std::vector<Index> unknown_of;
     number_unknowns(rows, unknown_of);
     const std::vector<VertexPair> pairs = matrix_.laplacian->pairs();

@@ -50,6 +50,14 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(std::string(name_of(laplacian)) + " by conjugate gradients", [&](FlowOptions& o) {
             o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
         });
+    for (const Laplacian laplacian : symmetric_laplacians) {
+        const std::string of(name_of(laplacian));
+        add(of + " conformalized, by sweeps",
+            [&](FlowOptions& o) { o.laplacian = laplacian, o.flow = FlowEquation::Conformalized; });
+        add(of + " conformalized, converged", [&](FlowOptions& o) {
+            o.laplacian = laplacian, o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3;
+        });
+    }
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
     add("chosen", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });
     add("undecomposed", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Undecomposed; });

@@ -93,6 +93,24 @@ ReferenceStiffness read_stiffness(const std::filesystem::path& path)
     return reference;
 }
 
+ReferenceFlow read_further_flow(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceFlow reference{mesh_from(data), {}, {}};
+    FlowOptions& options = reference.options;
+    options.laplacian = laplacian_named(data.at("laplacian").get<std::string>());
+    options.time_step = data.at("time_step").get<double>();
+    options.steps = static_cast<int>(data.at("positions_after_step").size());
+    options.cut.subdomains = 1;
+    if (data.at("conformalized").get<bool>())
+        options.flow = FlowEquation::Conformalized;
+    if (!data.at("attachment").is_null() || data.at("low_pass").get<bool>())
+        return reference;
+    for (const json& positions : data.at("positions_after_step"))
+        reference.positions_after_step.push_back(points_from(positions));
+    return reference;
+}
+
 ReferenceFlow read_flow(const std::filesystem::path& path)
 {
     const json data = parse(path);

@@ -56,4 +56,7 @@ struct ReferenceFlow {
 
 ReferenceFlow read_flow(const std::filesystem::path& path);
 
+/// A flow beyond the paper's (tests/data/beyond), undecomposed.
+ReferenceFlow read_further_flow(const std::filesystem::path& path);
+
 }  // namespace seamflow::test

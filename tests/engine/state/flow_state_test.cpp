@@ -173,6 +173,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
     using Change = void (*)(FlowOptions&);
     const std::pair<const char*, Change> changes[] = {
         {"laplacian", [](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; }},
+        {"flow", [](FlowOptions& o) { o.flow = FlowEquation::Conformalized; }},
         {"time_step", [](FlowOptions& o) { o.time_step = 0.5; }},
         {"subdomains", [](FlowOptions& o) { o.cut.subdomains = 3; }},
         {"labels",
