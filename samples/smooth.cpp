@@ -43,7 +43,13 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Mes
         command.options.cut.labels = read_labels(command.labels, mesh.n_faces());
     if (!command.fix.empty())
         command.options.motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+    MotionOptions& motion = command.options.motion;
+    if (!command.attach_weights.empty())
+        motion.attachment_weights =
+            read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
     try {
+        if (command.attach)
+            motion.attachment = attachment_of(*command.attach, scale);
         command.options.time_step = time_step_of(command.amount, scale, command.options.steps);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());

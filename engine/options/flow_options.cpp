@@ -112,22 +112,47 @@ void require_valid_constraints(const FlowOptions& options)
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
 }
 
+bool is_weight(double weight)
+{
+    return weight >= 0.0 && std::isfinite(weight);
+}
+
+void require_valid_attachment(const MotionOptions& motion)
+{
+    require(is_weight(motion.attachment), "attachment", motion.attachment, "at least 0 and finite (1/length²)");
+    const auto wrong = std::ranges::find_if_not(motion.attachment_weights, is_weight);
+    if (wrong != motion.attachment_weights.end())
+        throw InputError(fmt::format("the attachment weight of vertex {} is {:.17g}, but must be at least 0 and finite "
+                                     "(1/length²)",
+                                     wrong - motion.attachment_weights.begin(), *wrong));
+    if (motion.attachment > 0.0 && !motion.attachment_weights.empty())
+        throw OptionError(
+            "attachment and attachment_weights both say how vertices are attached: leave one of them out");
+}
+
+/// What the options ask for beside plain mean curvature flow.
+std::string further_flow(const FlowOptions& options)
+{
+    if (options.flow != FlowEquation::MeanCurvature)
+        return fmt::format("flow is {}", option_name(options.flow));
+    return "vertices are attached";
+}
+
 void require_valid_flow(const FlowOptions& options)
 {
+    require_valid_attachment(options.motion);
     if (is_plain_flow(options))
         return;
+    const std::string asked = further_flow(options);
     if (!is_symmetric(options.laplacian))
-        throw OptionError(fmt::format("flow is {}, but the Laplacian {} is not symmetric, and has no K to keep: use {}",
-                                      option_name(options.flow), name_of(options.laplacian),
-                                      names_of_symmetric_laplacians()));
+        throw OptionError(fmt::format("{}, but the Laplacian {} is not symmetric: use {}", asked,
+                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.scheme == Scheme::ExplicitEuler)
-        throw OptionError(fmt::format("flow is {}, which is for backward Euler steps: leave out the explicit scheme",
-                                      option_name(options.flow)));
+        throw OptionError(asked + ", which is for backward Euler steps: leave out the explicit scheme");
     if (options.accuracy.approach == Approach::ConjugateGradients)
-        throw OptionError(
-            fmt::format("approach is by conjugate gradients, which take the mean curvature flow alone, but "
-                        "flow is {}: leave the approach automatic",
-                        option_name(options.flow)));
+        throw OptionError(asked +
+                          ", but approach is by conjugate gradients, which take plain mean curvature flow alone: "
+                          "leave the approach automatic");
 }
 
 bool has_tangential_derivative(Conditions conditions)
@@ -139,7 +164,12 @@ bool has_tangential_derivative(Conditions conditions)
 
 bool is_plain_flow(const FlowOptions& options)
 {
-    return options.flow == FlowEquation::MeanCurvature;
+    return options.flow == FlowEquation::MeanCurvature && !attaches(options.motion);
+}
+
+bool attaches(const MotionOptions& motion)
+{
+    return motion.attachment > 0.0 || !motion.attachment_weights.empty();
 }
 
 bool takes_whole_mesh(Approach approach)

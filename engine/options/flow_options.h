@@ -202,6 +202,13 @@ struct MotionOptions {
     /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
     /// move. Without it such vertices are held fixed, and a remark says how many.
     bool strict = false;
+    /// w of an attachment to the first positions, in 1/length², at least 0: ∂V/∂t = -ΔV - w (V - V⁰). What is larger
+    /// than about 1/√w stays, as the flow ends at the solution of (Δ + w) V = w V⁰; 0: nothing is attached. For
+    /// symmetric Laplacians and backward Euler steps.
+    double attachment = 0.0;
+    /// The same with a w for each vertex, #V, in place of `attachment`: soft constraints, beside fixed_vertices. Empty:
+    /// there are none.
+    std::vector<double> attachment_weights = {};
     /// Scales the result of each step. The flow itself goes on unscaled, and distances to the undecomposed flow are
     /// unscaled, too. Every vertex that has faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
@@ -279,6 +286,9 @@ bool is_classical(Conditions conditions);
 /// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ. Conjugate
 /// gradients on the whole mesh are for such flows alone.
 bool is_plain_flow(const FlowOptions& options);
+
+/// Whether vertices are attached to where they are at first.
+bool attaches(const MotionOptions& motion);
 
 /// Whether steps are taken without sub-meshes.
 bool takes_whole_mesh(Approach approach);

@@ -19,7 +19,10 @@ bool predicts(const FlowOptions& options)
 
 FlowTerms terms_of(const FlowOptions& options, const Points& first)
 {
-    return {.first = &first, .keeps_stiffness = options.flow == FlowEquation::Conformalized};
+    return {.first = &first,
+            .keeps_stiffness = options.flow == FlowEquation::Conformalized,
+            .weights = options.motion.attachment_weights,
+            .uniform_weight = options.motion.attachment};
 }
 
 std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,

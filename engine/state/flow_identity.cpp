@@ -58,6 +58,15 @@ std::string text_of(const std::vector<Index>& indices)
     return indices.empty() ? std::string(none) : fmt::format("those with checksum {:x}", checksum_of(indices));
 }
 
+std::string text_of(const std::vector<double>& numbers)
+{
+    if (numbers.empty())
+        return std::string(none);
+    Checksum checksum;
+    checksum.add_numbers(std::span<const double>(numbers));
+    return fmt::format("those with checksum {:x}", checksum.value());
+}
+
 /// Of the mesh near the origin, where it flows: the same whether it has been brought there or not.
 std::string text_of(const PolygonMesh& mesh)
 {
@@ -82,7 +91,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [boundary, fixed_vertices, strict, rescale] = motion;
+    const auto& [boundary, fixed_vertices, strict, attachment, attachment_weights, rescale] = motion;
     const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
     // These do not change results, or (steps) only where they end.
@@ -113,6 +122,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"sweep", text_of(sweep)},
         {"boundary", text_of(boundary)},
         {"fixed_vertices", text_of(fixed_vertices)},
+        {"attachment", text_of(attachment)},
+        {"attachment_weights", text_of(attachment_weights)},
         {"rescale", text_of(rescale)},
         {"correction", text_of(correction)},
         {"tolerance", text_of(tolerance)},

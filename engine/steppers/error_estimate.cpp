@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
@@ -49,8 +50,22 @@ ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMe
         array->setZero(equation_.size(), 3);
     if (options.flow == FlowEquation::Conformalized)
         first_ = mesh.vertices;
+    attach(terms_of(options, mesh.vertices));
     if (laplacian_ == Laplacian::PtackovaVelho && equation_.size() > 0)
         solved_ = mesh.vertices;
+}
+
+void ErrorEstimate::attach(const FlowTerms& terms)
+{
+    if (!terms.attaches())
+        return;
+    std::vector<Index> global;
+    for (Index s = 0; s < static_cast<Index>(decomposition_->sub_meshes.size()); ++s)
+        for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i)
+            global.push_back(decomposition_->sub_meshes[s].local_to_global[equation_.local_vertex(i)]);
+    attached_to_ = rows_of(*terms.first, global);
+    for (const Index v : global)
+        attached_.push_back(time_step_ * terms.weight(v));
 }
 
 /// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
@@ -86,6 +101,8 @@ void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWo
     Stopwatch watch;
     const Points& after = joined(states, s, workspace.other_side);
     equation_.assemble(s, state.position, after, stiffness_at(state, workspace.positions), time_step_);
+    for (Index i = equation_.first(s); !attached_.empty() && i < equation_.first(s + 1); ++i)
+        equation_.attach(i, attached_[i], after.row(equation_.local_vertex(i)) - attached_to_.row(i));
     if (solved_.rows() > 0)
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
             if (state.sub_mesh->owned[v] != 0)

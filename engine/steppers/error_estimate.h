@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/options/flow_options.h"
 #include "engine/state/flow_state.h"
@@ -51,6 +52,7 @@ class ErrorEstimate {
   private:
     [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
     [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
+    void attach(const FlowTerms& terms);
     void carry_over();
 
     const Decomposition* decomposition_;
@@ -60,6 +62,9 @@ class ErrorEstimate {
     double time_step_;
     /// #V by 3: V⁰, where K is kept.
     Points first_;
+    /// With an attachment, #Γ: dt w; and #Γ by 3: V⁰.
+    std::vector<double> attached_;
+    Points attached_to_;
     /// Whether every sub-mesh has a copy of Γ of its own.
     bool has_copies_;
     ErrorEquation equation_;

@@ -75,6 +75,17 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--fix-property", command.fix_property, "the name of that property [fixed]")
         ->needs(fix)
         ->type_name("NAME");
+    auto* attach = add_length(app, "--attach", command.attach,
+                              "pull every vertex back to where it was: what is larger than this stays; in units of "
+                              "length, or in % of the bounding box's diagonal");
+    auto* weights = app.add_option("--attach-weights", command.attach_weights,
+                                   "how strongly each vertex is pulled back, in 1/length²: a number a line, or a .ply "
+                                   "with as many vertices and a property that says it")
+                        ->excludes(attach)
+                        ->type_name("FILE");
+    app.add_option("--attach-property", command.attach_property, "the name of that property [weight]")
+        ->needs(weights)
+        ->type_name("NAME");
     app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or have edges or faces of size 0 where the Laplacian divides, "
                  "instead of holding "
@@ -218,6 +229,9 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
             throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
     if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
         throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
+    if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
+        throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
+                          " has a number a line");
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
@@ -275,8 +289,8 @@ void require_usable_files(const SmoothCommand& command)
         if (!path.empty())
             results.push_back(path);
     require_files(results);
-    require_files({command.labels, command.fix});
-    for (const auto& input : {command.input, command.labels, command.fix}) {
+    require_files({command.labels, command.fix, command.attach_weights});
+    for (const auto& input : {command.input, command.labels, command.fix, command.attach_weights}) {
         std::vector<std::filesystem::path> files = results;
         if (!input.empty())
             files.push_back(input);

@@ -44,6 +44,16 @@ class ErrorEquation {
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Loop& loop);
 
+    /// Adds what attaches a vertex to V⁰.
+    /// @param weight dt w. @param distance of Vᵏ⁺¹ from V⁰, as solved.
+    void attach(Index i, double weight, const Point& distance)
+    {
+        const double entry = weight * rows_.mass[i];
+        rows_.diagonal[i] += entry;
+        rows_.row_sum[i] += entry;
+        iteration_.residual.row(i) += entry * distance;
+    }
+
     /// Adds to the right-hand side what makes the step spread a displacement of single vertices of Γ.
     void add_displacement(Index i, const Point& d) { iteration_.residual.row(i) += rows_.mass[i] * d; }
 

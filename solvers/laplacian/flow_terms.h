@@ -13,6 +13,13 @@ struct FlowTerms {
     const Points* first = nullptr;
     /// Whether K is that of V⁰ in all steps: the conformalized flow (Kazhdan, Solomon, Ben-Chen 2012).
     bool keeps_stiffness = false;
+    /// w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: that of each vertex (#V),
+    /// or, where there are none, of all.
+    std::span<const double> weights = {};
+    double uniform_weight = 0.0;
+
+    [[nodiscard]] bool attaches() const { return !weights.empty() || uniform_weight > 0.0; }
+    [[nodiscard]] double weight(Index v) const { return weights.empty() ? uniform_weight : weights[v]; }
 };
 
 /// The rows of some vertices.

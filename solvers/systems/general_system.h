@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solvers/systems/attachment.h"
 #include "solvers/systems/lu_matrix.h"
 #include "solvers/systems/sub_mesh_system.h"
 
@@ -36,6 +37,7 @@ class GeneralSystem final : public SubMeshSystem {
 
     void make_rows();
     void assemble_interface(const Points& positions, const Points& other_side);
+    [[nodiscard]] Point pull(Index v) const;
     void solve_with(const Factor& factor, const Points& given, Points& solution, SolverWorkspace& workspace);
 
     const SubMesh* sub_mesh_;
@@ -48,6 +50,9 @@ class GeneralSystem final : public SubMeshSystem {
     std::vector<Index> interface_slots_;
     std::vector<InterfaceRole> roles_;
     std::vector<double> row_;
+    Attachment attachment_;
+    /// dt of this step.
+    double time_step_ = 0.0;
     Columns right_hand_side_;
     Columns solution_;
 };

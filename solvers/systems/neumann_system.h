@@ -17,11 +17,11 @@
 
 namespace seamflow {
 
-/// A sub-mesh's share A = M + dt K of the whole backward Euler system, assembled from its own faces alone: summed over
-/// the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ given, and
-/// its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what X leaves
-/// of the equations is measured in double precision, a factor may be in single precision. For symmetric Laplacians. One
-/// thread at a time.
+/// A sub-mesh's share A = M + dt K + dt M w of the whole backward Euler system, assembled from its own faces alone:
+/// summed over the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ
+/// given, and its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what
+/// X leaves of the equations is measured in double precision, a factor may be in single precision. For symmetric
+/// Laplacians. One thread at a time.
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
@@ -55,7 +55,7 @@ class NeumannSystem {
     struct Assembled {
         /// A.
         std::span<const double> matrix;
-        /// #local by 3: -dt K Vᵏ - A X at the unknowns.
+        /// #local by 3: -dt K Vᵏ - dt M w (Vᵏ - V⁰) - A X at the unknowns.
         const Points& residual;
         /// A power of two near √dt: in this unit of length single precision has room for corrections.
         double unit = 1.0;

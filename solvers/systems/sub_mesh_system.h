@@ -20,6 +20,7 @@ namespace seamflow {
 ///   Γ, leading           the transmission condition
 ///   all others           (I + dt Δ) V^{k+1} = V^k, Δ from the sub-mesh's own faces
 ///
+/// The last two have dt w more on the diagonal and dt w V⁰ more on the right-hand side where FlowTerms attach to V⁰.
 /// They are analysed once; each step fills in their values anew. The workspace may be another one in each call.
 /// Different systems may be used by different threads at the same time, each with a workspace of its own.
 class SubMeshSystem {

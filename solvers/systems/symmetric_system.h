@@ -90,6 +90,8 @@ class SymmetricSystem final : public SubMeshSystem {
     std::vector<Coupling> held_;
     /// Per unknown.
     std::vector<double> mass_;
+    /// dt of this step.
+    double time_step_ = 0.0;
 };
 
 }  // namespace seamflow

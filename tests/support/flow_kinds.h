@@ -57,6 +57,11 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(of + " conformalized, converged", [&](FlowOptions& o) {
             o.laplacian = laplacian, o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3;
         });
+        add(of + " attached, by sweeps",
+            [&](FlowOptions& o) { o.laplacian = laplacian, o.motion.attachment = 0.1 / (edge * edge); });
+        add(of + " attached, converged", [&](FlowOptions& o) {
+            o.laplacian = laplacian, o.motion.attachment = 0.1 / (edge * edge), o.accuracy.tolerance = 1e-3;
+        });
     }
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
     add("chosen", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });

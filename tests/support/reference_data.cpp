@@ -104,7 +104,9 @@ ReferenceFlow read_further_flow(const std::filesystem::path& path)
     options.cut.subdomains = 1;
     if (data.at("conformalized").get<bool>())
         options.flow = FlowEquation::Conformalized;
-    if (!data.at("attachment").is_null() || data.at("low_pass").get<bool>())
+    if (!data.at("attachment").is_null())
+        options.motion.attachment_weights = data.at("attachment").get<std::vector<double>>();
+    if (data.at("low_pass").get<bool>())
         return reference;
     for (const json& positions : data.at("positions_after_step"))
         reference.positions_after_step.push_back(points_from(positions));
