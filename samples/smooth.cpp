@@ -150,7 +150,9 @@ ExitStatus smooth(int argc, char** argv)
     RunRecord run{.input = command.input.string(),
                   .output = command.output.string(),
                   .arguments = command.arguments,
-                  .laplacian = std::string(name_of(command.options.laplacian))};
+                  .laplacian = std::string(name_of(command.options.laplacian)),
+                  .flow = command.options.flow,
+                  .filter = command.options.filter};
 
     const Stopwatch reading;
     Workers workers(command.options.resources.threads);
@@ -158,6 +160,10 @@ ExitStatus smooth(int argc, char** argv)
     MeshFile file = read_mesh(command.input, loop);
     run.scale = measure_scale(file.mesh, loop);
     complete_options(command, file.mesh, run.scale);
+    const MotionOptions& motion = command.options.motion;
+    if (motion.attachment > 0.0)
+        run.attachment = motion.attachment;
+    run.has_attachment_weights = !motion.attachment_weights.empty();
     run.read_seconds = reading.seconds();
     print_input(out, run, file.mesh);
     print_amount(out, run.scale, command.options);

@@ -135,7 +135,8 @@ std::string further_flow(const FlowOptions& options)
 {
     if (options.flow != FlowEquation::MeanCurvature)
         return fmt::format("flow is {}", option_name(options.flow));
-    return "vertices are attached";
+    return options.filter != Filter::Diffusion ? fmt::format("filter is {}", option_name(options.filter))
+                                               : "vertices are attached";
 }
 
 void require_valid_flow(const FlowOptions& options)
@@ -153,6 +154,9 @@ void require_valid_flow(const FlowOptions& options)
         throw OptionError(asked +
                           ", but approach is by conjugate gradients, which take plain mean curvature flow alone: "
                           "leave the approach automatic");
+    if (options.filter == Filter::LowPass && !predicts(options))
+        throw OptionError("filter is low-pass, which sweeps take with adapted Robin conditions and predicted "
+                          "transmission alone: leave out other conditions, the derivatives, and p");
 }
 
 bool has_tangential_derivative(Conditions conditions)
@@ -162,9 +166,17 @@ bool has_tangential_derivative(Conditions conditions)
 
 }  // namespace
 
+bool predicts(const FlowOptions& options)
+{
+    return options.interface.conditions == Conditions::AdaptedRobin &&
+           options.interface.transmission == Transmission::Predicted && !options.interface.p &&
+           options.interface.p_rule == PRule::Paper && options.interface.p_edge == PEdge::Automatic;
+}
+
 bool is_plain_flow(const FlowOptions& options)
 {
-    return options.flow == FlowEquation::MeanCurvature && !attaches(options.motion);
+    return options.flow == FlowEquation::MeanCurvature && options.filter == Filter::Diffusion &&
+           !attaches(options.motion);
 }
 
 bool attaches(const MotionOptions& motion)

@@ -57,6 +57,17 @@ enum class FlowEquation {
     Conformalized,
 };
 
+/// What becomes of the solution of a step.
+enum class Filter {
+    /// Vᵏ⁺¹ = S Vᵏ, S being what a step does to positions. Everything shrinks a little.
+    Diffusion,
+    /// Vᵏ⁺¹ = S Vᵏ + S̃ (Vᵏ - S Vᵏ), with S̃ the same without what pulls back to V⁰, and with 0 where vertices are held:
+    /// of λ, dt times an eigenvalue of Δ, (1 + 2λ) / (1 + λ)² is left instead of 1 / (1 + λ). What is large shrinks to
+    /// second order only. One factorisation, two solutions. For symmetric Laplacians and backward Euler steps; sweeps
+    /// take it with predicted transmission alone, and keep all factors.
+    LowPass,
+};
+
 /// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
 enum class PRule {
     /// η = 1, the paper's (which makes p* depend on the unit of length).
@@ -261,6 +272,7 @@ struct FlowOptions {
     Laplacian laplacian = Laplacian::Fujiwara;
     /// Whether the Laplacian's K follows the surface.
     FlowEquation flow = FlowEquation::MeanCurvature;
+    Filter filter = Filter::Diffusion;
     /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
     /// positive and finite.
     double time_step = 0.0;
@@ -286,6 +298,9 @@ bool is_classical(Conditions conditions);
 /// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ. Conjugate
 /// gradients on the whole mesh are for such flows alone.
 bool is_plain_flow(const FlowOptions& options);
+
+/// Whether sub-meshes tell each other in a sweep what they would do.
+bool predicts(const FlowOptions& options);
 
 /// Whether vertices are attached to where they are at first.
 bool attaches(const MotionOptions& motion);

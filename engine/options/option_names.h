@@ -38,6 +38,11 @@ struct OptionNames<FlowEquation> {
 };
 
 template <>
+struct OptionNames<Filter> {
+    static constexpr NamedOption<Filter> list[]{{"diffusion", Filter::Diffusion}, {"low-pass", Filter::LowPass}};
+};
+
+template <>
 struct OptionNames<Scheme> {
     static constexpr NamedOption<Scheme> list[]{{"implicit", Scheme::BackwardEuler},
                                                 {"explicit", Scheme::ExplicitEuler}};

@@ -10,13 +10,6 @@
 
 namespace seamflow {
 
-bool predicts(const FlowOptions& options)
-{
-    return options.interface.conditions == Conditions::AdaptedRobin &&
-           options.interface.transmission == Transmission::Predicted && !options.interface.p &&
-           options.interface.p_rule == PRule::Paper && options.interface.p_edge == PEdge::Automatic;
-}
-
 FlowTerms terms_of(const FlowOptions& options, const Points& first)
 {
     return {.first = &first,

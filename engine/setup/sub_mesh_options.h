@@ -11,9 +11,6 @@
 /// What the options of a flow mean for its sub-meshes.
 namespace seamflow {
 
-/// Whether sub-meshes tell each other what they would do.
-bool predicts(const FlowOptions& options);
-
 /// What the equations of the flow have beside Vᵏ.
 /// @param first #V by 3: V⁰. It and the options must outlive the result.
 FlowTerms terms_of(const FlowOptions& options, const Points& first);

@@ -86,8 +86,8 @@ std::string text_of(const PolygonMesh& mesh)
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, flow, time_step, steps, scheme, cut, interface, accuracy, motion, resources, report] =
-        options;
+    const auto& [laplacian, flow, filter, time_step, steps, scheme, cut, interface, accuracy, motion, resources,
+                 report] = options;
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -107,6 +107,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"mesh", text_of(mesh)},
         {"laplacian", text_of(laplacian)},
         {"flow", text_of(flow)},
+        {"filter", text_of(filter)},
         {"time_step", text_of(time_step)},
         {"subdomains", text_of(subdomains)},
         {"labels", text_of(labels)},

@@ -115,7 +115,7 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     const SubMeshState& state = states[s];
     for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i) {
         const Index v = equation_.local_vertex(i);
-        correction_.row(i) = state.position.row(v) - state.solved.row(v);
+        correction_.row(i) = state.position.row(v) - state.result().row(v);
     }
 }
 

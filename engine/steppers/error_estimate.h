@@ -19,6 +19,8 @@ namespace seamflow {
 /// adds its own displacement, which is known. Steps add up as vectors on Γ: the flow carries tangential differences
 /// along and smooths normal ones. Away from Γ the error of a step dies away, so that Γ has the largest.
 ///
+/// With a low-pass filter it is that of the first solution, and of the correction.
+///
 /// Belongs to the arena in which it is used. The bits do not depend on the number of threads, and steps allocate
 /// nothing, but for a mean of copies with the classical conditions.
 class ErrorEstimate {

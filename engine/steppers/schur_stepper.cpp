@@ -157,7 +157,11 @@ NeumannSystem::Assembled SchurStepper::assemble(Index s, SolverWorkspace& worksp
 {
     const OwnVertices& sub_mesh = parts_[s].sub_mesh;
     const Points& positions = localised(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
-    return parts_[s].system->assemble(positions, workspace.increments, time_step_, workspace);
+    const NeumannSystem& system = *parts_[s].system;
+    if (!is_second_)
+        return system.assemble(positions, workspace.increments, time_step_, workspace);
+    const Points& data = localised_data(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
+    return system.assemble(positions, workspace.increments, data, time_step_, workspace);
 }
 
 NeumannSystem::Factor SchurStepper::factorise_and_condense(Index s, SolverWorkspace& workspace)
@@ -188,6 +192,18 @@ void SchurStepper::condense_with(Index s, const NeumannSystem::Assembled& equati
                           interface_.condensed.middleRows(equation_.copies().first[s], part.system->n_interface()));
 }
 
+/// From increments of 0 on.
+/// @param workspace receives them.
+void SchurStepper::begin_increments(Index s, SolverWorkspace& workspace)
+{
+    const Part& part = parts_[s];
+    const std::vector<Index>& vertices = part.system->unknowns();
+    for (Index u = 0; u < part.system->n_interior(); ++u)
+        positions_.row(part.sub_mesh.local_to_global[vertices[u]]).setZero();
+    set_rows(workspace.increments, part.sub_mesh.n_vertices);
+    workspace.increments.setZero();
+}
+
 /// From Vᵏ⁺¹ = Vᵏ on.
 void SchurStepper::condense_in(Index s, Precision precision)
 {
@@ -195,19 +211,32 @@ void SchurStepper::condense_in(Index s, Precision precision)
     SolverWorkspace& workspace = workspaces_.local();
     part.factor.reset();
     part.precision = precision;
-    const std::vector<Index>& vertices = part.system->unknowns();
-    for (Index u = 0; u < part.system->n_interior(); ++u)
-        positions_.row(part.sub_mesh.local_to_global[vertices[u]]).setZero();
-    set_rows(workspace.increments, part.sub_mesh.n_vertices);
-    workspace.increments.setZero();
+    begin_increments(s, workspace);
     NeumannSystem::Factor factor = factorise_and_condense(s, workspace);
     part.system->take_schur_complement(factor, workspace.ldl, interface_.complements[s]);
     if (is_kept(s))
         part.factor = std::move(factor);
 }
 
+/// With the factor of the first solution of the step, or the same made again.
+void SchurStepper::condense_second(Index s)
+{
+    Part& part = parts_[s];
+    SolverWorkspace& workspace = workspaces_.local();
+    begin_increments(s, workspace);
+    if (part.factor) {
+        Stopwatch watch;
+        condense_with(s, assemble(s, workspace), *part.factor);
+        seconds_[s].solve += watch.lap();
+    } else {
+        factorise_and_condense(s, workspace);
+    }
+}
+
 void SchurStepper::condense(Index s)
 {
+    if (is_second_)
+        return condense_second(s);
     // Without Γ there is no iteration: one solution is exact.
     const bool is_exact = factors_.precision == Precision::Automatic && parts_[s].system->n_interface() == 0;
     condense_in(s, is_exact ? Precision::Double : factors_.precision);
@@ -341,9 +370,12 @@ void SchurStepper::back_substitute(Index s)
     Stopwatch watch;
     substitute(s, factor, interface_.update, workspace);
     const std::vector<Index>& global = part.sub_mesh.local_to_global;
+    const Points& base = is_second_ ? first_ : *before_;
     for (const Index v : part.system->unknowns())
         if (part.sub_mesh.owned[v] != 0)
-            positions_.row(global[v]) = before_->row(global[v]) + workspace.increments.row(v);
+            positions_.row(global[v]) = base.row(global[v]) + workspace.increments.row(v);
+    if (is_low_pass_ && !is_second_ && is_kept(s))
+        part.factor = std::move(factor);
     seconds_[s].solve += watch.lap();
 }
 

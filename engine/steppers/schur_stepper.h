@@ -97,7 +97,9 @@ class SchurStepper final : public ConvergedStepper {
     void condense_with(Index s, const NeumannSystem::Assembled& equations, NeumannSystem::Factor& factor);
     NeumannSystem::Factor take_factor(Index s, SolverWorkspace& workspace);
     void substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace);
+    void begin_increments(Index s, SolverWorkspace& workspace);
     void condense(Index s);
+    void condense_second(Index s);
     void condense_in(Index s, Precision precision);
     void refine(Index s, const Points& update);
     [[nodiscard]] bool has_single() const;

@@ -65,6 +65,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice(app, "--flow", options.flow,
                "conformalized: the weights of the Laplacian stay those of the input; necks do not pinch, and closed "
                "surfaces without handles go to a sphere [mean-curvature]");
+    add_choice(app, "--filter", options.filter,
+               "low-pass: what is large hardly shrinks; takes two solutions a step [diffusion]");
     add_amount(app, command.amount);
     add_choice(app, "--boundary", options.motion.boundary,
                "whether the rims of an open surface stay where they are or draw in freely [fixed]");

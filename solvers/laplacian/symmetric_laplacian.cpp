@@ -23,11 +23,17 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
     const Points& x = product->increments;
     Points& result = product->result;
     result.setZero();
-    assemble_with([&](Index v, Index w, double entry, const Point& difference) {
-        const Point change = entry * (difference + (x.row(w) - x.row(v)));
-        result.row(v) += change;
-        result.row(w) -= change;
-    });
+    const auto add_with = [&](auto&& vector_of) {
+        assemble_with([&](Index v, Index w, double entry, const Point& difference) {
+            const Point change = entry * vector_of(difference, x.row(w) - x.row(v));
+            result.row(v) += change;
+            result.row(w) -= change;
+        });
+    };
+    if (product->of_increments_alone)
+        add_with([](const Point&, const Point& increment) -> Point { return increment; });
+    else
+        add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
 /// K from edges. Half of an edge on the boundary counts, as one of its two half-edges does.

@@ -22,9 +22,10 @@ struct VertexPair {
 struct StiffnessProduct {
     /// #V by 3: X.
     const Points& increments;
-    /// #V by 3: receives factor · K (V + X). The rows of K add up to zero: it is made of differences, and has no
-    /// rounding error of the size of V.
+    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K add up to zero: it is made of differences,
+    /// and has no rounding error of the size of V.
     Points& result;
+    bool of_increments_alone = false;
 };
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖

@@ -60,6 +60,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
                                                  double p, std::span<const InterfaceRole> roles, SolverWorkspace&)
 {
     time_step_ = time_step;
+    pulls_ = attachment_.exists();
     roles_.assign(roles.begin(), roles.end());
     const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
@@ -79,7 +80,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
 /// dt w V⁰: what the attachment adds to the right-hand side.
 Point GeneralSystem::pull(Index v) const
 {
-    return attachment_.exists() ? Point(time_step_ * attachment_.weight(v) * attachment_.first.row(v)) : Point::Zero();
+    return pulls_ ? Point(time_step_ * attachment_.weight(v) * attachment_.first.row(v)) : Point::Zero();
 }
 
 void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)
@@ -104,6 +105,13 @@ SubMeshSystem::Factor GeneralSystem::factorise(const Assembled& equations, Facto
                                                SolverWorkspace& workspace)
 {
     return *matrix_->factorise(equations.matrix, memory, workspace);
+}
+
+void GeneralSystem::use_data(const Points& data)
+{
+    pulls_ = false;
+    right_hand_side_ = data.topRows(sub_mesh_->n_vertices);
+    use_other_side(data, data);
 }
 
 void GeneralSystem::use_other_side(const Points& positions, const Points& other_side)

@@ -26,6 +26,7 @@ class GeneralSystem final : public SubMeshSystem {
     [[nodiscard]] Factorisation factorisation() const override { return matrix_->solver()->kind(); }
     Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace) override;
     [[nodiscard]] Index n_nearly_singular() const override { return matrix_->n_nearly_singular(); }
+    void use_data(const Points& data) override;
     void predict(const Factor& factor, const Points& positions, Points& prediction,
                  SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
@@ -53,6 +54,8 @@ class GeneralSystem final : public SubMeshSystem {
     Attachment attachment_;
     /// dt of this step.
     double time_step_ = 0.0;
+    /// Whether the right-hand side has what attaches to V⁰.
+    bool pulls_ = false;
     Columns right_hand_side_;
     Columns solution_;
 };

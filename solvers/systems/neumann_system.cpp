@@ -86,6 +86,20 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 
+NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const Points& increments, const Points& data,
+                                                 double time_step, SolverWorkspace& workspace) const
+{
+    Points& residual = workspace.residual;
+    set_rows(residual, matrix_.n_vertices);
+    const StiffnessProduct product{increments, residual, true};
+    const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
+    for (const Index v : matrix_.vertex_of)
+        residual.row(v) =
+            -residual.row(v) -
+            workspace.mass[v] * ((1.0 + time_step * matrix_.attachment.weight(v)) * increments.row(v) - data.row(v));
+    return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
+}
+
 std::optional<NeumannSystem::Factor> NeumannSystem::factorise(const Assembled& equations, Precision precision,
                                                               FactorMemory& memory, LdlWorkspace& workspace) const
 {

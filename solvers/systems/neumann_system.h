@@ -67,6 +67,11 @@ class NeumannSystem {
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
                                      SolverWorkspace& workspace) const;
 
+    /// The equations for what the step makes of D, A X = M D, without what attaches to V⁰.
+    /// @param data #own by 3: D. The residual is M D - A X.
+    [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, const Points& data,
+                                     double time_step, SolverWorkspace& workspace) const;
+
     /// @param precision Automatic: single precision.
     /// @param memory must outlive the factor, as must the system.
     /// @returns nothing where the precision is Automatic, and single precision would lose too many digits.

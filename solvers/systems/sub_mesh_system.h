@@ -58,6 +58,11 @@ class SubMeshSystem {
     /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
     [[nodiscard]] virtual Index n_nearly_singular() const { return 0; }
 
+    /// Puts D in the place of Vᵏ on the right-hand side, without what attaches to V⁰: what is solved for from here on,
+    /// with the same factor, is what the step makes of D. The functions below then get D where they say Vᵏ.
+    /// @param data #local by 3: D, which is 0 at fixed vertices.
+    virtual void use_data(const Points& data) = 0;
+
     /// Solves with Γ held at Vᵏ where the sub-mesh follows: what it would do if nobody around moved.
     /// @param positions #local by 3: Vᵏ.
     /// @param prediction #local by 3; receives the result at own vertices.

@@ -150,6 +150,7 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
     for (std::size_t u = 0; u < mass_.size(); ++u)
         mass_[u] = workspace.mass[matrix_.vertex_of[u]];
     time_step_ = time_step;
+    pulls_ = matrix_.attachment.exists();
 
     held_.clear();
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -218,6 +219,12 @@ void SymmetricSystem::drop_responses(std::span<double> values)
     }
 }
 
+void SymmetricSystem::use_data(const Points& data)
+{
+    pulls_ = false;
+    use_other_side(data, data);
+}
+
 void SymmetricSystem::predict(const Factor& factor, const Points& positions, Points& prediction,
                               SolverWorkspace& workspace)
 {
@@ -247,7 +254,7 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
     for (Index u = 0; u < matrix_.n(); ++u)
         right.row(u) = mass_[u] * positions.row(matrix_.vertex_of[u]);
     const Attachment& attachment = matrix_.attachment;
-    for (Index u = 0; attachment.exists() && u < matrix_.n(); ++u) {
+    for (Index u = 0; pulls_ && u < matrix_.n(); ++u) {
         const Index v = matrix_.vertex_of[u];
         right.row(u) += mass_[u] * time_step_ * attachment.weight(v) * attachment.first.row(v);
     }

@@ -57,6 +57,9 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(of + " conformalized, converged", [&](FlowOptions& o) {
             o.laplacian = laplacian, o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3;
         });
+        add(of + " low-pass, by sweeps", [&](FlowOptions& o) { o.laplacian = laplacian, o.filter = Filter::LowPass; });
+        add(of + " low-pass, converged",
+            [&](FlowOptions& o) { o.laplacian = laplacian, o.filter = Filter::LowPass, o.accuracy.tolerance = 1e-3; });
         add(of + " attached, by sweeps",
             [&](FlowOptions& o) { o.laplacian = laplacian, o.motion.attachment = 0.1 / (edge * edge); });
         add(of + " attached, converged", [&](FlowOptions& o) {

@@ -107,7 +107,7 @@ ReferenceFlow read_further_flow(const std::filesystem::path& path)
     if (!data.at("attachment").is_null())
         options.motion.attachment_weights = data.at("attachment").get<std::vector<double>>();
     if (data.at("low_pass").get<bool>())
-        return reference;
+        options.filter = Filter::LowPass;
     for (const json& positions : data.at("positions_after_step"))
         reference.positions_after_step.push_back(points_from(positions));
     return reference;

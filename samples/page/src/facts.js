@@ -29,6 +29,10 @@ export function summary(mesh, report) {
     return [
         `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
         `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
+        ...(report.flow === "conformalized" ? ["conformalized"] : []),
+        ...(report.filter === "low-pass" ? ["low-pass"] : []),
+        ...(report.attachment ? [`attached, ${digits(report.attachment)} / length²`] : []),
+        ...(report.attachment_weights ? ["attached by weights"] : []),
         `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`,
         report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colours > 1 ? ` in ${report.colours} colours` : ""}` : "undecomposed",
     ].join(" · ");
