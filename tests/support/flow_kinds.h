@@ -50,20 +50,20 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(std::string(name_of(laplacian)) + " by conjugate gradients", [&](FlowOptions& o) {
             o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
         });
-    for (const Laplacian laplacian : symmetric_laplacians) {
-        const std::string of(name_of(laplacian));
-        add(of + " conformalized, by sweeps",
-            [&](FlowOptions& o) { o.laplacian = laplacian, o.flow = FlowEquation::Conformalized; });
-        add(of + " conformalized, converged", [&](FlowOptions& o) {
-            o.laplacian = laplacian, o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3;
+    for (const bool is_converged : {false, true}) {
+        const auto add_further = [&](const std::string& name, auto change) {
+            add(name + (is_converged ? ", converged" : ", by sweeps"), [&](FlowOptions& o) {
+                change(o);
+                if (is_converged)
+                    o.accuracy.tolerance = 1e-3;
+            });
+        };
+        add_further("conformalized", [](FlowOptions& o) {
+            o.laplacian = Laplacian::VirtualRefinement, o.flow = FlowEquation::Conformalized;
         });
-        add(of + " low-pass, by sweeps", [&](FlowOptions& o) { o.laplacian = laplacian, o.filter = Filter::LowPass; });
-        add(of + " low-pass, converged",
-            [&](FlowOptions& o) { o.laplacian = laplacian, o.filter = Filter::LowPass, o.accuracy.tolerance = 1e-3; });
-        add(of + " attached, by sweeps",
-            [&](FlowOptions& o) { o.laplacian = laplacian, o.motion.attachment = 0.1 / (edge * edge); });
-        add(of + " attached, converged", [&](FlowOptions& o) {
-            o.laplacian = laplacian, o.motion.attachment = 0.1 / (edge * edge), o.accuracy.tolerance = 1e-3;
+        add_further("low-pass", [](FlowOptions& o) { o.filter = Filter::LowPass; });
+        add_further("attached", [&](FlowOptions& o) {
+            o.laplacian = Laplacian::AlexaWardetzky, o.motion.attachment = 0.1 / (edge * edge);
         });
     }
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });

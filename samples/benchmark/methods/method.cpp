@@ -21,8 +21,6 @@ std::string why_not(Method method, Laplacian laplacian)
     const bool needs_symmetry = method == Method::Cholmod || method == Method::Amg || method == Method::OurCg;
     if (laplacian == Laplacian::PtackovaVelho && needs_symmetry)
         return "left out: Ptáčková-Velho is not symmetric";
-    if (laplacian == Laplacian::VirtualRefinement && method == Method::OurCg)
-        return "left out: it has the formulas of Fujiwara and Alexa-Wardetzky alone";
     return {};
 }
 
