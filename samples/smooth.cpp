@@ -43,7 +43,13 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Mes
         command.options.cut.labels = read_labels(command.labels, mesh.n_faces());
     if (!command.fix.empty())
         command.options.motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+    MotionOptions& motion = command.options.motion;
+    if (!command.attach_weights.empty())
+        motion.attachment_weights =
+            read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
     try {
+        if (command.attach)
+            motion.attachment = attachment_of(*command.attach, scale);
         command.options.time_step = time_step_of(command.amount, scale, command.options.steps);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
@@ -144,7 +150,9 @@ ExitStatus smooth(int argc, char** argv)
     RunRecord run{.input = command.input.string(),
                   .output = command.output.string(),
                   .arguments = command.arguments,
-                  .laplacian = std::string(name_of(command.options.laplacian))};
+                  .laplacian = std::string(name_of(command.options.laplacian)),
+                  .flow = command.options.flow,
+                  .filter = command.options.filter};
 
     const Stopwatch reading;
     Workers workers(command.options.resources.threads);
@@ -152,6 +160,10 @@ ExitStatus smooth(int argc, char** argv)
     MeshFile file = read_mesh(command.input, loop);
     run.scale = measure_scale(file.mesh, loop);
     complete_options(command, file.mesh, run.scale);
+    const MotionOptions& motion = command.options.motion;
+    if (motion.attachment > 0.0)
+        run.attachment = motion.attachment;
+    run.has_attachment_weights = !motion.attachment_weights.empty();
     run.read_seconds = reading.seconds();
     print_input(out, run, file.mesh);
     print_amount(out, run.scale, command.options);

@@ -74,8 +74,8 @@ void require_valid_factorisation(const FlowOptions& options)
     if (is_foreign(options.resources.factorisation) && is_symmetric(options.laplacian) &&
         (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
         throw OptionError(
-            "factorisation is that of another library, but converged steps of the Laplacians fujiwara and "
-            "alexa-wardetzky need the Schur complements that the library's own gives: take sweeps "
+            "factorisation is that of another library, but converged steps of symmetric Laplacians need the "
+            "Schur complements that the library's own gives: take sweeps "
             "(Approach::Sweep, --converge never), or leave the factorisation automatic");
 }
 
@@ -91,8 +91,9 @@ void require_valid_approach(const FlowOptions& options)
     if (options.accuracy.approach == Approach::Undecomposed)
         return;
     if (!is_symmetric(options.laplacian))
-        throw OptionError("approach is by conjugate gradients, but the Laplacian ptackova-velho is not symmetric: use "
-                          "fujiwara or alexa-wardetzky, or leave the approach automatic");
+        throw OptionError(fmt::format("approach is by conjugate gradients, but the Laplacian {} is not symmetric: use "
+                                      "{}, or leave the approach automatic",
+                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic ||
         options.resources.precision != Precision::Automatic)
         throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit, "
@@ -101,14 +102,61 @@ void require_valid_approach(const FlowOptions& options)
 
 void require_valid_constraints(const FlowOptions& options)
 {
-    if (options.motion.boundary == Boundary::Free && options.laplacian == Laplacian::PtackovaVelho)
-        throw OptionError("boundary is free, but the Laplacian ptackova-velho has no natural boundary conditions (its "
-                          "rows there are one-sided and unstable): use fujiwara or alexa-wardetzky, or leave the "
-                          "boundary fixed");
+    if (options.motion.boundary == Boundary::Free && !is_symmetric(options.laplacian))
+        throw OptionError(fmt::format("boundary is free, but the Laplacian {} has no natural boundary conditions (its "
+                                      "rows there are one-sided and unstable): use {}, or leave the boundary fixed",
+                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
         throw OptionError("rescale is for results whose sub-meshes are joined; keep_gaps leaves them separate");
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
+}
+
+bool is_weight(double weight)
+{
+    return weight >= 0.0 && std::isfinite(weight);
+}
+
+void require_valid_attachment(const MotionOptions& motion)
+{
+    require(is_weight(motion.attachment), "attachment", motion.attachment, "at least 0 and finite (1/length²)");
+    const auto wrong = std::ranges::find_if_not(motion.attachment_weights, is_weight);
+    if (wrong != motion.attachment_weights.end())
+        throw InputError(fmt::format("the attachment weight of vertex {} is {:.17g}, but must be at least 0 and finite "
+                                     "(1/length²)",
+                                     wrong - motion.attachment_weights.begin(), *wrong));
+    if (motion.attachment > 0.0 && !motion.attachment_weights.empty())
+        throw OptionError(
+            "attachment and attachment_weights both say how vertices are attached: leave one of them out");
+}
+
+/// What the options ask for beside plain mean curvature flow.
+std::string further_flow(const FlowOptions& options)
+{
+    if (options.flow != FlowEquation::MeanCurvature)
+        return fmt::format("flow is {}", option_name(options.flow));
+    return options.filter != Filter::Diffusion ? fmt::format("filter is {}", option_name(options.filter))
+                                               : "vertices are attached";
+}
+
+void require_valid_flow(const FlowOptions& options)
+{
+    require_valid_attachment(options.motion);
+    if (is_plain_flow(options))
+        return;
+    const std::string asked = further_flow(options);
+    if (!is_symmetric(options.laplacian))
+        throw OptionError(fmt::format("{}, but the Laplacian {} is not symmetric: use {}", asked,
+                                      name_of(options.laplacian), names_of_symmetric_laplacians()));
+    if (options.scheme == Scheme::ExplicitEuler)
+        throw OptionError(asked + ", which is for backward Euler steps: leave out the explicit scheme");
+    if (options.accuracy.approach == Approach::ConjugateGradients)
+        throw OptionError(asked +
+                          ", but approach is by conjugate gradients, which take plain mean curvature flow alone: "
+                          "leave the approach automatic");
+    if (options.filter == Filter::LowPass && !predicts(options))
+        throw OptionError("filter is low-pass, which sweeps take with adapted Robin conditions and predicted "
+                          "transmission alone: leave out other conditions, the derivatives, and p");
 }
 
 bool has_tangential_derivative(Conditions conditions)
@@ -117,6 +165,24 @@ bool has_tangential_derivative(Conditions conditions)
 }
 
 }  // namespace
+
+bool predicts(const FlowOptions& options)
+{
+    return options.interface.conditions == Conditions::AdaptedRobin &&
+           options.interface.transmission == Transmission::Predicted && !options.interface.p &&
+           options.interface.p_rule == PRule::Paper && options.interface.p_edge == PEdge::Automatic;
+}
+
+bool is_plain_flow(const FlowOptions& options)
+{
+    return options.flow == FlowEquation::MeanCurvature && options.filter == Filter::Diffusion &&
+           !attaches(options.motion);
+}
+
+bool attaches(const MotionOptions& motion)
+{
+    return motion.attachment > 0.0 || !motion.attachment_weights.empty();
+}
 
 bool takes_whole_mesh(Approach approach)
 {
@@ -164,6 +230,7 @@ void require_valid(const FlowOptions& options)
         require_valid_schwarz(options);
     require_valid_copies(options);
     require_valid_constraints(options);
+    require_valid_flow(options);
     require_valid_tolerance(options);
     require_valid_approach(options);
     require_valid_factorisation(options);

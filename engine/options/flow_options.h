@@ -46,6 +46,28 @@ enum class Scheme {
     ExplicitEuler,
 };
 
+/// Which flow is taken.
+enum class FlowEquation {
+    /// ∂V/∂t = -Δ(V) V, mean curvature flow.
+    MeanCurvature,
+    /// The conformalized flow of Kazhdan, Solomon and Ben-Chen (Can Mean-Curvature Flow Be Modified to Be
+    /// Non-Singular?,
+    /// 2012): (M(Vⁿ) + dt K(V⁰)) Vⁿ⁺¹ = M(Vⁿ) Vⁿ. Necks do not pinch; a closed surface without handles goes to a
+    /// sphere. K is assembled once. For symmetric Laplacians and backward Euler steps.
+    Conformalized,
+};
+
+/// What becomes of the solution of a step.
+enum class Filter {
+    /// Vᵏ⁺¹ = S Vᵏ, S being what a step does to positions. Everything shrinks a little.
+    Diffusion,
+    /// Vᵏ⁺¹ = S Vᵏ + S̃ (Vᵏ - S Vᵏ), with S̃ the same without what pulls back to V⁰, and with 0 where vertices are held:
+    /// of λ, dt times an eigenvalue of Δ, (1 + 2λ) / (1 + λ)² is left instead of 1 / (1 + λ). What is large shrinks to
+    /// second order only. One factorisation, two solutions. For symmetric Laplacians and backward Euler steps; sweeps
+    /// take it with predicted transmission alone, and keep all factors.
+    LowPass,
+};
+
 /// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
 enum class PRule {
     /// η = 1, the paper's (which makes p* depend on the unit of length).
@@ -117,7 +139,7 @@ enum class Approach {
     /// Converged sub-mesh by sub-mesh, to AccuracyOptions::tolerance or a loose one.
     Converged,
     /// The whole mesh by conjugate gradients, to AccuracyOptions::tolerance or a loose one: no sub-meshes, no
-    /// factorisation, and of all ways the least set-up. For Δ_F and Δ_A.
+    /// factorisation, and of all ways the least set-up. For Δ_F, Δ_A and Δ_B.
     ConjugateGradients,
     /// The whole mesh by one factorisation: exactly.
     Undecomposed,
@@ -165,7 +187,7 @@ struct InterfaceOptions {
 /// How near steps come to the undecomposed ones, and when a flow is given up.
 struct AccuracyOptions {
     /// Asks for the undecomposed step itself, in place of what InterfaceOptions says: to this residual, relative to
-    /// that of the positions before the step. For Δ_F and Δ_A it is the residual on Γ, or of all rows with
+    /// that of the positions before the step. For symmetric Laplacians it is the residual on Γ, or of all rows with
     /// Approach::ConjugateGradients. For Δ_P it is the distance
     /// between the positions that overlapping sub-meshes take from each other and those that they find. Where the
     /// equations of Δ_P are indefinite (it grows spikes then, undecomposed too), there are many iterations, fewer with
@@ -188,9 +210,16 @@ struct MotionOptions {
     /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
     /// Refuse meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
-    /// without length (Δ_F) or faces without area (Δ_A, Δ_P) leave the Laplacian undefined at vertices that should
+    /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
     /// move. Without it such vertices are held fixed, and a remark says how many.
     bool strict = false;
+    /// w of an attachment to the first positions, in 1/length², at least 0: ∂V/∂t = -ΔV - w (V - V⁰). What is larger
+    /// than about 1/√w stays, as the flow ends at the solution of (Δ + w) V = w V⁰; 0: nothing is attached. For
+    /// symmetric Laplacians and backward Euler steps.
+    double attachment = 0.0;
+    /// The same with a w for each vertex, #V, in place of `attachment`: soft constraints, beside fixed_vertices. Empty:
+    /// there are none.
+    std::vector<double> attachment_weights = {};
     /// Scales the result of each step. The flow itself goes on unscaled, and distances to the undecomposed flow are
     /// unscaled, too. Every vertex that has faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
@@ -205,17 +234,17 @@ struct ResourceOptions {
     int threads = 0;
     /// The most bytes that the factorisations of sub-meshes may take at once, at least 1. With less than one step
     /// needs, the flow throws an OptionError that tells how much that is. Empty: sweeps keep as few factorisations as
-    /// keep all threads busy, converged steps keep all. With a limit, converged steps of Δ_F and Δ_A make the others
-    /// again whenever they are needed, and factors that may be in either precision count as if in double precision; Δ_P
-    /// needs all. UMFPACK's count by its own estimate. A limit asks for sub-meshes where the approach is automatic;
-    /// their result does not depend on it. It does not hold for `reference`.
+    /// keep all threads busy, converged steps keep all. With a limit, converged steps of symmetric Laplacians make the
+    /// others again whenever they are needed, and factors that may be in either precision count as if in double
+    /// precision; Δ_P needs all. UMFPACK's count by its own estimate. A limit asks for sub-meshes where the approach is
+    /// automatic; their result does not depend on it. It does not hold for `reference`.
     std::optional<std::size_t> memory_limit = {};
     /// Whose factorisation solves the equations of sub-meshes. Changes the result by rounding alone. Converged steps of
-    /// Δ_F and Δ_A have the library's own: their Schur complements come out of it.
+    /// symmetric Laplacians have the library's own: their Schur complements come out of it.
     Factorisation factorisation = Factorisation::Automatic;
-    /// In which precision the factors of converged steps of Δ_F and Δ_A are. In single precision they take half the
-    /// memory and little more than half the time; as the residual is in double precision, steps converge to the same
-    /// tolerance. With Precision::Single, equations that single precision makes indefinite end the flow.
+    /// In which precision the factors of converged steps of symmetric Laplacians are. In single precision they take
+    /// half the memory and little more than half the time; as the residual is in double precision, steps converge to
+    /// the same tolerance. With Precision::Single, equations that single precision makes indefinite end the flow.
     Precision precision = Precision::Automatic;
 };
 
@@ -241,6 +270,9 @@ struct FlowOptions {
 
     /// Which discrete Laplacian drives the flow.
     Laplacian laplacian = Laplacian::Fujiwara;
+    /// Whether the Laplacian's K follows the surface.
+    FlowEquation flow = FlowEquation::MeanCurvature;
+    Filter filter = Filter::Diffusion;
     /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
     /// positive and finite.
     double time_step = 0.0;
@@ -262,6 +294,16 @@ struct FlowOptions {
 
 /// Whether every sub-mesh keeps a copy of Γ of its own.
 bool is_classical(Conditions conditions);
+
+/// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ. Conjugate
+/// gradients on the whole mesh are for such flows alone.
+bool is_plain_flow(const FlowOptions& options);
+
+/// Whether sub-meshes tell each other in a sweep what they would do.
+bool predicts(const FlowOptions& options);
+
+/// Whether vertices are attached to where they are at first.
+bool attaches(const MotionOptions& motion);
 
 /// Whether steps are taken without sub-meshes.
 bool takes_whole_mesh(Approach approach);

@@ -32,6 +32,17 @@ struct OptionNames<Conditions> {
 };
 
 template <>
+struct OptionNames<FlowEquation> {
+    static constexpr NamedOption<FlowEquation> list[]{{"mean-curvature", FlowEquation::MeanCurvature},
+                                                      {"conformalized", FlowEquation::Conformalized}};
+};
+
+template <>
+struct OptionNames<Filter> {
+    static constexpr NamedOption<Filter> list[]{{"diffusion", Filter::Diffusion}, {"low-pass", Filter::LowPass}};
+};
+
+template <>
 struct OptionNames<Scheme> {
     static constexpr NamedOption<Scheme> list[]{{"implicit", Scheme::BackwardEuler},
                                                 {"explicit", Scheme::ExplicitEuler}};

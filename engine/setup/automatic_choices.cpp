@@ -162,7 +162,8 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     ApproachChoice choice;
     choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
     const double to_reach = choose_tolerance(mesh, size, by_conjugate_gradients).tolerance.value();
-    if (safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
+    if (is_plain_flow(options) &&
+        safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
         choice.costs.push_back(predict_cost(Approach::ConjugateGradients, flow, to_reach));
     const SubdomainNeeds& needs = needs_of(options.laplacian, decomposed.tolerance.has_value());
     if (choose_subdomains(size, options.time_step, needs).count > 1)

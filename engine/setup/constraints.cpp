@@ -56,6 +56,10 @@ Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& o
     if (options.motion.boundary == Boundary::Free)
         free_boundary(topology);
     hold(topology, options.motion.fixed_vertices);
+    const std::size_t n_weights = options.motion.attachment_weights.size();
+    if (n_weights > 0 && n_weights != at(mesh.n_vertices()))
+        throw InputError(fmt::format("there are {} attachment weights, but the mesh has {} vertices: give one for each",
+                                     n_weights, mesh.n_vertices()));
     if (options.motion.strict)
         require_manifold(topology);
     const std::vector<Index> undefined = vertices_without_row(mesh, topology, options.laplacian, loop);

@@ -13,7 +13,8 @@ namespace seamflow {
 /// The topology of the mesh, with the vertices held fixed that the options name and those at which the flow is not
 /// defined.
 /// @param remarks gets a sentence about those.
-/// @throws InputError for a number in MotionOptions::fixed_vertices that is none of a vertex; with
+/// @throws InputError for a number in MotionOptions::fixed_vertices that is none of a vertex; for another number of
+/// attachment weights than the mesh has vertices; with
 /// MotionOptions::strict
 ///         naming the first vertex, edge or face that the flow is not defined at; without it too if it is defined
 ///         nowhere.

@@ -10,17 +10,19 @@
 
 namespace seamflow {
 
-bool predicts(const FlowOptions& options)
+FlowTerms terms_of(const FlowOptions& options, const Points& first)
 {
-    return options.interface.conditions == Conditions::AdaptedRobin &&
-           options.interface.transmission == Transmission::Predicted && !options.interface.p &&
-           options.interface.p_rule == PRule::Paper && options.interface.p_edge == PEdge::Automatic;
+    return {.first = &first,
+            .keeps_stiffness = options.flow == FlowEquation::Conformalized,
+            .weights = options.motion.attachment_weights,
+            .uniform_weight = options.motion.attachment};
 }
 
 std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
-                                              const FlowOptions& options, SolverWorkspace& workspace)
+                                              const FlowOptions& options, const FlowTerms& terms,
+                                              SolverWorkspace& workspace)
 {
-    SystemParts parts{sub_mesh, std::move(twin), options.laplacian, options.resources.factorisation};
+    SystemParts parts{sub_mesh, std::move(twin), options.laplacian, options.resources.factorisation, terms};
     const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
         return make_system(std::move(parts), std::move(condition), workspace);
     };

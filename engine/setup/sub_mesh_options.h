@@ -11,15 +11,17 @@
 /// What the options of a flow mean for its sub-meshes.
 namespace seamflow {
 
-/// Whether sub-meshes tell each other what they would do.
-bool predicts(const FlowOptions& options);
+/// What the equations of the flow have beside Vᵏ.
+/// @param first #V by 3: V⁰. It and the options must outlive the result.
+FlowTerms terms_of(const FlowOptions& options, const Points& first);
 
 /// The equations of a sub-mesh.
 /// @param sub_mesh must outlive them.
 /// @param twin of the sub-mesh, for those equations to keep that need it.
 /// @throws ComputationError if their analysis fails.
 std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vector<Index> twin,
-                                              const FlowOptions& options, SolverWorkspace& workspace);
+                                              const FlowOptions& options, const FlowTerms& terms,
+                                              SolverWorkspace& workspace);
 
 /// The Robin parameter of a sub-mesh, in 1/length; 0 where there is none.
 /// @param positions #local by 3.

@@ -58,6 +58,15 @@ std::string text_of(const std::vector<Index>& indices)
     return indices.empty() ? std::string(none) : fmt::format("those with checksum {:x}", checksum_of(indices));
 }
 
+std::string text_of(const std::vector<double>& numbers)
+{
+    if (numbers.empty())
+        return std::string(none);
+    Checksum checksum;
+    checksum.add_numbers(std::span<const double>(numbers));
+    return fmt::format("those with checksum {:x}", checksum.value());
+}
+
 /// Of the mesh near the origin, where it flows: the same whether it has been brought there or not.
 std::string text_of(const PolygonMesh& mesh)
 {
@@ -77,11 +86,12 @@ std::string text_of(const PolygonMesh& mesh)
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, time_step, steps, scheme, cut, interface, accuracy, motion, resources, report] = options;
+    const auto& [laplacian, flow, filter, time_step, steps, scheme, cut, interface, accuracy, motion, resources,
+                 report] = options;
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [boundary, fixed_vertices, strict, rescale] = motion;
+    const auto& [boundary, fixed_vertices, strict, attachment, attachment_weights, rescale] = motion;
     const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
     // These do not change results, or (steps) only where they end.
@@ -96,6 +106,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"version", SEAMFLOW_VERSION},
         {"mesh", text_of(mesh)},
         {"laplacian", text_of(laplacian)},
+        {"flow", text_of(flow)},
+        {"filter", text_of(filter)},
         {"time_step", text_of(time_step)},
         {"subdomains", text_of(subdomains)},
         {"labels", text_of(labels)},
@@ -111,6 +123,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"sweep", text_of(sweep)},
         {"boundary", text_of(boundary)},
         {"fixed_vertices", text_of(fixed_vertices)},
+        {"attachment", text_of(attachment)},
+        {"attachment_weights", text_of(attachment_weights)},
         {"rescale", text_of(rescale)},
         {"correction", text_of(correction)},
         {"tolerance", text_of(tolerance)},

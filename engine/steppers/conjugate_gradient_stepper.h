@@ -5,9 +5,9 @@
 
 namespace seamflow {
 
-/// Takes the undecomposed backward Euler step of Δ_F and Δ_A by conjugate gradients on the whole mesh, whose rows the
-/// threads share (see WholeMeshSystem): no cut, no factorisation, hardly any set-up. The way to go for short steps, and
-/// for few.
+/// Takes the undecomposed backward Euler step of a symmetric Laplacian by conjugate gradients on the whole mesh, whose
+/// rows the threads share (see WholeMeshSystem): no cut, no factorisation, hardly any set-up. The way to go for short
+/// steps, and for few.
 class ConjugateGradientStepper final : public ConvergedStepper {
   public:
     /// @param mesh, topology, progress must outlive the stepper.

@@ -56,8 +56,16 @@ class ConvergedStepper : public Stepper {
     /// The same without the parts.
     void describe_steps(const std::string& advice, FlowReport& report) const;
 
+    /// With a low-pass filter, Vᵏ less the first solution of the step, of a sub-mesh, in the workspace.
+    const Points& localised_data(std::span<const Index> local_to_global, SolverWorkspace& workspace) const;
+
     Workspaces workspaces_;
     double time_step_;
+    /// Whether a step has two solutions, and whether it is at the second.
+    bool is_low_pass_;
+    bool is_second_ = false;
+    /// #V by 3: the first solution, during the second.
+    Points first_ = Points(0, 3);
     /// #V by 3: Vᵏ, during a step.
     const Points* before_ = nullptr;
     /// #V by 3: Vᵏ⁺¹, complete at the end of a step.
@@ -81,6 +89,8 @@ class ConvergedStepper : public Stepper {
     };
 
     void solve();
+    void run_second();
+    void note();
 
     IterationStop stop_;
     /// Of the iteration.

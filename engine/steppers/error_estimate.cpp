@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
@@ -47,8 +48,24 @@ ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMe
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
+    if (options.flow == FlowEquation::Conformalized)
+        first_ = mesh.vertices;
+    attach(terms_of(options, mesh.vertices));
     if (laplacian_ == Laplacian::PtackovaVelho && equation_.size() > 0)
         solved_ = mesh.vertices;
+}
+
+void ErrorEstimate::attach(const FlowTerms& terms)
+{
+    if (!terms.attaches())
+        return;
+    std::vector<Index> global;
+    for (Index s = 0; s < static_cast<Index>(decomposition_->sub_meshes.size()); ++s)
+        for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i)
+            global.push_back(decomposition_->sub_meshes[s].local_to_global[equation_.local_vertex(i)]);
+    attached_to_ = rows_of(*terms.first, global);
+    for (const Index v : global)
+        attached_.push_back(time_step_ * terms.weight(v));
 }
 
 /// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
@@ -65,13 +82,27 @@ const Points& ErrorEstimate::joined(const std::vector<SubMeshState>& states, Ind
     return mean;
 }
 
+/// The positions whose K the step has, #local by 3.
+const Points& ErrorEstimate::stiffness_at(const SubMeshState& state, Points& first) const
+{
+    if (first_.rows() == 0)
+        return state.position;
+    const std::vector<Index>& global = state.sub_mesh->local_to_global;
+    set_rows(first, state.position.rows());
+    for (std::size_t v = 0; v < global.size(); ++v)
+        first.row(static_cast<Eigen::Index>(v)) = first_.row(global[v]);
+    return first;
+}
+
 void ErrorEstimate::measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace)
 {
     receive_solution(states, s, decomposition_->halo[s]);
     SubMeshState& state = states[s];
     Stopwatch watch;
     const Points& after = joined(states, s, workspace.other_side);
-    equation_.assemble(s, state.position, after, time_step_);
+    equation_.assemble(s, state.position, after, stiffness_at(state, workspace.positions), time_step_);
+    for (Index i = equation_.first(s); !attached_.empty() && i < equation_.first(s + 1); ++i)
+        equation_.attach(i, attached_[i], after.row(equation_.local_vertex(i)) - attached_to_.row(i));
     if (solved_.rows() > 0)
         for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
             if (state.sub_mesh->owned[v] != 0)
@@ -84,7 +115,7 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     const SubMeshState& state = states[s];
     for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i) {
         const Index v = equation_.local_vertex(i);
-        correction_.row(i) = state.position.row(v) - state.solved.row(v);
+        correction_.row(i) = state.position.row(v) - state.result().row(v);
     }
 }
 

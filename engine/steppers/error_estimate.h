@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/options/flow_options.h"
 #include "engine/state/flow_state.h"
@@ -18,6 +19,8 @@ namespace seamflow {
 /// adds its own displacement, which is known. Steps add up as vectors on Γ: the flow carries tangential differences
 /// along and smooths normal ones. Away from Γ the error of a step dies away, so that Γ has the largest.
 ///
+/// With a low-pass filter it is that of the first solution, and of the correction.
+///
 /// Belongs to the arena in which it is used. The bits do not depend on the number of threads, and steps allocate
 /// nothing, but for a mean of copies with the classical conditions.
 class ErrorEstimate {
@@ -29,7 +32,7 @@ class ErrorEstimate {
     /// Takes over the rows of a sub-mesh's own part of Γ, before it accepts Vᵏ⁺¹. Different sub-meshes may do so at the
     /// same time.
     /// @param states that of s has Vᵏ as its position; all around have solved.
-    /// @param workspace its `other_side` is overwritten.
+    /// @param workspace its `other_side` and `positions` are overwritten.
     void measure(std::vector<SubMeshState>& states, Index s, SolverWorkspace& workspace);
 
     /// Notes how far the sub-mesh's own part of Γ was moved when it accepted Vᵏ⁺¹.
@@ -50,6 +53,8 @@ class ErrorEstimate {
 
   private:
     [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
+    [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
+    void attach(const FlowTerms& terms);
     void carry_over();
 
     const Decomposition* decomposition_;
@@ -57,6 +62,11 @@ class ErrorEstimate {
     const Topology* topology_;
     Laplacian laplacian_;
     double time_step_;
+    /// #V by 3: V⁰, where K is kept.
+    Points first_;
+    /// With an attachment, #Γ: dt w; and #Γ by 3: V⁰.
+    std::vector<double> attached_;
+    Points attached_to_;
     /// Whether every sub-mesh has a copy of Γ of its own.
     bool has_copies_;
     ErrorEquation equation_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/setup/automatic_choices.h"
+#include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
@@ -47,21 +48,23 @@ SchurStepper::SchurStepper(Decomposition decomposition, const PolygonMesh& mesh,
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(parts_.size());
     interface_.condensed.resize(equation_.copies().n_copies(), 3);
-    make_systems(decomposition, options, progress);
+    make_systems(decomposition, mesh, options, progress);
     limit_factors(options);
     make_graph();
 }
 
 /// What is needed of sub-meshes later moves to where it is needed; the rest is no more when all are analysed.
-void SchurStepper::make_systems(Decomposition& decomposition, const FlowOptions& options, Progress& progress)
+void SchurStepper::make_systems(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+                                Progress& progress)
 {
+    const FlowTerms terms = terms_of(options, mesh.vertices);
     progress.expect(static_cast<double>(parts_.size()));
     for_each(run_in_parallel, static_cast<Index>(parts_.size()), [&](Index s) {
         progress.require_going_on();
         SubMesh sub_mesh = std::move(decomposition.sub_meshes[s]);
         run_for_sub_mesh(sub_mesh, s, [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
-            parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian);
+            parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian, terms);
         });
         parts_[s].sub_mesh = {std::move(sub_mesh.faces), sub_mesh.n_vertices, std::move(sub_mesh.local_to_global),
                               std::move(sub_mesh.owned)};
@@ -154,7 +157,11 @@ NeumannSystem::Assembled SchurStepper::assemble(Index s, SolverWorkspace& worksp
 {
     const OwnVertices& sub_mesh = parts_[s].sub_mesh;
     const Points& positions = localised(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
-    return parts_[s].system->assemble(positions, workspace.increments, time_step_, workspace);
+    const NeumannSystem& system = *parts_[s].system;
+    if (!is_second_)
+        return system.assemble(positions, workspace.increments, time_step_, workspace);
+    const Points& data = localised_data(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
+    return system.assemble(positions, workspace.increments, data, time_step_, workspace);
 }
 
 NeumannSystem::Factor SchurStepper::factorise_and_condense(Index s, SolverWorkspace& workspace)
@@ -185,6 +192,18 @@ void SchurStepper::condense_with(Index s, const NeumannSystem::Assembled& equati
                           interface_.condensed.middleRows(equation_.copies().first[s], part.system->n_interface()));
 }
 
+/// From increments of 0 on.
+/// @param workspace receives them.
+void SchurStepper::begin_increments(Index s, SolverWorkspace& workspace)
+{
+    const Part& part = parts_[s];
+    const std::vector<Index>& vertices = part.system->unknowns();
+    for (Index u = 0; u < part.system->n_interior(); ++u)
+        positions_.row(part.sub_mesh.local_to_global[vertices[u]]).setZero();
+    set_rows(workspace.increments, part.sub_mesh.n_vertices);
+    workspace.increments.setZero();
+}
+
 /// From Vᵏ⁺¹ = Vᵏ on.
 void SchurStepper::condense_in(Index s, Precision precision)
 {
@@ -192,19 +211,32 @@ void SchurStepper::condense_in(Index s, Precision precision)
     SolverWorkspace& workspace = workspaces_.local();
     part.factor.reset();
     part.precision = precision;
-    const std::vector<Index>& vertices = part.system->unknowns();
-    for (Index u = 0; u < part.system->n_interior(); ++u)
-        positions_.row(part.sub_mesh.local_to_global[vertices[u]]).setZero();
-    set_rows(workspace.increments, part.sub_mesh.n_vertices);
-    workspace.increments.setZero();
+    begin_increments(s, workspace);
     NeumannSystem::Factor factor = factorise_and_condense(s, workspace);
     part.system->take_schur_complement(factor, workspace.ldl, interface_.complements[s]);
     if (is_kept(s))
         part.factor = std::move(factor);
 }
 
+/// With the factor of the first solution of the step, or the same made again.
+void SchurStepper::condense_second(Index s)
+{
+    Part& part = parts_[s];
+    SolverWorkspace& workspace = workspaces_.local();
+    begin_increments(s, workspace);
+    if (part.factor) {
+        Stopwatch watch;
+        condense_with(s, assemble(s, workspace), *part.factor);
+        seconds_[s].solve += watch.lap();
+    } else {
+        factorise_and_condense(s, workspace);
+    }
+}
+
 void SchurStepper::condense(Index s)
 {
+    if (is_second_)
+        return condense_second(s);
     // Without Γ there is no iteration: one solution is exact.
     const bool is_exact = factors_.precision == Precision::Automatic && parts_[s].system->n_interface() == 0;
     condense_in(s, is_exact ? Precision::Double : factors_.precision);
@@ -338,9 +370,12 @@ void SchurStepper::back_substitute(Index s)
     Stopwatch watch;
     substitute(s, factor, interface_.update, workspace);
     const std::vector<Index>& global = part.sub_mesh.local_to_global;
+    const Points& base = is_second_ ? first_ : *before_;
     for (const Index v : part.system->unknowns())
         if (part.sub_mesh.owned[v] != 0)
-            positions_.row(global[v]) = before_->row(global[v]) + workspace.increments.row(v);
+            positions_.row(global[v]) = base.row(global[v]) + workspace.increments.row(v);
+    if (is_low_pass_ && !is_second_ && is_kept(s))
+        part.factor = std::move(factor);
     seconds_[s].solve += watch.lap();
 }
 

@@ -16,9 +16,9 @@
 
 namespace seamflow {
 
-/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for Δ_F and Δ_A: every sub-mesh condenses
-/// its equations to Γ, what remains is the equation of the Schur complement there, and then back substitution gives the
-/// interiors. One task graph, run once per step:
+/// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
+/// condenses its equations to Γ, what remains is the equation of the Schur complement there, and then back substitution
+/// gives the interiors. One task graph, run once per step:
 ///
 ///     condense (each sub-mesh) ──► solve on Γ (see InterfaceEquation) ──► back-substitute (each sub-mesh)
 ///
@@ -83,7 +83,8 @@ class SchurStepper final : public ConvergedStepper {
     };
 
     SchurStepper(Decomposition decomposition, const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
-    void make_systems(Decomposition& decomposition, const FlowOptions& options, Progress& progress);
+    void make_systems(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+                      Progress& progress);
     void limit_factors(const FlowOptions& options);
     void make_graph();
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
@@ -96,7 +97,9 @@ class SchurStepper final : public ConvergedStepper {
     void condense_with(Index s, const NeumannSystem::Assembled& equations, NeumannSystem::Factor& factor);
     NeumannSystem::Factor take_factor(Index s, SolverWorkspace& workspace);
     void substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace);
+    void begin_increments(Index s, SolverWorkspace& workspace);
     void condense(Index s);
+    void condense_second(Index s);
     void condense_in(Index s, Precision precision);
     void refine(Index s, const Points& update);
     [[nodiscard]] bool has_single() const;

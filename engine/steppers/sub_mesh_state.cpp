@@ -60,8 +60,9 @@ void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span
 /// Solves for Vᵏ⁺¹, what is known of it being in `solved`.
 void solve_and_free(SubMeshState& state, SolverWorkspace& workspace)
 {
-    state.system->solve(*state.factor, state.position, state.solved, workspace);
-    state.factor.reset();
+    state.system->solve(*state.factor, state.given(), state.solved, workspace);
+    if (state.solution != SubMeshState::Solution::First)
+        state.factor.reset();
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ void predict(std::vector<SubMeshState>& states, Index s, SolverWorkspace& worksp
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
-    state.system->predict(*state.factor, state.position, state.solved, workspace);
+    state.system->predict(*state.factor, state.given(), state.solved, workspace);
     state.seconds.solve += watch.lap();
 }
 
@@ -120,9 +121,9 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
-    copy(state.position, workspace.other_side);
+    copy(state.given(), workspace.other_side);
     receive(states, predictions, &SubMeshState::solved, workspace.other_side);
-    state.system->use_other_side(state.position, workspace.other_side);
+    state.system->use_other_side(state.given(), workspace.other_side);
     state.seconds.solve += watch.lap();
 }
 
@@ -131,7 +132,7 @@ void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfe
     SubMeshState& state = states[s];
     Stopwatch watch;
     for (const Index v : state.sub_mesh->interface.vertices)
-        state.solved.row(v) = state.position.row(v);
+        state.solved.row(v) = state.given().row(v);
     receive(states, traces, &SubMeshState::solved, state.solved);
     solve_and_free(state, workspace);
     state.seconds.solve += watch.lap();
@@ -159,11 +160,29 @@ void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vec
     state.seconds.correct += watch.lap();
 }
 
+void begin_second(SubMeshState& state)
+{
+    Stopwatch watch;
+    set_rows(state.data, state.position.rows());
+    state.data = state.position - state.solved;
+    state.system->use_data(state.data);
+    state.seconds.solve += watch.lap();
+}
+
+void add_second(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
+{
+    receive_solution(states, s, halo);
+    SubMeshState& state = states[s];
+    Stopwatch watch;
+    state.data = (state.position - state.data) + state.solved;
+    state.seconds.correct += watch.lap();
+}
+
 void accept(std::vector<SubMeshState>& states, Index s)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
-    state.position.topRows(state.sub_mesh->n_vertices) = state.solved.topRows(state.sub_mesh->n_vertices);
+    state.position.topRows(state.sub_mesh->n_vertices) = state.result().topRows(state.sub_mesh->n_vertices);
     state.seconds.correct += watch.lap();
 }
 
@@ -172,12 +191,14 @@ void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vec
     accept(states, s);
     SubMeshState& state = states[s];
     Stopwatch watch;
-    receive(states, halo, &SubMeshState::solved, state.solved);
+    if (state.solution == SubMeshState::Solution::Only)
+        receive(states, halo, &SubMeshState::solved, state.solved);
+    const Points& result = state.result();
     const auto& seam = state.sub_mesh->seam;
     for (Index i = 0; i < static_cast<Index>(seam.vertices.size()); ++i) {
         Point sum = Point::Zero();
         for (const Index neighbour : seam.neighbours[i])
-            sum += state.solved.row(neighbour);
+            sum += result.row(neighbour);
         state.position.row(seam.vertices[i]) = sum / static_cast<double>(seam.neighbours[i].size());
     }
     state.seconds.correct += watch.lap();

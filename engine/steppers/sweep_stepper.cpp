@@ -50,6 +50,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
     , graph_(options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
+    , is_low_pass_(options.filter == Filter::LowPass)
     , factorisation_(options.resources.factorisation)
 {
     const auto rank = rank_sub_meshes(decomposition_, options.interface.colouring, curvature);
@@ -88,6 +89,8 @@ void SweepStepper::limit_factors(const FlowOptions& options)
     for (const SweepPlan& plan : plans_)
         least = std::max(least, least_window(plan, window_.order));
     const auto n = static_cast<Index>(states_.size());
+    // The second solution begins when the first is complete.
+    least = is_low_pass_ ? n : least;
     window_.size = std::min(n, least + places_per_thread * workspaces_.size());
     if (!options.resources.memory_limit)
         return;
@@ -102,12 +105,13 @@ void SweepStepper::limit_factors(const FlowOptions& options)
 void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress)
 {
     std::vector<std::optional<SubMeshState>> made(decomposition_.sub_meshes.size());
+    const FlowTerms terms = terms_of(options, mesh.vertices);
     progress.expect(static_cast<double>(made.size()));
     for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
         progress.require_going_on();
         SubMesh& sub_mesh = decomposition_.sub_meshes[s];
         run_for_sub_mesh(sub_mesh, s, [&] {
-            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, workspaces_.local());
+            auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, terms, workspaces_.local());
             SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
         });
@@ -136,7 +140,11 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
         });
     } else {
         tasks.assemble_and_factorise = task([this, &plan, time_step, resources](Index s, SolverWorkspace& workspace) {
-            assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step, resources(workspace));
+            if (states_[s].solution == SubMeshState::Solution::Second)
+                begin_second(states_[s]);
+            else
+                assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step,
+                                       resources(workspace));
         });
         tasks.solve =
             task([this, &plan](Index s, SolverWorkspace& workspace) { solve(states_, s, plan.traces[s], workspace); });
@@ -148,8 +156,13 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
         });
     }
     tasks.accept = task([this, corrected = corrects(options)](Index s, SolverWorkspace& workspace) {
-        if (error_)
+        const auto solution = states_[s].solution;
+        if (error_ && solution != SubMeshState::Solution::Second)
             error_->measure(states_, s, workspace);
+        if (solution == SubMeshState::Solution::First)
+            return receive_solution(states_, s, decomposition_.halo[s]);
+        if (solution == SubMeshState::Solution::Second)
+            add_second(states_, s, decomposition_.halo[s]);
         corrected ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_, s);
         if (error_)
             error_->note_correction(states_, s);
@@ -157,14 +170,27 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
     return tasks;
 }
 
+/// The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
-    graph_.run(static_cast<std::size_t>(steps_done_) % graph_.n_roots(), 0.0, [&] {
+    const std::size_t root = static_cast<std::size_t>(steps_done_) % graph_.n_roots();
+    if (is_low_pass_) {
+        set_solution(SubMeshState::Solution::First);
+        graph_.run(root);
+        set_solution(SubMeshState::Solution::Second);
+    }
+    graph_.run(root, 0.0, [&] {
         ++steps_done_;
         if (error_)
             error_->add_step(before);
         join();
     });
+}
+
+void SweepStepper::set_solution(SubMeshState::Solution solution)
+{
+    for (SubMeshState& state : states_)
+        state.solution = solution;
 }
 
 void SweepStepper::join()

@@ -46,6 +46,7 @@ class SweepStepper final : public Stepper {
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
     void limit_factors(const FlowOptions& options);
     SweepTasks tasks_of(const SweepPlan& plan, const FlowOptions& options);
+    void set_solution(SubMeshState::Solution solution);
     void join();
     /// Whether sub-meshes differ on what they share: with copies of Γ, and where they overlap.
     [[nodiscard]] bool has_copies() const { return copies_ || !error_; }
@@ -66,6 +67,7 @@ class SweepStepper final : public Stepper {
     StepGraph graph_;
     Points positions_;
     int steps_done_ = 0;
+    bool is_low_pass_;
     Factorisation factorisation_;
 };
 

@@ -52,6 +52,11 @@ std::string place_of_line(const std::filesystem::path& path, std::size_t line)
     throw InputError(fmt::format("{}'{}' {}", place_of_line(path, line), text.substr(0, 40), why));
 }
 
+bool is_weight(double value)
+{
+    return value >= 0.0 && std::isfinite(value);
+}
+
 Index parse_index(std::string_view text, const std::filesystem::path& path, std::size_t line, const IndexWords& words)
 {
     Index value = -1;
@@ -65,11 +70,21 @@ Index parse_index(std::string_view text, const std::filesystem::path& path, std:
     return value;
 }
 
-/// Reads a text file with one whole number of at least 0 a line.
-/// @param take called with each number and its line, counted from 1, in order.
+double parse_weight(std::string_view text, const std::filesystem::path& path, std::size_t line)
+{
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !is_weight(value))
+        refuse_line(path, line, text,
+                    "is no weight: write a number of at least 0 for each vertex, each on a line of its own");
+    return value;
+}
+
+/// Reads a text file with one number a line.
+/// @param take called with each line that is not blank, and its number, counted from 1, in order.
 /// @returns the number of lines.
 template <class Take>
-std::size_t read_lines(const std::filesystem::path& path, const IndexWords& words, Take&& take)
+std::size_t read_lines(const std::filesystem::path& path, Take&& take)
 {
     std::ifstream file(path);
     if (!file || std::filesystem::is_directory(path))
@@ -79,7 +94,7 @@ std::size_t read_lines(const std::filesystem::path& path, const IndexWords& word
     while (std::getline(file, text)) {
         ++line;
         if (const std::string_view number = trimmed(text); !number.empty())
-            take(parse_index(number, path, line, words), line);
+            take(number, line);
     }
     if (file.bad())
         throw InputError(place_of_line(path, line) + "the file could not be read to its end: copy it to a sound disk");
@@ -94,7 +109,8 @@ std::vector<Index> from_lines(const std::filesystem::path& path, Index n_vertice
         .negative = "vertices are numbered from 0",
     };
     std::vector<Index> vertices;
-    read_lines(path, words, [&](Index v, std::size_t line) {
+    read_lines(path, [&](std::string_view text, std::size_t line) {
+        const Index v = parse_index(text, path, line, words);
         if (v >= n_vertices)
             throw InputError(fmt::format("{}there is no vertex {}: the mesh has {}, numbered from 0; use the file with "
                                          "the mesh it belongs to",
@@ -129,14 +145,14 @@ void require_property(const TextScanner& scanner, const PlyHeader& header, Index
 }
 
 /// @param header has vertices with a number of the wanted name.
-template <class Source>
-std::vector<Index> from_elements(Source source, const PlyHeader& header, std::string_view wanted)
+/// @param take called with each vertex, its number, and the source, in order.
+template <class Source, class Take>
+void read_elements(Source source, const PlyHeader& header, std::string_view wanted, Take&& take)
 {
     const PlyElement* element = header.elements.data();
     for (; element->name != "vertex"; ++element)
         for (std::uint64_t e = 0; e < element->count; ++e)
             pass_over(source, *element, e, "file");
-    std::vector<Index> vertices;
     for (std::uint64_t v = 0; v < element->count; ++v) {
         source.begin_element(*element, v);
         for (const PlyProperty& property : element->properties) {
@@ -145,24 +161,33 @@ std::vector<Index> from_elements(Source source, const PlyHeader& header, std::st
                 continue;
             }
             const double value = source.number(property.type);
-            if (std::isnan(value))
-                source.position().fail(in_quotes(property.name) + " is not a number; write 0 or 1 for each vertex");
-            if (value != 0.0)
-                vertices.push_back(static_cast<Index>(v));
+            take(static_cast<Index>(v), value, source);
         }
         source.end_element();
     }
-    return vertices;
 }
 
-std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+template <class Take>
+void read_ply_property(const std::filesystem::path& path, Index n_vertices, std::string_view property, Take&& take)
 {
     const InputFile file{OpenFile(path)};
     TextScanner scanner(path, file.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_property(scanner, header, n_vertices, property);
-    return with_source(scanner, path, file.content(), header.encoding,
-                       [&](auto source) { return from_elements(std::move(source), header, property); });
+    with_source(scanner, path, file.content(), header.encoding,
+                [&](auto source) { read_elements(std::move(source), header, property, take); });
+}
+
+std::vector<Index> from_ply(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+{
+    std::vector<Index> vertices;
+    read_ply_property(path, n_vertices, property, [&](Index v, double value, auto& source) {
+        if (std::isnan(value))
+            source.position().fail(in_quotes(property) + " is not a number; write 0 or 1 for each vertex");
+        if (value != 0.0)
+            vertices.push_back(v);
+    });
+    return vertices;
 }
 
 }  // namespace
@@ -175,7 +200,8 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
         .negative = "number the parts from 0",
     };
     std::vector<Index> labels;
-    const std::size_t n_lines = read_lines(path, words, [&](Index label, std::size_t line) {
+    const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
+        const Index label = parse_index(text, path, line, words);
         if (labels.size() == static_cast<std::size_t>(n_faces))
             throw InputError(fmt::format("{}more labels than the mesh has faces ({}): remove the surplus, or use the "
                                          "labels with the mesh they belong to",
@@ -192,6 +218,35 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
 std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_vertices, std::string_view property)
 {
     return format_of(path) == FileFormat::Ply ? from_ply(path, n_vertices, property) : from_lines(path, n_vertices);
+}
+
+std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property)
+{
+    std::vector<double> weights;
+    weights.reserve(at(n_vertices));
+    if (format_of(path) == FileFormat::Ply) {
+        read_ply_property(path, n_vertices, property, [&](Index, double value, auto& source) {
+            if (!is_weight(value))
+                source.position().fail(in_quotes(property) +
+                                       " is no weight; write a number of at least 0 for each vertex");
+            weights.push_back(value);
+        });
+        return weights;
+    }
+    const std::size_t n_lines = read_lines(path, [&](std::string_view text, std::size_t line) {
+        if (weights.size() == at(n_vertices))
+            throw InputError(
+                fmt::format("{}more weights than the mesh has vertices ({}): remove the surplus, or use the "
+                            "weights with the mesh they belong to",
+                            place_of_line(path, line), n_vertices));
+        weights.push_back(parse_weight(text, path, line));
+    });
+    if (weights.size() != at(n_vertices))
+        throw InputError(fmt::format("{}the file ends after {} of {} weights: give one for each vertex, or use the "
+                                     "weights with the mesh they belong to",
+                                     place_of_line(path, std::max<std::size_t>(n_lines, 1)), weights.size(),
+                                     n_vertices));
+    return weights;
 }
 
 }  // namespace seamflow

@@ -6,7 +6,7 @@
 
 #include "partition/index.h"
 
-/// Whole numbers of at least 0 in text files, one a line: blank lines and whatever follows a # are skipped.
+/// Numbers of at least 0 in text files, one a line: blank lines and whatever follows a # are skipped.
 namespace seamflow {
 
 /// Reads the labels of a mesh's faces, in the order of the faces.
@@ -19,5 +19,11 @@ std::vector<Index> read_labels(const std::filesystem::path& path, Index n_faces)
 /// @returns ascending, each once.
 /// @throws InputError naming file and line, element or property, and what to do.
 std::vector<Index> read_vertex_set(const std::filesystem::path& path, Index n_vertices, std::string_view property);
+
+/// Reads a weight for each vertex of a mesh: from a .ply file, as above, its property `property`; from any other file
+/// one number of at least 0 for each vertex, in their order.
+/// @returns n_vertices.
+/// @throws InputError naming file and line, element or property, and what to do.
+std::vector<double> read_vertex_weights(const std::filesystem::path& path, Index n_vertices, std::string_view property);
 
 }  // namespace seamflow

@@ -11,7 +11,7 @@
 /// The words by which programs know the values of FlowOptions (see add_choice).
 namespace seamflow {
 
-/// "fujiwara", "alexa-wardetzky", "ptackova-velho".
+/// The names of all Laplacians.
 const std::vector<std::pair<std::string, Laplacian>>& laplacian_choices();
 
 /// Adds --converge: "auto", "never", or a tolerance below 1, for AccuracyOptions::tolerance and approach.

@@ -120,7 +120,7 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
         found.defects.duplicate_faces, "faces with the same vertices as one before them",
         "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
     printer.print(found.defects.faces_without_area, "faces without area",
-                  "with alexa-wardetzky and ptackova-velho smooth cannot move their vertices");
+                  "with any Laplacian but fujiwara smooth cannot move their vertices");
     printer.print(found.defects.edges_without_length, "edges without length",
                   "with fujiwara smooth cannot move their ends");
     printer.print(found.defects.coincident_vertices, "vertices at the same place as one before them",

@@ -140,6 +140,11 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
     json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;
+    json["flow"] = option_name(run.flow);
+    json["filter"] = option_name(run.filter);
+    if (run.attachment)
+        json["attachment"] = number(*run.attachment);
+    json["attachment_weights"] = run.has_attachment_weights;
     json["time_step"] = number(report.time_step);
     json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
     json["radius"] =

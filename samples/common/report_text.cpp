@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_names.h"
 #include "samples/common/peak_memory.h"
 #include "samples/common/smoothing_request.h"
 
@@ -142,7 +143,16 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 
 void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
-    out << "flow       " << run.laplacian << ", time step " << digits(report.time_step, 10) << '\n';
+    out << "flow       " << run.laplacian;
+    if (run.flow != FlowEquation::MeanCurvature)
+        out << ", " << option_name(run.flow);
+    if (run.filter != Filter::Diffusion)
+        out << ", " << option_name(run.filter);
+    if (run.attachment)
+        out << ", attached with " << digits(*run.attachment, 4) << " / length²";
+    if (run.has_attachment_weights)
+        out << ", attached by weights";
+    out << ", time step " << digits(report.time_step, 10) << '\n';
     print_cut(out, report);
     print_factors(out, report);
     print_times(out, run, report.seconds);

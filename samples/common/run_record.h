@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/options/flow_options.h"
 #include "samples/common/smoothing_request.h"
 
 namespace seamflow {
@@ -15,6 +17,13 @@ struct RunRecord {
     std::vector<std::string> arguments;
     /// Name of the Laplacian.
     std::string laplacian;
+    /// The flow beside it: FlowOptions::flow, filter, and MotionOptions::attachment.
+    FlowEquation flow = FlowEquation::MeanCurvature;
+    Filter filter = Filter::Diffusion;
+    /// In 1/length²; empty where there is none.
+    std::optional<double> attachment = {};
+    /// Whether each vertex has one of its own.
+    bool has_attachment_weights = false;
     /// Of the input.
     MeshScale scale = {};
     /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.

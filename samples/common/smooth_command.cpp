@@ -62,6 +62,11 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "--plain", [&options] { options = FlowOptions::plain(); },
         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
+    add_choice(app, "--flow", options.flow,
+               "conformalized: the weights of the Laplacian stay those of the input; necks do not pinch, and closed "
+               "surfaces without handles go to a sphere [mean-curvature]");
+    add_choice(app, "--filter", options.filter,
+               "low-pass: what is large hardly shrinks; takes two solutions a step [diffusion]");
     add_amount(app, command.amount);
     add_choice(app, "--boundary", options.motion.boundary,
                "whether the rims of an open surface stay where they are or draw in freely [fixed]");
@@ -71,6 +76,17 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                     ->type_name("FILE");
     app.add_option("--fix-property", command.fix_property, "the name of that property [fixed]")
         ->needs(fix)
+        ->type_name("NAME");
+    auto* attach = add_length(app, "--attach", command.attach,
+                              "pull every vertex back to where it was: what is larger than this stays; in units of "
+                              "length, or in % of the bounding box's diagonal");
+    auto* weights = app.add_option("--attach-weights", command.attach_weights,
+                                   "how strongly each vertex is pulled back, in 1/length²: a number a line, or a .ply "
+                                   "with as many vertices and a property that says it")
+                        ->excludes(attach)
+                        ->type_name("FILE");
+    app.add_option("--attach-property", command.attach_property, "the name of that property [weight]")
+        ->needs(weights)
         ->type_name("NAME");
     app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or have edges or faces of size 0 where the Laplacian divides, "
@@ -118,7 +134,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                 "most iterations of a converged step [1000]");
     add_choice(app, "--factorisation", options.resources.factorisation,
                "whose factorisation solves the equations of sub-meshes; cholmod: UMFPACK where they are "
-               "not symmetric; both keep fujiwara and alexa-wardetzky to sweeps [auto: the fastest]");
+               "not symmetric; both keep symmetric Laplacians to sweeps [auto: the fastest]");
     add_choice(
         app, "--precision", options.resources.precision,
         "of the factorisations of converged steps, which are refined to the tolerance in any; auto: single where "
@@ -215,6 +231,9 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
             throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
     if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
         throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
+    if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
+        throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
+                          " has a number a line");
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
@@ -272,8 +291,8 @@ void require_usable_files(const SmoothCommand& command)
         if (!path.empty())
             results.push_back(path);
     require_files(results);
-    require_files({command.labels, command.fix});
-    for (const auto& input : {command.input, command.labels, command.fix}) {
+    require_files({command.labels, command.fix, command.attach_weights});
+    for (const auto& input : {command.input, command.labels, command.fix, command.attach_weights}) {
         std::vector<std::filesystem::path> files = results;
         if (!input.empty())
             files.push_back(input);

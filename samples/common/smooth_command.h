@@ -18,7 +18,7 @@ namespace seamflow {
 struct SmoothCommand {
     std::filesystem::path input;
     std::filesystem::path output;
-    /// All of it but `labels`, `fixed_vertices` and `time_step`, which need the mesh.
+    /// All of it but `labels`, `fixed_vertices`, what attaches vertices, and `time_step`, which need the mesh.
     FlowOptions options;
     SmoothingRequest amount;
     /// Whether the iterations of a step are as many as the user says: then it is no failure that a step has no more.
@@ -33,6 +33,11 @@ struct SmoothCommand {
     std::filesystem::path html;
     /// The property of vertices that says which are fixed, where `fix` is a PLY file.
     std::string fix_property = "fixed";
+    /// 1/√w of an attachment that is the same for all vertices, if not empty; or a file with w, and where that is a PLY
+    /// file, the property of vertices that says it.
+    std::optional<LengthOnMesh> attach;
+    std::filesystem::path attach_weights;
+    std::string attach_property = "weight";
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
     CheckpointPeriod checkpoint_period;

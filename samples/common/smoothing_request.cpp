@@ -52,6 +52,17 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
+double attachment_of(const LengthOnMesh& length, const MeshScale& scale)
+{
+    if (length.of_diagonal && !std::isnormal(scale.diagonal))
+        throw InputError("has no size to measure --attach by; use a length");
+    const double radius = length.value * (length.of_diagonal ? scale.diagonal : 1.0);
+    const double weight = 1.0 / (radius * radius);
+    if (!std::isnormal(weight))
+        throw OptionError("--attach is too small or too large: 1/R² is beyond what a double can hold");
+    return weight;
+}
+
 MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
 {
     return {.mean_edge = mean_edge_length(mesh, mesh.vertices, loop), .diagonal = extent_of(mesh.vertices)};

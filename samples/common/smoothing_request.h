@@ -36,6 +36,10 @@ double smoothed_radius(double time_step, int steps);
 /// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.
 double time_step_for_radius(double radius, int steps);
 
+/// w = 1/R² of an attachment that leaves what is larger than R (see MotionOptions::attachment), in 1/length².
+/// @throws InputError for a mesh that has no size to measure by; OptionError for a length whose w no double can hold.
+double attachment_of(const LengthOnMesh& length, const MeshScale& scale);
+
 /// How much a flow is to smooth, in one of three ways.
 struct SmoothingRequest {
     /// dt in length².

@@ -29,9 +29,9 @@ Reach reach_of(Laplacian laplacian)
 
 class PredictedSide final : public TransmissionCondition {
   public:
-    PredictedSide(const SubMesh& sub_mesh, Laplacian laplacian)
+    PredictedSide(const SubMesh& sub_mesh, Laplacian laplacian, const Points* stiffness_at)
         : sub_mesh_(&sub_mesh)
-        , star_(sub_mesh, reach_of(laplacian) == Reach::TwoRings ? Laplacian::AlexaWardetzky : laplacian)
+        , star_(sub_mesh, reach_of(laplacian) == Reach::TwoRings ? Laplacian::AlexaWardetzky : laplacian, stiffness_at)
         , robin_(sub_mesh)
         , kinds_(sub_mesh.interface.vertices.size(), RowKind::Robin)
         , responds_(sub_mesh.interface.vertices.size())
@@ -52,6 +52,7 @@ class PredictedSide final : public TransmissionCondition {
         robin_.begin_step(positions, other_side, time_step, p);
         for (Index i = 0; i < sub_mesh_->interface.size(); ++i)
             kinds_[i] = choose_kind(i, positions);
+        keep_responses(positions);
     }
 
     void left_hand_side(Index i, const Points& positions, std::span<double> row) const override
@@ -66,7 +67,7 @@ class PredictedSide final : public TransmissionCondition {
             if (columns[k] < sub_mesh_->n_vertices)
                 row[place_of(i, columns[k])] += time_step_ * star[k];
             else
-                diagonal += time_step_ * star[k] * response(i, columns[k], positions);
+                diagonal += time_step_ * star[k] * responses(i)[k];
         row[place_of(i, sub_mesh_->interface.vertices[i])] += diagonal;
     }
 
@@ -80,7 +81,7 @@ class PredictedSide final : public TransmissionCondition {
         Point sum = v;
         for (std::size_t k = 0; k < columns.size(); ++k)
             if (columns[k] >= sub_mesh_->n_vertices)
-                sum -= time_step_ * star[k] * (other_side.row(columns[k]) - response(i, columns[k], positions) * v);
+                sum -= time_step_ * star[k] * (other_side.row(columns[k]) - responses(i)[k] * v);
         return sum;
     }
 
@@ -134,10 +135,23 @@ class PredictedSide final : public TransmissionCondition {
         return remainder_between(positions, vertex, beyond, time_step_);
     }
 
-    /// ρ of a vertex beyond Γ in row i; 0 where the other side is held.
-    [[nodiscard]] double response(Index i, Index beyond, const Points& positions) const
+    /// ρ of the vertices beyond Γ in all rows where the other side responds.
+    void keep_responses(const Points& positions)
     {
-        return kinds_[i] == RowKind::Responding ? remainder(sub_mesh_->interface.vertices[i], beyond, positions) : 0.0;
+        responses_.assign(star_.columns().values.size(), 0.0);
+        for (Index i = 0; i < sub_mesh_->interface.size(); ++i) {
+            const auto columns = star_.columns()[i];
+            for (std::size_t k = 0; kinds_[i] == RowKind::Responding && k < columns.size(); ++k)
+                if (columns[k] >= sub_mesh_->n_vertices)
+                    responses_[at(star_.columns().offsets[i]) + k] =
+                        remainder(sub_mesh_->interface.vertices[i], columns[k], positions);
+        }
+    }
+
+    /// Those of row i, one per entry of its star; 0 where the other side is held.
+    [[nodiscard]] std::span<const double> responses(Index i) const
+    {
+        return std::span(responses_).subspan(at(star_.columns().offsets[i]), star_.columns()[i].size());
     }
 
     [[nodiscard]] std::size_t place_of(Index i, Index column) const
@@ -164,14 +178,17 @@ class PredictedSide final : public TransmissionCondition {
     std::vector<RowKind> kinds_;
     /// Per vertex of Γ, whether the Laplacian lets the other side respond there.
     std::vector<bool> responds_;
+    /// One per entry of the star.
+    std::vector<double> responses_;
     double time_step_ = 0.0;
 };
 
 }  // namespace
 
-std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian)
+std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian,
+                                                           const Points* stiffness_at)
 {
-    return std::make_unique<PredictedSide>(sub_mesh, laplacian);
+    return std::make_unique<PredictedSide>(sub_mesh, laplacian, stiffness_at);
 }
 
 }  // namespace seamflow

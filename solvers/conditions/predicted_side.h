@@ -11,13 +11,15 @@ namespace seamflow {
 /// Robin conditions with a prediction of the other side: positions Ŵ of its vertices for Γ held at Vᵏ. The movement of
 /// Γ then acts on the other side as a disturbance that dies away over √dt.
 ///
-/// Where the Laplacian allows (it reaches along edges alone: Δ_F; Δ_A where all faces at the vertex are triangles) the
-/// row is that of the undecomposed step, V_v + dt Σⱼ aⱼ Vⱼ = V_v^k, with each vertex w beyond Γ replaced by Ŵ_w + ρ_w
-/// (V_v - V_v^k), its response to Γ, where ρ = e^{-θ}, cosh θ = 1 + d² / 2dt, is how much of a disturbance is left at
-/// distance d: a Robin condition with its coefficient, 1/√dt, and its derivative in the form that the Laplacian itself
-/// has. Elsewhere it is AdaptedRobin, and where that is not well defined the row of the undecomposed step with Ŵ as it
-/// is (with the rows of Δ_A for Δ_P).
+/// Where the Laplacian allows (it reaches along edges alone: Δ_F; Δ_A and Δ_B where all faces at the vertex are
+/// triangles) the row is that of the undecomposed step, V_v + dt Σⱼ aⱼ Vⱼ = V_v^k, with each vertex w beyond Γ replaced
+/// by Ŵ_w + ρ_w (V_v - V_v^k), its response to Γ, where ρ = e^{-θ}, cosh θ = 1 + d² / 2dt, is how much of a disturbance
+/// is left at distance d: a Robin condition with its coefficient, 1/√dt, and its derivative in the form that the
+/// Laplacian itself has. Elsewhere it is AdaptedRobin, and where that is not well defined the row of the undecomposed
+/// step with Ŵ as it is (with the rows of Δ_A for Δ_P).
 /// @param sub_mesh must outlive the condition.
-std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian);
+/// @param stiffness_at see StarLaplacian; needed only during the call.
+std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian,
+                                                           const Points* stiffness_at = nullptr);
 
 }  // namespace seamflow

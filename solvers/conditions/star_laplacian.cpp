@@ -1,6 +1,7 @@
 #include "solvers/conditions/star_laplacian.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "partition/index_lists.h"
 
@@ -25,13 +26,15 @@ PolygonMesh faces_around_interface(const SubMesh& sub_mesh)
 
 }  // namespace
 
-StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, Laplacian laplacian)
+StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, Laplacian laplacian, const Points* stiffness_at)
     : faces_(faces_around_interface(sub_mesh))
     , topology_(make_topology(faces_))
     , assembler_(
           make_assembler(laplacian, {faces_.face_offsets, faces_.face_vertices, topology_.twin, faces_.n_vertices()}))
 {
     make_slots(sub_mesh.interface);
+    if (stiffness_at != nullptr)
+        assembler_ = keep_stiffness(std::move(assembler_), *stiffness_at);
 }
 
 void StarLaplacian::make_slots(const SubMeshInterface& interface)

@@ -69,6 +69,8 @@ struct SolverWorkspace {
     Columns solution;
     /// #own by 3.
     Points positions;
+    /// #own by 3: what a step is applied to instead of Vᵏ.
+    Points data;
     /// #local by 3: what is known of the other side, on Γ and in the halo.
     Points other_side;
 };

@@ -121,14 +121,15 @@ void ErrorEquation::make_whole_rows(const PolygonMesh& mesh, const Topology& top
                              std::move(around_lists)});
 }
 
-void ErrorEquation::assemble(Index s, const Points& before, const Points& after, double time_step)
+void ErrorEquation::assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at,
+                             double time_step)
 {
     const SubMesh& sub_mesh = decomposition_->sub_meshes[s];
     for (Index i = first(s); i < first(s + 1); ++i) {
         const auto kinds = rows_.neighbours[i];
         const auto couplings = std::span(rows_.couplings).subspan(rows_.neighbours.offsets[i], kinds.size());
-        const ErrorRow row =
-            error_row(sub_mesh, laplacian_, numbering_.index_in_owner[i], kinds, before, after, time_step, couplings);
+        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_owner[i], kinds, before, after,
+                                       stiffness_at, time_step, couplings);
         rows_.mass[i] = row.mass;
         rows_.diagonal[i] = row.diagonal;
         rows_.row_sum[i] = row.diagonal - std::accumulate(couplings.begin(), couplings.end(), 0.0);

@@ -33,8 +33,9 @@ class ErrorEquation {
 
     /// Fills in the rows of a sub-mesh's own part of Γ. Different sub-meshes may do so at the same time.
     /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
+    /// @param stiffness_at see error_row.
     /// @param time_step dt, in length².
-    void assemble(Index s, const Points& before, const Points& after, double time_step);
+    void assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at, double time_step);
 
     /// Replaces the right-hand side by that of Δ_P, whose rows reach too far for one sub-mesh to know. What the rows of
     /// vertices beside Γ leave, which a sub-mesh has from its own faces alone, is shared out to the vertices of Γ with
@@ -42,6 +43,16 @@ class ErrorEquation {
     /// @param before, after #V by 3.
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Loop& loop);
+
+    /// Adds what attaches a vertex to V⁰.
+    /// @param weight dt w. @param distance of Vᵏ⁺¹ from V⁰, as solved.
+    void attach(Index i, double weight, const Point& distance)
+    {
+        const double entry = weight * rows_.mass[i];
+        rows_.diagonal[i] += entry;
+        rows_.row_sum[i] += entry;
+        iteration_.residual.row(i) += entry * distance;
+    }
 
     /// Adds to the right-hand side what makes the step spread a displacement of single vertices of Γ.
     void add_displacement(Index i, const Point& d) { iteration_.residual.row(i) += rows_.mass[i] * d; }

@@ -14,6 +14,7 @@ namespace {
 struct Draft {
     const Points& before;
     const Points& after;
+    const Points& stiffness_at;
     Index vertex;
     std::span<const Index> neighbours;
     std::span<double> couplings;
@@ -27,6 +28,7 @@ struct Draft {
     Point along = Point::Zero();
 
     [[nodiscard]] Point to(Index other) const { return before.row(other) - before.row(vertex); }
+    [[nodiscard]] bool keeps_stiffness() const { return &stiffness_at != &before; }
     [[nodiscard]] double square_across(const Point& difference) const
     {
         const double tangential = difference.dot(along);
@@ -43,6 +45,10 @@ void add_edges(double time_step, Draft& draft)
         const typename Kernel::Edge edge(draft.to(draft.neighbours[j]));
         sum += edge.mass();
         draft.couplings[j] = edge.weight(time_step);
+        if (draft.keeps_stiffness())
+            draft.couplings[j] = typename Kernel::Edge(draft.stiffness_at.row(draft.neighbours[j]) -
+                                                       draft.stiffness_at.row(draft.vertex))
+                                     .weight(time_step);
         draft.row.residual -=
             draft.couplings[j] * (draft.after.row(draft.neighbours[j]) - draft.after.row(draft.vertex));
     }
@@ -68,8 +74,10 @@ void add_coupling(Index other, double coupling, Draft& draft)
 template <FaceKernel Kernel>
 void add_face(std::span<const Index> corners, std::size_t own, double time_step, Draft& draft)
 {
-    measure_corner<Kernel>(corners, own, draft.before, [&](const auto& face, std::size_t i) {
-        draft.row.mass += face.mass(i);
+    if (draft.keeps_stiffness())
+        draft.row.mass += Kernel::corner_mass(Kernel::size(corners, draft.before), corners.size());
+    measure_corner<Kernel>(corners, own, draft.stiffness_at, [&](const auto& face, std::size_t i) {
+        draft.row.mass += draft.keeps_stiffness() ? 0.0 : face.mass(i);
         const auto row = face.row(i, time_step / face.divisor());
         for (std::size_t k = 0; k < face.size(); ++k)
             if (k != i)
@@ -135,12 +143,13 @@ using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings
 }  // namespace
 
 ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
-                   const Points& before, const Points& after, double time_step, std::span<double> couplings)
+                   const Points& before, const Points& after, const Points& stiffness_at, double time_step,
+                   std::span<double> couplings)
 {
     const auto& interface = sub_mesh.interface;
     const Index v = interface.vertices[i];
     std::fill(couplings.begin(), couplings.end(), 0.0);
-    Draft draft{before, after, v, sub_mesh.seam.neighbours[i], couplings, {}};
+    Draft draft{before, after, stiffness_at, v, sub_mesh.seam.neighbours[i], couplings, {}};
     draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
     with_kernel(laplacian, [&]<class Given>(Given) {
         using Kernel = WithinOneRing<Given>;

@@ -32,9 +32,11 @@ struct ErrorRow {
 /// The row at the i-th vertex of a sub-mesh's Γ. Δ_P has the T of Δ_A, and no residual here: its rows reach further.
 /// @param kinds one per edge neighbour of the vertex (see SubMeshSeam): its number on Γ, or one of the above.
 /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
+/// @param stiffness_at #local by 3: the positions whose K the step has; Vᵏ, where it is not kept.
 /// @param time_step dt, in length².
 /// @param couplings one per edge neighbour: receives -T_vw where it is on Γ, and else 0.
 ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
-                   const Points& before, const Points& after, double time_step, std::span<double> couplings);
+                   const Points& before, const Points& after, const Points& stiffness_at, double time_step,
+                   std::span<double> couplings);
 
 }  // namespace seamflow

@@ -17,6 +17,8 @@ struct AlexaWardetzky {
 
     /// |f|.
     static double size(std::span<const Index> corners, const Points& positions) { return area(corners, positions); }
+    /// |f| / p (paper, eq. 11).
+    static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
 
     /// The bisectors of a polygon, computed when they are asked for.
     struct ComputedBisectors {

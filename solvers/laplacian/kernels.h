@@ -7,6 +7,7 @@
 #include "solvers/laplacian/alexa_wardetzky.h"
 #include "solvers/laplacian/fujiwara.h"
 #include "solvers/laplacian/ptackova_velho.h"
+#include "solvers/laplacian/virtual_refinement.h"
 
 namespace seamflow {
 
@@ -25,7 +26,7 @@ concept EdgeKernel = requires
 /// - `size()`, `corner(k)`: the number of vertices, and the k-th of them;
 /// - `row(i, scale)(k)`: scale · N_ik; the rows of N sum to zero;
 /// - `divisor()`, `divided(x)`: d and x / d;
-/// - `mass(k)`: what the face adds to M at corner k;
+/// - `mass(k)`: what the face adds to M at corner k, which is also what `corner_mass(size, number of corners)` says;
 /// - `difference(i, k)`: V_k - V_i, for i < k.
 ///
 /// Where it has a class `Triangle` too, made from three corners, that one says the same of triangles in fewer
@@ -69,6 +70,8 @@ auto with_kernel(Laplacian laplacian, Action&& action)
         return action(Fujiwara{});
     case Laplacian::AlexaWardetzky:
         return action(AlexaWardetzky{});
+    case Laplacian::VirtualRefinement:
+        return action(VirtualRefinement{});
     case Laplacian::PtackovaVelho:
         return action(PtackovaVelho{});
     }

@@ -9,7 +9,8 @@ namespace seamflow {
 
 namespace {
 
-constexpr std::array all_traits{Fujiwara::traits, AlexaWardetzky::traits, PtackovaVelho::traits};
+constexpr std::array all_traits{Fujiwara::traits, AlexaWardetzky::traits, VirtualRefinement::traits,
+                                PtackovaVelho::traits};
 
 }  // namespace
 
@@ -29,6 +30,19 @@ const LaplacianTraits& traits_of(Laplacian laplacian)
 std::string_view name_of(Laplacian laplacian)
 {
     return traits_of(laplacian).name;
+}
+
+std::string names_of_symmetric_laplacians()
+{
+    std::string names;
+    std::string_view last;
+    for (const LaplacianTraits& traits : all_traits)
+        if (traits.is_symmetric) {
+            if (!last.empty())
+                names.append(names.empty() ? "" : ", ").append(last);
+            last = traits.name;
+        }
+    return names.append(names.empty() ? "" : " or ").append(last);
 }
 
 bool is_symmetric(Laplacian laplacian)

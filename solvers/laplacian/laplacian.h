@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace seamflow {
@@ -23,6 +24,11 @@ enum class Laplacian {
     ///
     /// Positive diagonal times symmetric positive semi-definite.
     AlexaWardetzky,
+    /// Δ_B of Bunge, Herholz, Kazhdan and Botsch (Polygon Laplacian Made Simple, 2020): the cotan Laplacian after each
+    /// polygon is made a fan of triangles around a virtual vertex, which is then a mean of the corners again; on
+    /// triangles, Δ_A. Positive diagonal times symmetric positive semi-definite, 0 for constants alone: unlike Δ_A, it
+    /// grows no spikes on polygons.
+    VirtualRefinement,
     /// Δ_P of Ptáčková and Velho (paper, eq. 16):
     ///
     /// \f[ \Delta_P = -W_V\, f_v^\top d_1 A\, W_1 R^\top d_0 . \f]
@@ -66,8 +72,11 @@ std::span<const LaplacianTraits> all_laplacian_traits();
 /// @throws OptionError for what is no Laplacian.
 const LaplacianTraits& traits_of(Laplacian laplacian);
 
-/// "fujiwara", "alexa-wardetzky" or "ptackova-velho".
+/// "fujiwara", "alexa-wardetzky", "virtual-refinement" or "ptackova-velho".
 std::string_view name_of(Laplacian laplacian);
+
+/// Those that are M⁻¹ K, for messages: "fujiwara, alexa-wardetzky or virtual-refinement".
+std::string names_of_symmetric_laplacians();
 
 /// Whether a Laplacian is M⁻¹ K.
 bool is_symmetric(Laplacian laplacian);

@@ -1,6 +1,8 @@
 #include "solvers/laplacian/laplacian_assembler.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "solvers/laplacian/kernels.h"
 
@@ -48,6 +50,8 @@ class EdgeAssembler final : public LaplacianAssembler {
             values[slot[3]] -= at_end;
         }
     }
+
+    void measure_mass(const Points& positions) override { measure_edges(positions); }
 
     [[nodiscard]] double mass(Index v) const override { return sum_[v] / degree_[v]; }
 
@@ -114,14 +118,7 @@ class FaceAssembler final : public LaplacianAssembler {
 
     void add(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values) override
     {
-        std::fill(mass_.begin(), mass_.end(), 0.0);
-        for (Index f = 0; f < faces_.n_faces(); ++f) {
-            const auto corners = faces_.face(f);
-            sizes_[f] = Kernel::size(corners, positions);
-            const auto face = Kernel::polygon(corners, positions, sizes_[f]);
-            for (std::size_t i = 0; i < face.size(); ++i)
-                mass_[face.corner(i)] += face.mass(i);
-        }
+        measure_mass(positions);
         const Index* slot = slots.data();
         for (Index f = 0; f < faces_.n_faces(); ++f) {
             const auto face = Kernel::whole_polygon(faces_.face(f), positions, sizes_[f], scratch_);
@@ -130,6 +127,17 @@ class FaceAssembler final : public LaplacianAssembler {
                 for (std::size_t k = 0; k < face.size(); ++k)
                     values[*slot++] += row(k);
             }
+        }
+    }
+
+    void measure_mass(const Points& positions) override
+    {
+        std::fill(mass_.begin(), mass_.end(), 0.0);
+        for (Index f = 0; f < faces_.n_faces(); ++f) {
+            const auto corners = faces_.face(f);
+            sizes_[f] = Kernel::size(corners, positions);
+            for (const Index v : corners)
+                mass_[v] += Kernel::corner_mass(sizes_[f], corners.size());
         }
     }
 
@@ -143,7 +151,50 @@ class FaceAssembler final : public LaplacianAssembler {
     typename Kernel::Scratch scratch_;
 };
 
+/// K of certain positions, M of any.
+class KeptAssembler final : public LaplacianAssembler {
+  public:
+    KeptAssembler(std::unique_ptr<LaplacianAssembler> assembler, const Points& positions)
+        : assembler_(std::move(assembler))
+    {
+        const std::vector<MatrixEntry> entries = assembler_->entries();
+        std::vector<Index> slots(entries.size());
+        std::iota(slots.begin(), slots.end(), 0);
+        stiffness_.resize(entries.size(), 0.0);
+        assembler_->add(positions, 1.0, slots, stiffness_);
+        rows_.reserve(entries.size());
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            rows_.push_back(entries[i].row);
+            stiffness_[i] *= assembler_->mass(entries[i].row);
+        }
+    }
+
+    [[nodiscard]] std::vector<MatrixEntry> entries() const override { return assembler_->entries(); }
+
+    void add(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values) override
+    {
+        assembler_->measure_mass(positions);
+        for (std::size_t i = 0; i < stiffness_.size(); ++i)
+            values[slots[i]] += factor * stiffness_[i] / assembler_->mass(rows_[i]);
+    }
+
+    void measure_mass(const Points& positions) override { assembler_->measure_mass(positions); }
+    [[nodiscard]] double mass(Index v) const override { return assembler_->mass(v); }
+
+  private:
+    std::unique_ptr<LaplacianAssembler> assembler_;
+    /// Per entry.
+    std::vector<Index> rows_;
+    std::vector<double> stiffness_;
+};
+
 }  // namespace
+
+std::unique_ptr<LaplacianAssembler> keep_stiffness(std::unique_ptr<LaplacianAssembler> assembler,
+                                                   const Points& positions)
+{
+    return std::make_unique<KeptAssembler>(std::move(assembler), positions);
+}
 
 std::unique_ptr<LaplacianAssembler> make_assembler(Laplacian laplacian, const FaceView& faces)
 {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <utility>
 
 #include "partition/errors.h"
 #include "solvers/laplacian/edge_lists.h"
@@ -21,11 +23,17 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
     const Points& x = product->increments;
     Points& result = product->result;
     result.setZero();
-    assemble_with([&](Index v, Index w, double entry, const Point& difference) {
-        const Point change = entry * (difference + (x.row(w) - x.row(v)));
-        result.row(v) += change;
-        result.row(w) -= change;
-    });
+    const auto add_with = [&](auto&& vector_of) {
+        assemble_with([&](Index v, Index w, double entry, const Point& difference) {
+            const Point change = entry * vector_of(difference, x.row(w) - x.row(v));
+            result.row(v) += change;
+            result.row(w) -= change;
+        });
+    };
+    if (product->of_increments_alone)
+        add_with([](const Point&, const Point& increment) -> Point { return increment; });
+    else
+        add_with([](const Point& difference, const Point& increment) -> Point { return difference + increment; });
 }
 
 /// K from edges. Half of an edge on the boundary counts, as one of its two half-edges does.
@@ -80,6 +88,20 @@ class SymmetricEdges final : public SymmetricLaplacian {
             add(0, n_whole_, 1.0);
             add(n_whole_, edges_.size(), 0.5);
         });
+        for (std::size_t v = 0; v < inverse_degree_.size(); ++v)
+            mass[v] *= inverse_degree_[v];
+    }
+
+    void measure_mass(const Points& positions, std::span<double> mass) const override
+    {
+        std::fill(mass.begin(), mass.end(), 0.0);
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            const VertexPair& e = edges_[i];
+            const typename Kernel::Edge edge(positions.row(e.second) - positions.row(e.first));
+            const double share = (i < n_whole_ ? 1.0 : 0.5) * edge.mass();
+            mass[e.first] += share;
+            mass[e.second] += share;
+        }
         for (std::size_t v = 0; v < inverse_degree_.size(); ++v)
             mass[v] *= inverse_degree_[v];
     }
@@ -153,12 +175,78 @@ class SymmetricFaces final : public SymmetricLaplacian {
         });
     }
 
+    void measure_mass(const Points& positions, std::span<double> mass) const override
+    {
+        std::fill(mass.begin(), mass.end(), 0.0);
+        for (const IndexLists* faces : lists_)
+            for (Index f = 0; f < faces->size(); ++f) {
+                const auto corners = (*faces)[f];
+                const double share = Kernel::corner_mass(Kernel::size(corners, positions), corners.size());
+                for (const Index v : corners)
+                    mass[v] += share;
+            }
+    }
+
   private:
     std::vector<const IndexLists*> lists_;
     typename Kernel::Scratch scratch_;
 };
 
+/// K of certain positions, M of any.
+class KeptStiffness final : public SymmetricLaplacian {
+  public:
+    KeptStiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices, const Points& positions)
+        : laplacian_(std::move(laplacian))
+        , pairs_(laplacian_->pairs())
+        , entries_(pairs_.size(), 0.0)
+        , diagonal_(n_vertices)
+    {
+        std::vector<Index> slots(pairs_.size());
+        std::iota(slots.begin(), slots.end(), 0);
+        std::vector<double> mass(n_vertices);
+        laplacian_->assemble(positions, 1.0, slots, entries_, diagonal_, mass);
+    }
+
+    [[nodiscard]] bool uses_faces() const override { return laplacian_->uses_faces(); }
+    [[nodiscard]] std::vector<VertexPair> pairs() const override { return pairs_; }
+
+    void assemble(const Points& positions, double factor, std::span<const Index> slots, std::span<double> values,
+                  std::span<double> diagonal, std::span<double> mass, const StiffnessProduct* product) override
+    {
+        laplacian_->measure_mass(positions, mass);
+        for (std::size_t v = 0; v < diagonal_.size(); ++v)
+            diagonal[v] = factor * diagonal_[v];
+        with_product(product, [&](auto&& add_to_product) {
+            for (std::size_t i = 0; i < pairs_.size(); ++i) {
+                const double entry = factor * entries_[i];
+                const auto [v, w] = pairs_[i];
+                add_to_product(v, w, entry, positions.row(w) - positions.row(v));
+                values[slots[i]] += entry;
+            }
+        });
+    }
+
+    void measure_mass(const Points& positions, std::span<double> mass) const override
+    {
+        laplacian_->measure_mass(positions, mass);
+    }
+
+  private:
+    std::unique_ptr<SymmetricLaplacian> laplacian_;
+    std::vector<VertexPair> pairs_;
+    /// Per pair.
+    std::vector<double> entries_;
+    /// Per vertex.
+    std::vector<double> diagonal_;
+};
+
 }  // namespace
+
+std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,
+                                                   const Points& positions)
+{
+    return std::make_unique<KeptStiffness>(std::move(laplacian), n_vertices, positions);
+}
 
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces)
 {

@@ -22,13 +22,14 @@ struct VertexPair {
 struct StiffnessProduct {
     /// #V by 3: X.
     const Points& increments;
-    /// #V by 3: receives factor · K (V + X). The rows of K add up to zero: it is made of differences, and has no
-    /// rounding error of the size of V.
+    /// #V by 3: receives factor · K (V + X), or factor · K X. The rows of K add up to zero: it is made of differences,
+    /// and has no rounding error of the size of V.
     Points& result;
+    bool of_increments_alone = false;
 };
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
-/// / val, Δ_A with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
+/// / val, Δ_A and Δ_B with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
 class SymmetricLaplacian {
   public:
     virtual ~SymmetricLaplacian() = default;
@@ -48,6 +49,9 @@ class SymmetricLaplacian {
     virtual void assemble(const Points& positions, double factor, std::span<const Index> slots,
                           std::span<double> values, std::span<double> diagonal, std::span<double> mass,
                           const StiffnessProduct* product = nullptr) = 0;
+
+    /// mass[v] = M_v, alone.
+    virtual void measure_mass(const Points& positions, std::span<double> mass) const = 0;
 };
 
 /// Whose contributions a SymmetricLaplacian adds up.
@@ -72,5 +76,11 @@ struct FacesOnBothSides {
 /// @param laplacian one that is symmetric.
 /// @param faces their lists must outlive the result if it uses them, the twins need not.
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces);
+
+/// The same with the K of certain positions whatever the mesh does, which is assembled once; M follows the mesh.
+/// @param n_vertices of all.
+/// @param positions at least n_vertices by 3; needed only during the call.
+std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLaplacian> laplacian, Index n_vertices,
+                                                   const Points& positions);
 
 }  // namespace seamflow

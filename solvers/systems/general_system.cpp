@@ -17,9 +17,12 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
 {
     const SubMesh& sub_mesh = *sub_mesh_;
     make_rows();
+    attachment_ = make_attachment(parts.terms, std::span(sub_mesh.local_to_global).first(at(sub_mesh.n_vertices)));
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
     auto assembler = make_assembler(
         parts.laplacian, {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, twin_, sub_mesh.n_vertices});
+    if (parts.terms.keeps_stiffness)
+        assembler = keep_stiffness(std::move(assembler), rows_of(*parts.terms.first, sub_mesh.local_to_global));
     const std::vector<MatrixEntry> laplacian_entries = assembler->entries();
 
     std::vector<MatrixEntry> entries;
@@ -56,16 +59,28 @@ void GeneralSystem::make_rows()
 SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const Points& other_side, double time_step,
                                                  double p, std::span<const InterfaceRole> roles, SolverWorkspace&)
 {
+    time_step_ = time_step;
+    pulls_ = attachment_.exists();
     roles_.assign(roles.begin(), roles.end());
     const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
             matrix_->diagonal(v) += 1.0;
         right_hand_side_.row(v) = positions.row(v);
+        if (row_of_[v] == Row::Laplacian && attachment_.exists()) {
+            matrix_->diagonal(v) += time_step * attachment_.weight(v);
+            right_hand_side_.row(v) += pull(v);
+        }
     }
     condition_->begin_step(positions, other_side, time_step, p);
     assemble_interface(positions, other_side);
     return equations;
+}
+
+/// dt w V⁰: what the attachment adds to the right-hand side.
+Point GeneralSystem::pull(Index v) const
+{
+    return pulls_ ? Point(time_step_ * attachment_.weight(v) * attachment_.first.row(v)) : Point::Zero();
 }
 
 void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)
@@ -79,9 +94,10 @@ void GeneralSystem::assemble_interface(const Points& positions, const Points& ot
         }
         row_.resize(condition_->columns()[i].size());
         condition_->left_hand_side(i, positions, row_);
-        right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side);
+        right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side) + pull(vertices[i]);
         for (std::size_t k = 0; k < row_.size(); ++k)
             matrix_->at_slot(interface_slots_[begin + k]) = row_[k];
+        matrix_->diagonal(vertices[i]) += time_step_ * attachment_.weight(vertices[i]);
     }
 }
 
@@ -91,12 +107,20 @@ SubMeshSystem::Factor GeneralSystem::factorise(const Assembled& equations, Facto
     return *matrix_->factorise(equations.matrix, memory, workspace);
 }
 
+void GeneralSystem::use_data(const Points& data)
+{
+    pulls_ = false;
+    right_hand_side_ = data.topRows(sub_mesh_->n_vertices);
+    use_other_side(data, data);
+}
+
 void GeneralSystem::use_other_side(const Points& positions, const Points& other_side)
 {
     const auto& vertices = sub_mesh_->interface.vertices;
     for (Index i = 0; i < static_cast<Index>(vertices.size()); ++i)
         if (roles_[i] == InterfaceRole::Leads)
-            right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side);
+            right_hand_side_.row(vertices[i]) =
+                condition_->right_hand_side(i, positions, other_side) + pull(vertices[i]);
 }
 
 void GeneralSystem::predict(const Factor& factor, const Points& positions, Points& prediction,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solvers/systems/attachment.h"
 #include "solvers/systems/lu_matrix.h"
 #include "solvers/systems/sub_mesh_system.h"
 
@@ -25,6 +26,7 @@ class GeneralSystem final : public SubMeshSystem {
     [[nodiscard]] Factorisation factorisation() const override { return matrix_->solver()->kind(); }
     Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace) override;
     [[nodiscard]] Index n_nearly_singular() const override { return matrix_->n_nearly_singular(); }
+    void use_data(const Points& data) override;
     void predict(const Factor& factor, const Points& positions, Points& prediction,
                  SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
@@ -36,6 +38,7 @@ class GeneralSystem final : public SubMeshSystem {
 
     void make_rows();
     void assemble_interface(const Points& positions, const Points& other_side);
+    [[nodiscard]] Point pull(Index v) const;
     void solve_with(const Factor& factor, const Points& given, Points& solution, SolverWorkspace& workspace);
 
     const SubMesh* sub_mesh_;
@@ -48,6 +51,11 @@ class GeneralSystem final : public SubMeshSystem {
     std::vector<Index> interface_slots_;
     std::vector<InterfaceRole> roles_;
     std::vector<double> row_;
+    Attachment attachment_;
+    /// dt of this step.
+    double time_step_ = 0.0;
+    /// Whether the right-hand side has what attaches to V⁰.
+    bool pulls_ = false;
     Columns right_hand_side_;
     Columns solution_;
 };

@@ -19,7 +19,7 @@ constexpr float least_pivot_of_single = 1e-3F;
 
 }  // namespace
 
-NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian)
+NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian, const FlowTerms& terms)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
     , matrix_{make_symmetric_laplacian(laplacian, {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,
@@ -27,6 +27,11 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacia
               sub_mesh.n_vertices + sub_mesh.n_halo}
     , solver_(number_unknowns(sub_mesh), n_interface_)
 {
+    const std::span<const Index> local_to_global = sub_mesh.local_to_global;
+    matrix_.attachment = make_attachment(terms, local_to_global.first(at(sub_mesh.n_vertices)));
+    if (terms.keeps_stiffness)
+        matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
+                                           rows_of(*terms.first, sub_mesh.local_to_global));
     if (!matrix_.laplacian->uses_faces())
         faces_ = {};
 }
@@ -74,6 +79,24 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
     for (const Index v : matrix_.vertex_of)
         residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);
+    const Attachment& attachment = matrix_.attachment;
+    for (const Index v : attachment.exists() ? std::span(matrix_.vertex_of) : std::span<const Index>())
+        residual.row(v) -= workspace.mass[v] * time_step * attachment.weight(v) *
+                           ((positions.row(v) - attachment.first.row(v)) + increments.row(v));
+    return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
+}
+
+NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const Points& increments, const Points& data,
+                                                 double time_step, SolverWorkspace& workspace) const
+{
+    Points& residual = workspace.residual;
+    set_rows(residual, matrix_.n_vertices);
+    const StiffnessProduct product{increments, residual, true};
+    const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
+    for (const Index v : matrix_.vertex_of)
+        residual.row(v) =
+            -residual.row(v) -
+            workspace.mass[v] * ((1.0 + time_step * matrix_.attachment.weight(v)) * increments.row(v) - data.row(v));
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 

@@ -12,21 +12,22 @@
 #include "solvers/direct/factorisation.h"
 #include "solvers/direct/ldl_solver.h"
 #include "solvers/direct/solver_workspace.h"
+#include "solvers/laplacian/flow_terms.h"
 #include "solvers/systems/symmetric_matrix.h"
 
 namespace seamflow {
 
-/// A sub-mesh's share A = M + dt K of the whole backward Euler system, assembled from its own faces alone: summed over
-/// the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ given, and
-/// its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what X leaves
-/// of the equations is measured in double precision, a factor may be in single precision. For Δ_F and Δ_A. One thread
-/// at a time.
+/// A sub-mesh's share A = M + dt K + dt M w of the whole backward Euler system, assembled from its own faces alone:
+/// summed over the sub-meshes, the shares are the whole. Factorised with Γ last, A = L D Lᵀ solves the interior with Γ
+/// given, and its last block is the sub-mesh's Schur complement on Γ. The unknowns are corrections X of Vᵏ⁺¹ - Vᵏ: what
+/// X leaves of the equations is measured in double precision, a factor may be in single precision. For symmetric
+/// Laplacians. One thread at a time.
 class NeumannSystem {
   public:
     /// @param sub_mesh without overlap; needed only during the call.
-    /// @param faces its face_vertices: most of what Δ_A keeps of it, while Δ_F has its edges.
+    /// @param faces its face_vertices: most of what Δ_A and Δ_B keep of it, while Δ_F has its edges.
     /// @throws ComputationError if the analysis fails.
-    NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian);
+    NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian, const FlowTerms& terms = {});
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 
@@ -54,7 +55,7 @@ class NeumannSystem {
     struct Assembled {
         /// A.
         std::span<const double> matrix;
-        /// #local by 3: -dt K Vᵏ - A X at the unknowns.
+        /// #local by 3: -dt K Vᵏ - dt M w (Vᵏ - V⁰) - A X at the unknowns.
         const Points& residual;
         /// A power of two near √dt: in this unit of length single precision has room for corrections.
         double unit = 1.0;
@@ -65,6 +66,11 @@ class NeumannSystem {
     /// @param time_step dt, in length².
     [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, double time_step,
                                      SolverWorkspace& workspace) const;
+
+    /// The equations for what the step makes of D, A X = M D, without what attaches to V⁰.
+    /// @param data #own by 3: D. The residual is M D - A X.
+    [[nodiscard]] Assembled assemble(const Points& positions, const Points& increments, const Points& data,
+                                     double time_step, SolverWorkspace& workspace) const;
 
     /// @param precision Automatic: single precision.
     /// @param memory must outlive the factor, as must the system.

@@ -9,6 +9,7 @@
 #include "partition/decomposition/sweep_plan.h"
 #include "solvers/conditions/transmission_condition.h"
 #include "solvers/direct/direct_solver.h"
+#include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -19,6 +20,7 @@ namespace seamflow {
 ///   Γ, leading           the transmission condition
 ///   all others           (I + dt Δ) V^{k+1} = V^k, Δ from the sub-mesh's own faces
 ///
+/// The last two have dt w more on the diagonal and dt w V⁰ more on the right-hand side where FlowTerms attach to V⁰.
 /// They are analysed once; each step fills in their values anew. The workspace may be another one in each call.
 /// Different systems may be used by different threads at the same time, each with a workspace of its own.
 class SubMeshSystem {
@@ -56,6 +58,11 @@ class SubMeshSystem {
     /// How many factorisations so far were of equations that are nearly singular: three correct digits at most.
     [[nodiscard]] virtual Index n_nearly_singular() const { return 0; }
 
+    /// Puts D in the place of Vᵏ on the right-hand side, without what attaches to V⁰: what is solved for from here on,
+    /// with the same factor, is what the step makes of D. The functions below then get D where they say Vᵏ.
+    /// @param data #local by 3: D, which is 0 at fixed vertices.
+    virtual void use_data(const Points& data) = 0;
+
     /// Solves with Γ held at Vᵏ where the sub-mesh follows: what it would do if nobody around moved.
     /// @param positions #local by 3: Vᵏ.
     /// @param prediction #local by 3; receives the result at own vertices.
@@ -84,6 +91,7 @@ struct SystemParts {
     std::vector<Index> twin;
     Laplacian laplacian;
     Factorisation factorisation = Factorisation::Automatic;
+    FlowTerms terms = {};
 };
 
 /// The equations with a condition of any kind on Γ.

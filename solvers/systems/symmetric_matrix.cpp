@@ -117,8 +117,11 @@ std::span<double> SymmetricMatrix::fill(const Points& positions, double time_ste
     workspace.diagonal.resize(n_vertices);
     workspace.mass.resize(n_vertices);
     laplacian->assemble(positions, time_step, slots, workspace.values, workspace.diagonal, workspace.mass, product);
-    for (Index u = 0; u < n(); ++u)
-        workspace.values[diagonal_slot(u)] = workspace.mass[vertex_of[u]] + workspace.diagonal[vertex_of[u]];
+    for (Index u = 0; u < n(); ++u) {
+        const Index v = vertex_of[u];
+        workspace.values[diagonal_slot(u)] =
+            workspace.mass[v] * (1.0 + time_step * attachment.weight(v)) + workspace.diagonal[v];
+    }
     return std::span(workspace.values).first(n_values);
 }
 

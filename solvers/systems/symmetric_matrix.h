@@ -8,6 +8,7 @@
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sparse/sparse_pattern.h"
+#include "solvers/systems/attachment.h"
 
 namespace seamflow {
 
@@ -44,7 +45,7 @@ struct UpperPattern {
 /// @param order the unknowns in the order in which the matrix has them.
 UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index>& order);
 
-/// The symmetric matrix M + dt K of a sub-mesh at its unknowns, which is filled in anew in each step.
+/// The symmetric matrix M + dt K + dt M w of a sub-mesh at its unknowns, which is filled in anew in each step.
 struct SymmetricMatrix {
     std::unique_ptr<SymmetricLaplacian> laplacian;
     /// Of the sub-mesh, its halo included.
@@ -56,6 +57,7 @@ struct SymmetricMatrix {
     /// Per pair of the Laplacian: an entry of the pattern, one of the further values behind them, or the last value of
     /// all, which nobody reads.
     std::vector<Index> slots{};
+    Attachment attachment{};
 
     [[nodiscard]] Index n() const { return static_cast<Index>(vertex_of.size()); }
     [[nodiscard]] Index n_entries() const { return column_offsets.back(); }

@@ -32,6 +32,7 @@ class SymmetricSystem final : public SubMeshSystem {
     [[nodiscard]] std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
     [[nodiscard]] Factorisation factorisation() const override { return solver_->kind(); }
     Factor factorise(const Assembled& equations, FactorMemory& memory, SolverWorkspace& workspace) override;
+    void use_data(const Points& data) override;
     void predict(const Factor& factor, const Points& positions, Points& prediction,
                  SolverWorkspace& workspace) override;
     void use_other_side(const Points& positions, const Points& other_side) override;
@@ -90,6 +91,10 @@ class SymmetricSystem final : public SubMeshSystem {
     std::vector<Coupling> held_;
     /// Per unknown.
     std::vector<double> mass_;
+    /// dt of this step.
+    double time_step_ = 0.0;
+    /// Whether the right-hand side has what attaches to V⁰.
+    bool pulls_ = false;
 };
 
 }  // namespace seamflow

@@ -18,7 +18,7 @@ namespace seamflow {
 /// The backward Euler step of a whole mesh, (M + dt K)(Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ, by conjugate gradients: no sub-meshes, no
 /// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is measured anew in
 /// double precision, from the geometry, so that rounding limits no tolerance. Three columns are iterated at once. Sums
-/// are taken in a fixed order: the bits do not depend on how loops are run. For Δ_F and Δ_A.
+/// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians.
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.

@@ -84,10 +84,22 @@ TEST_CASE("converged steps are the undecomposed ones, sweeps nearly so")
     CHECK(w.count_lines("said", "sweeps: 4 sub-meshes") == 1);
 }
 
+TEST_CASE("a low-pass filter moves a mesh less than diffusion, and so does an attachment")
+{
+    const Workshop w;
+    REQUIRE(w.run(FURTHER_FLOWS " mesh.obj") == 0);
+    const auto moved = numbers(w.said(), "moved by (\\S+)");
+    REQUIRE(moved.size() == 4);
+    CHECK(moved[1] < 0.9 * moved[0]);
+    CHECK(moved[2] < 0.9 * moved[0]);
+    CHECK(moved[3] > 0.5 * moved[0]);
+}
+
 TEST_CASE("wrong usage and files that are not there are said in words")
 {
     const Workshop w;
-    for (const std::string program : {LIBRARY_CALL, OPENMESH_PIPELINE, OWN_CUT, OBSERVE_STEPS, CONVERGED_STEP}) {
+    for (const std::string program :
+         {LIBRARY_CALL, OPENMESH_PIPELINE, OWN_CUT, OBSERVE_STEPS, CONVERGED_STEP, FURTHER_FLOWS}) {
         CHECK(w.run(program) == 2);
         CHECK(w.said().starts_with("usage: "));
     }

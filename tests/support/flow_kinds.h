@@ -50,6 +50,22 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(std::string(name_of(laplacian)) + " by conjugate gradients", [&](FlowOptions& o) {
             o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
         });
+    for (const bool is_converged : {false, true}) {
+        const auto add_further = [&](const std::string& name, auto change) {
+            add(name + (is_converged ? ", converged" : ", by sweeps"), [&](FlowOptions& o) {
+                change(o);
+                if (is_converged)
+                    o.accuracy.tolerance = 1e-3;
+            });
+        };
+        add_further("conformalized", [](FlowOptions& o) {
+            o.laplacian = Laplacian::VirtualRefinement, o.flow = FlowEquation::Conformalized;
+        });
+        add_further("low-pass", [](FlowOptions& o) { o.filter = Filter::LowPass; });
+        add_further("attached", [&](FlowOptions& o) {
+            o.laplacian = Laplacian::AlexaWardetzky, o.motion.attachment = 0.1 / (edge * edge);
+        });
+    }
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
     add("chosen", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });
     add("undecomposed", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Undecomposed; });

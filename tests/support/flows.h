@@ -9,8 +9,10 @@
 
 namespace seamflow::test {
 
-inline constexpr std::array all_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::PtackovaVelho};
-inline constexpr std::array symmetric_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky};
+inline constexpr std::array all_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement,
+                                           Laplacian::PtackovaVelho};
+inline constexpr std::array symmetric_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky,
+                                                 Laplacian::VirtualRefinement};
 
 /// The positions after a flow.
 inline Points flowed(PolygonMesh mesh, const FlowOptions& options)

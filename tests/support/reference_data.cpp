@@ -84,6 +84,35 @@ ReferenceOperators read_operators(const std::filesystem::path& path)
     return reference;
 }
 
+ReferenceStiffness read_stiffness(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceStiffness reference{mesh_from(data), {}, data.at("mass").get<std::vector<double>>()};
+    for (const json& entry : data.at("stiffness"))
+        reference.stiffness[entry[0].get<Index>()][entry[1].get<Index>()] += entry[2].get<double>();
+    return reference;
+}
+
+ReferenceFlow read_further_flow(const std::filesystem::path& path)
+{
+    const json data = parse(path);
+    ReferenceFlow reference{mesh_from(data), {}, {}};
+    FlowOptions& options = reference.options;
+    options.laplacian = laplacian_named(data.at("laplacian").get<std::string>());
+    options.time_step = data.at("time_step").get<double>();
+    options.steps = static_cast<int>(data.at("positions_after_step").size());
+    options.cut.subdomains = 1;
+    if (data.at("conformalized").get<bool>())
+        options.flow = FlowEquation::Conformalized;
+    if (!data.at("attachment").is_null())
+        options.motion.attachment_weights = data.at("attachment").get<std::vector<double>>();
+    if (data.at("low_pass").get<bool>())
+        options.filter = Filter::LowPass;
+    for (const json& positions : data.at("positions_after_step"))
+        reference.positions_after_step.push_back(points_from(positions));
+    return reference;
+}
+
 ReferenceFlow read_flow(const std::filesystem::path& path)
 {
     const json data = parse(path);

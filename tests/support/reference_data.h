@@ -37,6 +37,16 @@ struct ReferenceOperators {
 
 ReferenceOperators read_operators(const std::filesystem::path& path);
 
+/// K and M of Δ_B on a small mesh (tests/data/stiffness).
+struct ReferenceStiffness {
+    PolygonMesh mesh;
+    /// By vertex.
+    std::map<Index, Row> stiffness;
+    std::vector<double> mass;
+};
+
+ReferenceStiffness read_stiffness(const std::filesystem::path& path);
+
 /// A flow as the paper's authors compute it (tests/data/flow).
 struct ReferenceFlow {
     PolygonMesh mesh;
@@ -45,5 +55,8 @@ struct ReferenceFlow {
 };
 
 ReferenceFlow read_flow(const std::filesystem::path& path);
+
+/// A flow beyond the paper's (tests/data/beyond), undecomposed.
+ReferenceFlow read_further_flow(const std::filesystem::path& path);
 
 }  // namespace seamflow::test

@@ -115,14 +115,19 @@ double visit_row(const Flow& flow, const Equations& equations, const Points& pos
     }
     for (const Index corner : flow.topology.corners_at(v)) {
         const Index f = flow.topology.face_of[corner];
-        measure_corner<AlexaWardetzky>(flow.mesh.face(f), at(corner - flow.mesh.face_offsets[f]), positions,
-                                       [&](const auto& face, std::size_t i) {
-                                           const auto row = face.row(i, 1.0 / face.divisor());
-                                           for (std::size_t k = 0; k < face.size(); ++k)
-                                               if (k != i)
-                                                   entry(std::find(begin, end, face.corner(k)) - begin, row(k));
-                                           mass += face.mass(i);
-                                       });
+        const auto corners = flow.mesh.face(f);
+        const std::size_t own = at(corner - flow.mesh.face_offsets[f]);
+        const auto add = [&](const auto& face, std::size_t i) {
+            const auto row = face.row(i, 1.0 / face.divisor());
+            for (std::size_t k = 0; k < face.size(); ++k)
+                if (k != i)
+                    entry(std::find(begin, end, face.corner(k)) - begin, row(k));
+            mass += face.mass(i);
+        };
+        if (flow.laplacian == Laplacian::VirtualRefinement)
+            measure_corner<VirtualRefinement>(corners, own, positions, add);
+        else
+            measure_corner<AlexaWardetzky>(corners, own, positions, add);
     }
     return mass;
 }

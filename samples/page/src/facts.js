@@ -22,13 +22,17 @@ export function element(name, attributes = {}, ...children) {
 
 const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 
-const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "ptackova-velho": "Ptáčková–Velho" };
+const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "virtual-refinement": "Virtual refinement", "ptackova-velho": "Ptáčková–Velho" };
 
 /** One line about a flow. */
 export function summary(mesh, report) {
     return [
         `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
         `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
+        ...(report.flow === "conformalized" ? ["conformalized"] : []),
+        ...(report.filter === "low-pass" ? ["low-pass"] : []),
+        ...(report.attachment ? [`attached, ${digits(report.attachment)} / length²`] : []),
+        ...(report.attachment_weights ? ["attached by weights"] : []),
         `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`,
         report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colours > 1 ? ` in ${report.colours} colours` : ""}` : "undecomposed",
     ].join(" · ");

@@ -173,6 +173,10 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
     using Change = void (*)(FlowOptions&);
     const std::pair<const char*, Change> changes[] = {
         {"laplacian", [](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; }},
+        {"flow", [](FlowOptions& o) { o.flow = FlowEquation::Conformalized; }},
+        {"filter", [](FlowOptions& o) { o.filter = Filter::LowPass; }},
+        {"attachment", [](FlowOptions& o) { o.motion.attachment = 2.0; }},
+        {"attachment_weights", [](FlowOptions& o) { o.motion.attachment_weights = {2.0}; }},
         {"time_step", [](FlowOptions& o) { o.time_step = 0.5; }},
         {"subdomains", [](FlowOptions& o) { o.cut.subdomains = 3; }},
         {"labels",

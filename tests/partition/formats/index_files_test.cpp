@@ -137,3 +137,30 @@ TEST_CASE("binary PLY files, too")
     CHECK(read_vertex_set(files.directory / "b.ply", mesh.n_vertices(), "fixed") == std::vector<Index>{5, 11});
     CHECK(read_vertex_set(files.directory / "b.ply", mesh.n_vertices(), "red").size() == values.size());
 }
+
+TEST_CASE("weights of vertices come one a line, or as a property of a .ply")
+{
+    const Files files;
+    const auto read = [&](const std::string& name, const std::string& text, Index n) {
+        return read_vertex_weights(files.with(name, text), n, "weight");
+    };
+    CHECK(read("w.txt", "# w\n0.5\n\n2e3 # stiff\n0\n", 3) == std::vector<double>{0.5, 2e3, 0.0});
+    CHECK(read("w.ply",
+               "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty double weight\nend_header\n"
+               "7 1.25\n8 0\n",
+               2) == std::vector<double>{1.25, 0.0});
+    const auto refusal = [&](const std::string& name, const std::string& text, Index n) -> std::string {
+        try {
+            static_cast<void>(read(name, text, n));
+        } catch (const InputError& error) {
+            return std::string(error.what()).substr((files.directory / name).string().size());
+        }
+        return "";
+    };
+    CHECK(refusal("a.txt", "1\n-2\n", 2).starts_with(":2: '-2' is no weight: "));
+    CHECK(refusal("a.txt", "inf\n", 1).starts_with(":1: 'inf' is no weight: "));
+    CHECK(refusal("a.txt", "1\n2\n3\n", 2).starts_with(":3: more weights than the mesh has vertices (2): "));
+    CHECK(refusal("a.txt", "1\n2\n", 3).starts_with(":2: the file ends after 2 of 3 weights: "));
+    CHECK(refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float weight\nend_header\n-1\n", 1)
+              .find("is no weight") != std::string::npos);
+}

@@ -58,8 +58,8 @@ void assemble(const Case& c, const Points& after, double time_step, ErrorEquatio
 {
     for (Index s = 0; s < 2; ++s) {
         const SubMesh& sub_mesh = c.decomposition.sub_meshes[s];
-        equation.assemble(s, test::localised(sub_mesh, c.cut.mesh.vertices), test::localised(sub_mesh, after),
-                          time_step);
+        const Points before = test::localised(sub_mesh, c.cut.mesh.vertices);
+        equation.assemble(s, before, test::localised(sub_mesh, after), before, time_step);
     }
 }
 

@@ -1,0 +1,39 @@
+// One mesh, four flows: plain, with a low-pass filter, attached to where it was, conformalized; and how far each moves
+// it.
+//
+//     further_flows INPUT
+
+#include <iostream>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/metrics/vertex_distance.h"
+
+int main(int argc, char** argv)
+try {
+    if (argc != 2) {
+        std::cerr << "usage: further_flows INPUT\n";
+        return 2;
+    }
+    const seamflow::PolygonMesh mesh = seamflow::read_mesh(argv[1]).mesh;
+    const double edge = seamflow::mean_edge_length(mesh);
+    const auto flow = [&](const char* name, auto change) {
+        seamflow::FlowOptions options;
+        options.laplacian = seamflow::Laplacian::VirtualRefinement;
+        options.time_step = 5.0 * edge * edge;
+        options.steps = 3;
+        change(options);
+        seamflow::PolygonMesh smooth = mesh;
+        seamflow::mean_curvature_flow(smooth, options);
+        std::cout << name << ": moved by "
+                  << seamflow::vertex_distance(mesh, mesh.vertices, smooth.vertices).mean / edge << " mean edges\n";
+    };
+    using Options = seamflow::FlowOptions;
+    flow("plain", [](Options&) {});
+    flow("low-pass", [](Options& options) { options.filter = seamflow::Filter::LowPass; });
+    flow("attached", [&](Options& options) { options.motion.attachment = 1.0 / (9.0 * edge * edge); });
+    flow("conformalized", [](Options& options) { options.flow = seamflow::FlowEquation::Conformalized; });
+} catch (const std::exception& error) {
+    std::cerr << "further_flows: " << error.what() << '\n';
+    return 1;
+}

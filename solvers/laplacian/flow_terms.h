@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// What the equations of a step, (M + dt K) Vᵏ⁺¹ = M Vᵏ, have beside dt and the positions Vᵏ that M and K are those of.
+struct FlowTerms {
+    /// #V by 3: V⁰, of the whole mesh. Where any of the following is wanted; needed only while systems are made.
+    const Points* first = nullptr;
+    /// Whether K is that of V⁰ in all steps: the conformalized flow (Kazhdan, Solomon, Ben-Chen 2012).
+    bool keeps_stiffness = false;
+    /// w of the attachment to V⁰, (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰, in 1/length²: that of each vertex (#V),
+    /// or, where there are none, of all.
+    std::span<const double> weights = {};
+    double uniform_weight = 0.0;
+
+    [[nodiscard]] bool attaches() const { return !weights.empty() || uniform_weight > 0.0; }
+    [[nodiscard]] double weight(Index v) const { return weights.empty() ? uniform_weight : weights[v]; }
+};
+
+/// The rows of some vertices.
+/// @param of_mesh #V by 3.
+inline Points rows_of(const Points& of_mesh, std::span<const Index> vertices)
+{
+    Points rows(static_cast<Eigen::Index>(vertices.size()), 3);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        rows.row(static_cast<Eigen::Index>(i)) = of_mesh.row(vertices[i]);
+    return rows;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,293 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "solvers/laplacian/alexa_wardetzky.h"
+#include "solvers/laplacian/geometry.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+/// Δ_B of Bunge, Herholz, Kazhdan and Botsch (Polygon Laplacian Made Simple, 2020). A face with more than three corners
+/// xₖ gets a virtual vertex x = Σ wₖ xₖ, Σ wₖ = 1, for which the fan of triangles (xₖ, xₖ₊₁, x) has the least sum of
+/// squared areas; w is the shortest of those that give this x. K = Pᵀ F P with the cotangent stiffness F of the fan and
+/// P = [I; wᵀ]. M has the areas of the vertices, as that of Δ_A, which it equals on triangles. K is positive
+/// semi-definite, and 0 for constants alone.
+struct VirtualRefinement {
+    static constexpr LaplacianTraits traits{
+        Laplacian::VirtualRefinement, "virtual-refinement", "Δ_B", Reach::Faces, Divisor::FaceAreas, true};
+
+    using Triangle = AlexaWardetzky::Triangle;
+
+    /// |f|.
+    static double size(std::span<const Index> corners, const Points& positions) { return area(corners, positions); }
+    /// |f| / p (paper, eq. 11).
+    static double corner_mass(double size, std::size_t p) { return corner_area(size, p); }
+
+    /// The virtual vertex of a polygon. Positions are relative to the first corner: an offset of the mesh costs no
+    /// precision.
+    class VirtualVertex {
+      public:
+        VirtualVertex(std::span<const Index> corners, const Points& positions)
+            : corners_(corners)
+            , positions_(positions)
+        {
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                mean_ += position(k);
+            mean_ /= static_cast<double>(corners.size());
+            const Point from_mean = least_areas();
+            position_ = mean_ + from_mean;
+            gradient_ = gradient_of_weights(from_mean);
+        }
+
+        /// xₖ.
+        [[nodiscard]] Point position(std::size_t k) const
+        {
+            return positions_.row(corners_[k]) - positions_.row(corners_[0]);
+        }
+        /// x.
+        [[nodiscard]] const Point& position() const { return position_; }
+        /// wₖ.
+        [[nodiscard]] double weight(std::size_t k) const
+        {
+            return 1.0 / static_cast<double>(corners_.size()) + gradient_.dot(position(k) - mean_);
+        }
+
+      private:
+        /// What of a polygon's extent counts as rounding: a flatter one is flat.
+        static constexpr double flat = 1e-8;
+        /// By how much the mean of the corners attracts x, in parts of what the areas do: where these leave x free, as
+        /// in a polygon without width, it is there.
+        static constexpr double attraction = 1e-14;
+
+        /// x - mean for which Σ |(x - xₖ) × dₖ|² is least, with dₖ = xₖ₊₁ - xₖ.
+        [[nodiscard]] Point least_areas() const
+        {
+            Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+            Eigen::Vector3d right = Eigen::Vector3d::Zero();
+            for (std::size_t k = 0; k < corners_.size(); ++k) {
+                const Eigen::Vector3d here = (position(k) - mean_).transpose();
+                const Eigen::Vector3d edge = (position(k + 1 == corners_.size() ? 0 : k + 1) - position(k)).transpose();
+                const double squared = edge.squaredNorm();
+                products -= edge * edge.transpose();
+                products.diagonal().array() += squared;
+                right += squared * here - edge.dot(here) * edge;
+            }
+            products.diagonal().array() += attraction * products.trace();
+            return products.llt().solve(right).transpose();
+        }
+
+        /// The shortest w that makes Σ wₖ (xₖ - mean) = from_mean is 1/p + g · (xₖ - mean). This g, by the method of
+        /// conjugate directions: linear functions on the corners are made orthogonal, the largest first.
+        [[nodiscard]] Point gradient_of_weights(const Point& from_mean) const
+        {
+            std::array<Point, 3> directions{Point::UnitX(), Point::UnitY(), Point::UnitZ()};
+            Point gradient = Point::Zero();
+            double first = 0.0;
+            for (std::size_t j = 0; j < 3; ++j) {
+                Point squares = Point::Zero();
+                for (std::size_t m = j; m < 3; ++m)
+                    squares[static_cast<Eigen::Index>(m)] = product(directions[m], directions[m]);
+                Eigen::Index largest = 0;
+                const double square = squares.maxCoeff(&largest);
+                first = j == 0 ? square : first;
+                if (!(square > flat * flat * first))
+                    break;
+                std::swap(directions[j], directions[static_cast<std::size_t>(largest)]);
+                gradient += from_mean.dot(directions[j]) / square * directions[j];
+                for (std::size_t m = j + 1; m < 3; ++m)
+                    directions[m] -= product(directions[j], directions[m]) / square * directions[j];
+            }
+            return gradient;
+        }
+
+        /// Inner product of two linear functions on the corners.
+        [[nodiscard]] double product(const Point& a, const Point& b) const
+        {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < corners_.size(); ++k) {
+                const Point here = position(k) - mean_;
+                sum += here.dot(a) * here.dot(b);
+            }
+            return sum;
+        }
+
+        std::span<const Index> corners_;
+        const Points& positions_;
+        Point mean_ = Point::Zero();
+        Point position_;
+        Point gradient_;
+    };
+
+    /// Entries of the cotangent stiffness of the triangle k of a fan.
+    struct FanTriangle {
+        double here;
+        double next;
+        double here_to_next;
+        double virtual_to_here;
+        double virtual_to_next;
+    };
+
+    static FanTriangle fan_triangle(const VirtualVertex& x, std::size_t k, std::size_t p)
+    {
+        // The least height of a triangle in parts of its width: thinner ones are no stiffer.
+        constexpr double thin = 1e-10;
+        const Point here = x.position(k);
+        const Point next = x.position(k + 1 == p ? 0 : k + 1);
+        // Each opposite to a corner: here, next, the virtual one.
+        const std::array<Point, 3> edges{x.position() - next, here - x.position(), next - here};
+        const double widest = std::max({edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm()});
+        if (widest == 0.0)
+            return {};
+        const double scale = 0.5 / std::max(edges[0].cross(edges[2]).norm(), thin * widest);
+        return {scale * edges[0].squaredNorm(), scale * edges[1].squaredNorm(), scale * edges[0].dot(edges[1]),
+                scale * edges[2].dot(edges[0]), scale * edges[2].dot(edges[1])};
+    }
+
+    /// What stands at a corner: its weight, and entries of F for it and itself, the next corner, the virtual vertex.
+    struct Corner {
+        double weight;
+        double diagonal;
+        double to_next;
+        double to_virtual;
+    };
+
+    /// Of a triangle, without a virtual vertex, which would cost slivers precision.
+    static Corner of_triangle(const VirtualVertex& x, std::size_t k)
+    {
+        const Point here = x.position(k);
+        const Point next = x.position(k == 2 ? 0 : k + 1);
+        const Point last = x.position(k == 0 ? 2 : k - 1);
+        const Point opposite_here = last - next;
+        const Point opposite_next = here - last;
+        const double scale = 0.5 / opposite_here.cross(opposite_next).norm();
+        return {0.0, scale * opposite_here.squaredNorm(), scale * opposite_here.dot(opposite_next), 0.0};
+    }
+
+    /// The corners of a polygon, computed when they are asked for.
+    struct ComputedCorners {
+        VirtualVertex x;
+        std::size_t size;
+
+        [[nodiscard]] Corner operator()(std::size_t k) const
+        {
+            if (size == 3)
+                return of_triangle(x, k);
+            const FanTriangle before = fan_triangle(x, k == 0 ? size - 1 : k - 1, size);
+            const FanTriangle after = fan_triangle(x, k, size);
+            return {x.weight(k), before.next + after.here, after.here_to_next,
+                    before.virtual_to_next + after.virtual_to_here};
+        }
+    };
+
+    /// Those of a polygon of which all rows are wanted, computed once.
+    struct StoredCorners {
+        const Corner* corners;
+        const Corner& operator()(std::size_t k) const { return corners[k]; }
+    };
+    using Scratch = std::vector<Corner>;
+
+    /// What one face contributes: see kernels.h.
+    template <class Corners>
+    class Face {
+      public:
+        /// Row i of scale · K.
+        struct Row {
+            Corner own;
+            std::size_t i;
+            std::size_t size;
+            double at_virtual;
+            double scale;
+            const Corners& corners;
+
+            double operator()(std::size_t k) const
+            {
+                const Corner other = corners(k);
+                const double entry = own.weight * other.to_virtual + own.to_virtual * other.weight +
+                                     at_virtual * own.weight * other.weight;
+                return scale * (entry + of_fan(k, other));
+            }
+
+          private:
+            /// F_ik.
+            [[nodiscard]] double of_fan(std::size_t k, const Corner& other) const
+            {
+                if (k == i)
+                    return own.diagonal;
+                if (k == (i + 1 == size ? 0 : i + 1))
+                    return own.to_next;
+                return i == (k + 1 == size ? 0 : k + 1) ? other.to_next : 0.0;
+            }
+        };
+
+        Face(std::span<const Index> corners, const Points& positions, double face_area, const Corners& of_fan)
+            : corners_(corners)
+            , positions_(positions)
+            , area_(face_area)
+            , of_fan_(of_fan)
+        {
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                at_virtual_ -= of_fan_(k).to_virtual;
+        }
+
+        [[nodiscard]] std::size_t size() const { return corners_.size(); }
+        [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
+        [[nodiscard]] double mass(std::size_t) const { return corner_area(area_, size()); }
+        [[nodiscard]] static constexpr double divisor() { return 1.0; }
+        [[nodiscard]] static const Point& divided(const Point& product) { return product; }
+        [[nodiscard]] Row row(std::size_t i, double scale) const
+        {
+            return {of_fan_(i), i, size(), at_virtual_, scale, of_fan_};
+        }
+        [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
+        {
+            return positions_.row(corners_[k]) - positions_.row(corners_[i]);
+        }
+
+      private:
+        std::span<const Index> corners_;
+        const Points& positions_;
+        double area_;
+        Corners of_fan_;
+        /// F of the virtual vertex and itself.
+        double at_virtual_ = 0.0;
+    };
+
+    static Face<ComputedCorners> polygon(std::span<const Index> corners, const Points& positions, double size)
+    {
+        return {corners, positions, size, {{corners, positions}, corners.size()}};
+    }
+
+    static Face<StoredCorners> whole_polygon(std::span<const Index> corners, const Points& positions, double size,
+                                             Scratch& scratch)
+    {
+        const std::size_t p = corners.size();
+        const VirtualVertex x(corners, positions);
+        scratch.assign(p, Corner{});
+        for (std::size_t k = 0; k < p && p == 3; ++k)
+            scratch[k] = of_triangle(x, k);
+        for (std::size_t k = 0; k < p && p > 3; ++k) {
+            const FanTriangle triangle = fan_triangle(x, k, p);
+            Corner& here = scratch[k];
+            Corner& next = scratch[k + 1 == p ? 0 : k + 1];
+            here.weight = x.weight(k);
+            here.diagonal += triangle.here;
+            here.to_next = triangle.here_to_next;
+            here.to_virtual += triangle.virtual_to_here;
+            next.diagonal += triangle.next;
+            next.to_virtual += triangle.virtual_to_next;
+        }
+        return {corners, positions, size, {scratch.data()}};
+    }
+};
+
+}  // namespace seamflow

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solvers/laplacian/flow_terms.h"
+
+namespace seamflow {
+
+/// What attaches a sub-mesh to V⁰: dt M w more on the diagonal of M + dt K, and dt M w V⁰ more on the right-hand side.
+struct Attachment {
+    /// Per own vertex: w, in 1/length². Empty: there is no attachment.
+    std::vector<double> weights;
+    /// #own by 3: V⁰.
+    Points first = Points(0, 3);
+
+    [[nodiscard]] bool exists() const { return !weights.empty(); }
+    [[nodiscard]] double weight(Index v) const { return exists() ? weights[v] : 0.0; }
+};
+
+/// @param own the vertices of the sub-mesh, as numbers in the mesh.
+inline Attachment make_attachment(const FlowTerms& terms, std::span<const Index> own)
+{
+    Attachment attachment;
+    if (!terms.attaches())
+        return attachment;
+    attachment.first = rows_of(*terms.first, own);
+    attachment.weights.reserve(own.size());
+    for (const Index v : own)
+        attachment.weights.push_back(terms.weight(v));
+    return attachment;
+}
+
+}  // namespace seamflow
