@@ -160,23 +160,16 @@ PolygonMesh taubin_smoothed(PolygonMesh mesh, int iterations)
     return mesh;
 }
 
-PolygonMesh bilaterally_filtered(PolygonMesh mesh, const BilateralFilter& filter)
-{
-    Bilateral bilateral(mesh, filter.sigma);
-    bilateral.smooth_normals(filter.normal_iterations);
-    return bilateral.fitted(filter.vertex_iterations);
-}
-
-PolygonMesh best_of_bilateral_filters(const PolygonMesh& truth, const PolygonMesh& noisy)
+PolygonMesh best_of_bilateral_filters(const PolygonMesh& truth, const PolygonMesh& noisy, const BilateralGrid& grid)
 {
     PolygonMesh best = noisy;
     double least = angle_to_truth(truth, noisy);
-    for (const double sigma : {0.2, 0.25, 0.3, 0.35, 0.4}) {
+    for (const double sigma : grid.sigmas) {
         Bilateral bilateral(noisy, sigma);
         int done = 0;
-        for (const int normal_iterations : {10, 20, 30, 40, 60, 80}) {
+        for (const int normal_iterations : grid.normal_iterations) {
             bilateral.smooth_normals(normal_iterations - std::exchange(done, normal_iterations));
-            for (const int vertex_iterations : {20, 50}) {
+            for (const int vertex_iterations : grid.vertex_iterations) {
                 PolygonMesh result = bilateral.fitted(vertex_iterations);
                 const double angle = angle_to_truth(truth, result);
                 if (angle < least) {

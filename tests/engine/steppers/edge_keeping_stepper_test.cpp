@@ -59,7 +59,7 @@ TEST_CASE("much less is left of noise than by the plain flow, by Taubin and by b
 {
     // Larger meshes, all noises and finer grids of parameters: see engine/accuracy.md.
     constexpr double third = 1.0 / 3.0;
-    const std::vector<test::BilateralFilter> filters{{0.25, 60, 50}, {0.3, 30, 50}, {0.35, 60, 50}, {0.35, 30, 50}};
+    const test::BilateralGrid filters{{0.25, 0.35}, {30, 60}, {50}};
     for (const char* kind : {"box", "gear", "stepped-cylinder", "chamfered-plate"})
         for (const double noise : {0.2, 0.3}) {
             CAPTURE(kind);
@@ -71,8 +71,7 @@ TEST_CASE("much less is left of noise than by the plain flow, by Taubin and by b
             const test::Denoised left = test::compare_with_truth(truth, result);
             CHECK(left.angle < third * best_of_plain_flows(truth, noisy));
             CHECK(left.angle < third * test::angle_to_truth(truth, test::taubin_smoothed(noisy, 15)));
-            for (const test::BilateralFilter& filter : filters)
-                CHECK(left.angle < test::angle_to_truth(truth, test::bilaterally_filtered(noisy, filter)));
+            CHECK(left.angle < test::angle_to_truth(truth, test::best_of_bilateral_filters(truth, noisy, filters)));
             CHECK(left.distance < 0.05);
             CHECK(std::abs(left.volume) < 3e-3);
         }
