@@ -12,23 +12,23 @@ namespace seamflow {
 namespace {
 
 /// The weights follow the normals so often (measured, as what follows: see engine/accuracy.md).
-constexpr int rounds = 8;
+constexpr int diffusion_rounds = 8;
 /// The chord of the angle in σ: at the angle the diffusivity is exp(-3.5²/2) = .002.
-constexpr double sigmas = 3.5;
+constexpr double sigmas_at_edges = 3.5;
 /// The mean around another face is a better guide only where normals disagree so many times less.
-constexpr double clearly = 0.5;
+constexpr double clearly_less = 0.5;
 /// Of the residual of a round, relative to that at its beginning; and most iterations.
-constexpr double tolerance = 1e-2;
-constexpr int most_iterations = 500;
+constexpr double diffusion_tolerance = 1e-2;
+constexpr int most_diffusion_iterations = 500;
 /// Weights relative to the diagonal of A beyond which a face has the mean of its neighbours to all digits.
-constexpr double largest_weight = 1e20;
+constexpr double largest_diffusion_weight = 1e20;
 
-double inner_product(const Points& a, const Points& b, const Loop& loop)
+double sum_of_products(const Points& a, const Points& b, const Loop& loop)
 {
     return sum(loop, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
-void normalise(Points& normals, Index f)
+void normalise_row(Points& normals, Index f)
 {
     const double length = normals.row(f).norm();
     if (length > 0.0)
@@ -61,18 +61,18 @@ NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const Topology& topolo
 Points NormalDiffusion::smoothed(const Points& positions, double time_step, double angle, const Loop& loop)
 {
     const Index n = mesh_->n_faces();
-    measure(positions, time_step / rounds, loop);
-    const double sigma = 2.0 * std::sin(angle * std::numbers::pi / 360.0) / sigmas;
+    measure(positions, time_step / diffusion_rounds, loop);
+    const double sigma = 2.0 * std::sin(angle * std::numbers::pi / 360.0) / sigmas_at_edges;
     Points normals(n, 3);
     for_each(loop, n, [&](Index f) {
         normals.row(f) = vector_area(mesh_->face(f), positions) * (signs_.empty() ? 1.0 : signs_[f]);
-        normalise(normals, f);
+        normalise_row(normals, f);
     });
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < diffusion_rounds; ++round) {
         find_guides(normals, loop);
         find_weights(normals, 2.0 * sigma * sigma, loop);
         diffuse(normals, loop);
-        for_each(loop, n, [&](Index f) { normalise(normals, f); });
+        for_each(loop, n, [&](Index f) { normalise_row(normals, f); });
     }
     return normals;
 }
@@ -117,11 +117,11 @@ void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
         }
         disagreement_[f] = weight > 0.0 ? 1.0 - total.norm() / weight : 1.0;
         means_.row(f) = total;
-        normalise(means_, f);
+        normalise_row(means_, f);
     });
     for_each(loop, n, [&](Index f) {
         guide_[f] = f;
-        double least = clearly * disagreement_[f];
+        double least = clearly_less * disagreement_[f];
         for (const Index g : neighbours_[f])
             if (disagreement_[g] < least) {
                 least = disagreement_[g];
@@ -144,7 +144,7 @@ void NormalDiffusion::find_weights(const Points& normals, double two_sigma_squar
             const double weight =
                 scale > 0.0 ? scale * std::exp(-2.0 * squared / (reach_[f] * reach_[g]) - chords / two_sigma_squared)
                             : 0.0;
-            weights_[k] = static_cast<float>(std::min(weight, largest_weight));
+            weights_[k] = static_cast<float>(std::min(weight, largest_diffusion_weight));
             total += static_cast<double>(weights_[k]);
         }
         diagonal_[f] = areas_[f] + total;
@@ -169,11 +169,11 @@ void NormalDiffusion::diffuse(Points& normals, const Loop& loop)
         residual_.row(f) = -laplacian(normals, f);
         direction_.row(f) = preconditioned(f);
     });
-    const double wanted = tolerance * tolerance * inner_product(residual_, residual_, loop);
+    const double wanted = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, loop);
     double before = energy();
-    for (int i = 0; i < most_iterations && inner_product(residual_, residual_, loop) > wanted; ++i) {
+    for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, loop) > wanted; ++i) {
         for_each(loop, n, [&](Index f) { product_.row(f) = areas_[f] * direction_.row(f) + laplacian(direction_, f); });
-        const double alpha = before / inner_product(direction_, product_, loop);
+        const double alpha = before / sum_of_products(direction_, product_, loop);
         if (!std::isfinite(alpha))
             break;
         for_each(loop, n, [&](Index f) {
