@@ -20,7 +20,8 @@ namespace {
 /// Setup takes as long as so many steps, about.
 double fraction_of_setup(const FlowOptions& options, const FlowState* resume)
 {
-    const double as_steps = options.accuracy.tolerance ? 4.0 : options.scheme == Scheme::ExplicitEuler ? 3.0 : 6.0;
+    const bool is_simple = options.scheme == Scheme::ExplicitEuler || options.keep_edges;
+    const double as_steps = options.accuracy.tolerance ? 4.0 : is_simple ? 3.0 : 6.0;
     const double to_do = options.steps - (resume != nullptr ? resume->n_steps() : 0);
     return as_steps / (as_steps + to_do);
 }

@@ -33,7 +33,7 @@ FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, 
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
              const Loop& loop, const Alongside& alongside)
 {
-    if (options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
+    if (options.keep_edges || options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
         return cut_into(mesh, topology, 1, loop);
     if (!options.cut.labels.empty())
         return cut_by_labels(mesh, topology, options.cut.labels, loop);

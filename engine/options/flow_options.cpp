@@ -159,6 +159,35 @@ void require_valid_flow(const FlowOptions& options)
                           "transmission alone: leave out other conditions, the derivatives, and p");
 }
 
+/// Steps that keep edges take the whole mesh.
+void require_valid_edges(const FlowOptions& options)
+{
+    if (!options.keep_edges)
+        return;
+    require(*options.keep_edges > 0.0 && *options.keep_edges < 180.0, "keep_edges", *options.keep_edges,
+            "above 0 and below 180 (degrees)");
+    const FlowOptions defaults;
+    const char* other = nullptr;
+    if (options.scheme != defaults.scheme)
+        other = "an explicit scheme";
+    else if (options.cut.subdomains > 1 || !options.cut.labels.empty() || options.resources.memory_limit)
+        other = "sub-meshes";
+    else if (options.interface != defaults.interface || options.report.keep_gaps)
+        other = "an interface";
+    else if (options.accuracy.approach != defaults.accuracy.approach || options.accuracy.tolerance ||
+             options.resources.factorisation != defaults.resources.factorisation ||
+             options.resources.precision != defaults.resources.precision)
+        other = "an approach, a tolerance, a factorisation or its precision";
+    else if (!is_plain_flow(options))
+        other = "another flow, a filter or an attachment";
+    else if (options.report.reference)
+        other = "an undecomposed flow to compare with";
+    if (other != nullptr)
+        throw OptionError(fmt::format("keep_edges is given, which smooths normals on the whole mesh and leaves no room "
+                                      "for {}: leave one of them out",
+                                      other));
+}
+
 bool has_tangential_derivative(Conditions conditions)
 {
     return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
@@ -233,6 +262,7 @@ void require_valid(const FlowOptions& options)
     require_valid_flow(options);
     require_valid_tolerance(options);
     require_valid_approach(options);
+    require_valid_edges(options);
     require_valid_factorisation(options);
     const auto negative =
         std::find_if(options.cut.labels.begin(), options.cut.labels.end(), [](Index label) { return label < 0; });

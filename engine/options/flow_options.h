@@ -280,6 +280,15 @@ struct FlowOptions {
     int steps = 1;
     /// How a step is taken.
     Scheme scheme = Scheme::BackwardEuler;
+    /// Keeps edges at which the normals of faces differ by more than this angle, in degrees, above 0 and below 180, and
+    /// corners where such edges meet; 20 to 40 are good. What is smoother is smoothed. Each step then lets face normals
+    /// diffuse by dt, but not across edges, and moves the vertices to fit them (see NormalDiffusion, fit_vertices): dt
+    /// means what it means elsewhere, and as edges no longer suffer, ten to thirty squared mean edge lengths are good
+    /// for one step; further steps begin anew from their surface. Fixed vertices stay, and a free boundary does not
+    /// draw in. There are no sub-meshes, no equations of the Laplacian (which is still that of the mean curvatures
+    /// reported), and no undecomposed flow to compare with: what speaks of these is refused. Empty: mean curvature
+    /// flow.
+    std::optional<double> keep_edges = {};
     CutOptions cut = {};
     InterfaceOptions interface = {};
     AccuracyOptions accuracy = {};

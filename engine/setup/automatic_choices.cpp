@@ -72,7 +72,7 @@ bool speaks_of_sub_meshes(const FlowOptions& options)
 bool speaks_of_sweeps(const FlowOptions& options)
 {
     const FlowOptions defaults;
-    return options.accuracy.approach == Approach::Sweep || options.scheme != defaults.scheme ||
+    return options.accuracy.approach == Approach::Sweep || options.scheme != defaults.scheme || options.keep_edges ||
            options.interface != defaults.interface || is_foreign(options.resources.factorisation);
 }
 
@@ -150,7 +150,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     if (takes_whole_mesh(asked))
         return {.approach = asked, .tolerance = tolerance.tolerance};
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
-        options.scheme == Scheme::ExplicitEuler || mesh.n_faces() == 0)
+        options.scheme == Scheme::ExplicitEuler || options.keep_edges || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
     const FlowSize flow{.vertices = mesh.n_vertices(),
                         .rows = average_rows(mesh, topology, options.laplacian),

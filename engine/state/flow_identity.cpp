@@ -86,8 +86,8 @@ std::string text_of(const PolygonMesh& mesh)
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, flow, filter, time_step, steps, scheme, cut, interface, accuracy, motion, resources,
-                 report] = options;
+    const auto& [laplacian, flow, filter, time_step, steps, scheme, keep_edges, cut, interface, accuracy, motion,
+                 resources, report] = options;
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
@@ -114,6 +114,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"colouring", text_of(colouring)},
         {"conditions", text_of(conditions)},
         {"scheme", text_of(scheme)},
+        {"keep_edges", text_of(keep_edges)},
         {"transmission", text_of(transmission)},
         {"p", text_of(p)},
         {"p_rule", text_of(p_rule)},

@@ -1,6 +1,7 @@
 #include "engine/steppers/stepper.h"
 
 #include "engine/steppers/conjugate_gradient_stepper.h"
+#include "engine/steppers/edge_keeping_stepper.h"
 #include "engine/steppers/explicit_stepper.h"
 #include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/schwarz_gmres_stepper.h"
@@ -13,6 +14,8 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
                                       const FlowOptions& options, const std::vector<double>& curvature,
                                       Progress& progress)
 {
+    if (options.keep_edges)
+        return std::make_unique<EdgeKeepingStepper>(mesh, topology, options, progress);
     if (options.scheme == Scheme::ExplicitEuler)
         return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
     if (options.accuracy.approach == Approach::ConjugateGradients)

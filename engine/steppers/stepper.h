@@ -51,8 +51,9 @@ class Stepper {
     virtual void describe(FlowReport& report) const = 0;
 };
 
-/// The way of taking steps that the options ask for: explicit Euler steps, backward Euler steps of the whole mesh by
-/// conjugate gradients, converged ones by the Schur complement or, of Laplacians without symmetry, by GMRES, or sweeps.
+/// The way of taking steps that the options ask for: steps that keep edges, explicit Euler steps, backward Euler steps
+/// of the whole mesh by conjugate gradients, converged ones by the Schur complement or, of Laplacians without symmetry,
+/// by GMRES, or sweeps.
 /// @param mesh, topology, progress must outlive the stepper.
 /// @param options with the tolerance that was chosen, if any.
 /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.

@@ -32,7 +32,16 @@ PolygonMesh make_mixed_varied(Index vertices, const MeshVariation& variation)
     return make_mixed_polygons(vertices, shape);
 }
 
-constexpr std::array<MeshKind, 7> kinds{{
+template <PolygonMesh (*Make)(Index, const MachinePartShape&), PartFaces Faces>
+PolygonMesh make_part(Index vertices, const MeshVariation& variation)
+{
+    if (variation.amplitude)
+        throw OptionError("amplitude is that of waves, but machine parts have none: leave it out");
+    const MachinePartShape shape;
+    return Make(vertices, {Faces, variation.noise.value_or(shape.noise), variation.seed.value_or(shape.seed)});
+}
+
+constexpr std::array<MeshKind, 15> kinds{{
     {"triangles", "height field over the unit square, triangles"},
     {"quads", "height field over the unit square, quads"},
     {"hexagons", "height field over the unit square, a clipped honeycomb"},
@@ -40,16 +49,35 @@ constexpr std::array<MeshKind, 7> kinds{{
     {"cylinder", "open tube of quads, its radius wavy in both directions"},
     {"two-level-cylinder", "open tube of quads, the upper half twice as fine, joined by pentagons"},
     {"noisy-sphere", "closed bumpy sphere of triangles with noise"},
+    {"box", "box, triangles"},
+    {"box-quads", "the same, quads"},
+    {"gear", "spur gear with a bore, triangles"},
+    {"gear-quads", "the same, quads"},
+    {"stepped-cylinder", "bored cylinder of two radii, triangles"},
+    {"stepped-cylinder-quads", "the same, quads"},
+    {"chamfered-plate", "plate with a hole, upper edges chamfered, triangles"},
+    {"chamfered-plate-quads", "the same, quads"},
 }};
 
 using Maker = PolygonMesh (*)(Index, const MeshVariation&);
 
 /// In the order of `kinds`.
 constexpr std::array<Maker, kinds.size()> makers{
-    make_varied<HeightFieldShape, make_triangles>,    make_varied<HeightFieldShape, make_quads>,
-    make_varied<HeightFieldShape, make_hexagons>,     make_mixed_varied,
-    make_varied<CylinderShape, make_cylinder>,        make_varied<CylinderShape, make_two_level_cylinder>,
+    make_varied<HeightFieldShape, make_triangles>,
+    make_varied<HeightFieldShape, make_quads>,
+    make_varied<HeightFieldShape, make_hexagons>,
+    make_mixed_varied,
+    make_varied<CylinderShape, make_cylinder>,
+    make_varied<CylinderShape, make_two_level_cylinder>,
     make_varied<NoisySphereShape, make_noisy_sphere>,
+    make_part<make_box, PartFaces::Triangles>,
+    make_part<make_box, PartFaces::Quads>,
+    make_part<make_gear, PartFaces::Triangles>,
+    make_part<make_gear, PartFaces::Quads>,
+    make_part<make_stepped_cylinder, PartFaces::Triangles>,
+    make_part<make_stepped_cylinder, PartFaces::Quads>,
+    make_part<make_chamfered_plate, PartFaces::Triangles>,
+    make_part<make_chamfered_plate, PartFaces::Quads>,
 };
 
 }  // namespace

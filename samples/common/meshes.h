@@ -8,7 +8,8 @@
 #include "partition/polygon_mesh.h"
 
 /// Small generators of meshes to try things on. All of them
-/// - take about the number of vertices wanted, at least 100 and at most 100,000,000, and keep within 10 percent of it,
+/// - take about the number of vertices wanted, at least 100 (machine parts 400) and at most 100,000,000, and keep
+///   within 10 percent of it,
 /// - run in time and memory linear in that number,
 /// - give manifold meshes of simple faces, oriented alike, without vertices that no face uses,
 /// - give the same mesh for the same arguments everywhere, up to the last bits of the platform's sin and cos,
@@ -92,6 +93,32 @@ struct NoisySphereShape {
 
 /// A closed mesh of triangles between circles of latitude, with exactly the number of vertices asked for.
 PolygonMesh make_noisy_sphere(Index vertices, const NoisySphereShape& shape = {});
+
+/// Of the faces of a machine part.
+enum class PartFaces { Triangles, Quads };
+
+/// Parts with flat and round sides and sharp edges between them: what is to survive smoothing there is known.
+struct MachinePartShape {
+    PartFaces faces = PartFaces::Triangles;
+    /// Each vertex is displaced by up to this many mean vertex distances in x, y and z, at least 0.
+    double noise = 0.0;
+    /// Of the noise.
+    std::uint32_t seed = 1;
+};
+
+inline constexpr Index fewest_vertices_of_parts = 400;
+
+/// A box of 1.6 by 1.2 by 1.
+PolygonMesh make_box(Index vertices, const MachinePartShape& shape = {});
+
+/// A spur gear of radius 1 with ten straight teeth and a bore.
+PolygonMesh make_gear(Index vertices, const MachinePartShape& shape = {});
+
+/// A cylinder of radius 1 with a thinner one on it, bored through.
+PolygonMesh make_stepped_cylinder(Index vertices, const MachinePartShape& shape = {});
+
+/// A plate of 2.2 by 1.8 by 0.5 with a hole. The upper edges of both are chamfered, at 45°.
+PolygonMesh make_chamfered_plate(Index vertices, const MachinePartShape& shape = {});
 
 /// A kind of mesh by its name.
 struct MeshKind {

@@ -99,6 +99,9 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_choice(app, "--scheme", options.scheme,
                "how a step is taken: backward Euler, or explicit Euler, which is undecomposed and stable for "
                "small time steps only [implicit]");
+    add_real(app, "--keep-edges", options.keep_edges, {0.0, 180.0, true},
+             "smooth what lies between edges sharper than this angle between faces, in degrees, and keep these and "
+             "their corners; 20 to 40 are good, with --time-step-edges 16 or so; on the whole mesh");
     add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
     auto* subdomains = add_integer(app, "--subdomains", options.cut.subdomains, 0,
                                    "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
@@ -194,6 +197,42 @@ std::string first_given(const CLI::App& app, std::initializer_list<const char*> 
 /// Options that show or set sub-meshes.
 constexpr auto of_sub_meshes_alone = {"--subdomains", "--labels", "--parts", "--task-graph", "--trace"};
 
+/// Options that mean nothing to steps that keep edges.
+void require_room_for_edges(const CLI::App& app)
+{
+    if (app.count("--keep-edges") == 0)
+        return;
+    const std::string other = first_given(app, {"--subdomains",
+                                                "--labels",
+                                                "--parts",
+                                                "--task-graph",
+                                                "--trace",
+                                                "--conditions",
+                                                "--transmission",
+                                                "--p",
+                                                "--p-rule",
+                                                "--p-edge",
+                                                "--q",
+                                                "--overlap",
+                                                "--no-correction",
+                                                "--sweep",
+                                                "--coloring",
+                                                "--plain",
+                                                "--keep-gaps",
+                                                "--scheme",
+                                                "--converge",
+                                                "--converge-iterations",
+                                                "--approach",
+                                                "--factorisation",
+                                                "--precision",
+                                                "--memory-limit",
+                                                "--reference"});
+    if (!other.empty())
+        throw OptionError(other +
+                          " is about the equations of mean curvature flow, but --keep-edges smooths face normals "
+                          "on the whole mesh: leave one of them out");
+}
+
 /// @param of_sweeps an option that is about sweeps; may be empty.
 void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
 {
@@ -238,6 +277,7 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
+    require_room_for_edges(app);
     require_effective(app, command);
     if (app.count("--overlap") > 0 && command.options.interface.conditions != Conditions::Schwarz)
         throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");

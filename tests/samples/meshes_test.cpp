@@ -9,6 +9,7 @@
 
 #include "partition/errors.h"
 #include "partition/topology.h"
+#include "partition/vector_area.h"
 #include "samples/common/meshes.h"
 
 using namespace seamflow;
@@ -24,11 +25,17 @@ Index euler_characteristic(const PolygonMesh& mesh, const Topology& topology)
     return mesh.n_vertices() - edges + mesh.n_faces();
 }
 
+bool is_part(std::string_view kind)
+{
+    return std::ranges::any_of(std::array{"box", "gear", "stepped-cylinder", "chamfered-plate"},
+                               [&](const char* part) { return kind.starts_with(part); });
+}
+
 Index expected_characteristic(std::string_view kind)
 {
-    if (kind == "noisy-sphere")
+    if (kind == "noisy-sphere" || kind.starts_with("box"))
         return 2;
-    return kind.ends_with("cylinder") ? 0 : 1;
+    return kind.ends_with("cylinder") || is_part(kind) ? 0 : 1;
 }
 
 bool oriented_alike(const PolygonMesh& mesh, const Topology& topology)
@@ -45,6 +52,21 @@ std::map<std::size_t, Index> faces_by_sides(const PolygonMesh& mesh)
     for (Index f = 0; f < mesh.n_faces(); ++f)
         ++count[mesh.face(f).size()];
     return count;
+}
+
+/// The number of sides of all faces; 0 where they differ.
+std::size_t count_of_sides(const PolygonMesh& mesh)
+{
+    const auto count = faces_by_sides(mesh);
+    return count.size() == 1 ? count.begin()->first : 0;
+}
+
+double volume_of(const PolygonMesh& mesh)
+{
+    double volume = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        volume += Point(mesh.vertices.row(mesh.face(f)[0])).dot(vector_area(mesh.face(f), mesh.vertices)) / 3.0;
+    return volume;
 }
 
 using Vector2 = Eigen::RowVector2d;
@@ -92,6 +114,10 @@ TEST_CASE("every kind of mesh is valid, manifold, oriented and of about the size
         for (const Index wanted : sizes) {
             CAPTURE(std::string(kind.name));
             CAPTURE(wanted);
+            if (is_part(kind.name) && wanted < fewest_vertices_of_parts) {
+                CHECK_THROWS_AS(make_mesh(kind.name, wanted), OptionError);
+                continue;
+            }
             const PolygonMesh mesh = make_mesh(kind.name, wanted);
             CHECK_NOTHROW(require_valid(mesh));
             CHECK(std::abs(mesh.n_vertices() - wanted) <= 0.1 * wanted);
@@ -198,6 +224,28 @@ TEST_CASE("extreme tubes keep their size")
             CHECK(std::abs(make_cylinder(wanted, {.height = height}).n_vertices() - wanted) <= 0.1 * wanted);
             CHECK(std::abs(make_two_level_cylinder(wanted, {.height = height}).n_vertices() - wanted) <= 0.1 * wanted);
         }
+}
+
+TEST_CASE("machine parts are solid, flat and round where they should be, and enclose the volume that they should")
+{
+    const double pi = std::numbers::pi;
+    const double wedge = std::sin(0.18) + 2.0 * 0.8 * std::sin(0.134) + 0.64 * std::sin(0.628318530717959 - 0.448);
+    const double frustum = pi * 0.15 * (0.65 * 0.65 + 0.65 * 0.5 + 0.25) / 3.0;
+    const double pyramid = 0.15 * (2.2 * 1.8 + 1.9 * 1.5 + 4.0 * 2.05 * 1.65) / 6.0;
+    const std::map<std::string, double> volumes{
+        {"box", 1.6 * 1.2},
+        {"gear", 0.5 * (5.0 * wedge - 0.36 * pi)},
+        {"stepped-cylinder", pi * (0.6 + 0.6 * 0.5625 - 1.2 * 0.25)},
+        {"chamfered-plate", 2.2 * 1.8 * 0.35 + pyramid - 0.35 * 0.25 * pi - frustum}};
+    for (const auto& [kind, volume] : volumes)
+        for (const std::size_t sides : {3U, 4U}) {
+            const std::string name = kind + (sides == 3 ? "" : "-quads");
+            CAPTURE(name);
+            const PolygonMesh mesh = make_mesh(name, 9999);
+            CHECK(count_of_sides(mesh) == sides);
+            CHECK(volume_of(mesh) == doctest::Approx(volume).epsilon(2e-3));
+        }
+    CHECK_THROWS_AS(make_mesh("gear", 1000, {.seed = {}, .amplitude = 0.1, .noise = {}}), OptionError);
 }
 
 TEST_CASE("arguments outside their limits are refused")

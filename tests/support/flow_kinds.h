@@ -73,6 +73,8 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         o.accuracy.tolerance = 1e-2, o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
     });
     add("held", [](FlowOptions& o) { o.motion.fixed_vertices = {3, 100, 101, 102, 250}; });
+    add("edges kept",
+        [](FlowOptions& o) { o.keep_edges = 40.0, o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });
     add("uncut", [](FlowOptions& o) { o.cut.subdomains = 1; });
     add("plain",
         [](FlowOptions& o) { o = FlowOptions::plain(), o.steps = 4, o.cut.subdomains = 7, o.time_step = 1e-3; });

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+#include "solvers/normals/normal_diffusion.h"
+
+namespace seamflow {
+
+/// Takes steps that keep edges (FlowOptions::keep_edges): face normals diffuse by dt, but not across edges, and the
+/// vertices move to fit them. The whole mesh at once, its faces and vertices shared among the threads; the bits do not
+/// depend on their number.
+class EdgeKeepingStepper final : public Stepper {
+  public:
+    /// @param mesh, topology, progress must outlive the stepper. @param topology with twins, which are not needed
+    /// later.
+    EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
+                       Progress& progress);
+
+    /// @throws ComputationError if the result is not finite.
+    void step(const Points& before) override;
+    [[nodiscard]] const Points& positions() const override { return positions_; }
+    void save(StepMemory& memory) const override;
+    void restore(const StepMemory& memory) override;
+    /// There are no tasks.
+    void add_seconds(PhaseSeconds&) const override {}
+    /// Of a single step there is nothing to tell.
+    void describe(StepReport&) const override {}
+    void describe(FlowReport& report) const override;
+
+  private:
+    const PolygonMesh* mesh_;
+    const Topology* topology_;
+    double time_step_;
+    double angle_;
+    NormalDiffusion diffusion_;
+    Points positions_;
+    LoopCount loops_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The faces around each face: those that share a vertex with it. Through a vertex of more than most_at_vertex faces
+/// only those count that share an edge with it there, so that there are at most so many times as many as corners.
+struct FaceNeighbours {
+    static constexpr std::size_t most_at_vertex = 24;
+
+    /// #F + 1.
+    std::vector<std::size_t> offsets;
+    /// Of each face ascending, none twice, not the face itself.
+    std::vector<Index> faces;
+
+    [[nodiscard]] std::span<const Index> operator[](Index f) const
+    {
+        return std::span<const Index>(faces).subspan(offsets[f], offsets[f + 1] - offsets[f]);
+    }
+};
+
+/// @param topology with twins.
+FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+
+/// 1 or -1 for each face, so that vector areas times these point to the same side wherever faces share an edge; on a
+/// surface with one side alone they cannot everywhere. Empty where they do so as they are.
+/// @param topology with twins.
+std::vector<std::int8_t> face_signs(const PolygonMesh& mesh, const Topology& topology);
+
+}  // namespace seamflow

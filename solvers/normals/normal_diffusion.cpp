@@ -1,0 +1,190 @@
+#include "solvers/normals/normal_diffusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solvers/krylov/sums.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The weights follow the normals so often (measured, as what follows: see engine/accuracy.md).
+constexpr int diffusion_rounds = 8;
+/// The chord of the angle in σ: at the angle the diffusivity is exp(-3.5²/2) = .002.
+constexpr double sigmas_at_edges = 3.5;
+/// The mean around another face is a better guide only where normals disagree so many times less.
+constexpr double clearly_less = 0.5;
+/// Of the residual of a round, relative to that at its beginning; and most iterations.
+constexpr double diffusion_tolerance = 1e-2;
+constexpr int most_diffusion_iterations = 500;
+/// Weights relative to the diagonal of A beyond which a face has the mean of its neighbours to all digits.
+constexpr double largest_diffusion_weight = 1e20;
+
+double sum_of_products(const Points& a, const Points& b, const Loop& loop)
+{
+    return sum(loop, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).dot(b.row(i)); });
+}
+
+void normalise_row(Points& normals, Index f)
+{
+    const double length = normals.row(f).norm();
+    if (length > 0.0)
+        normals.row(f) /= length;
+    else
+        normals.row(f).setZero();
+}
+
+}  // namespace
+
+NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+    : mesh_(&mesh)
+    , neighbours_(make_face_neighbours(mesh, topology, loop))
+    , signs_(face_signs(mesh, topology))
+    , areas_(at(mesh.n_faces()))
+    , centroids_(mesh.n_faces(), 3)
+    , reach_(areas_.size())
+    , scale_(areas_.size())
+    , means_(mesh.n_faces(), 3)
+    , disagreement_(areas_.size())
+    , guide_(areas_.size())
+    , weights_(neighbours_.faces.size())
+    , diagonal_(areas_.size())
+    , residual_(mesh.n_faces(), 3)
+    , direction_(mesh.n_faces(), 3)
+    , product_(mesh.n_faces(), 3)
+{
+}
+
+Points NormalDiffusion::smoothed(const Points& positions, double time_step, double angle, const Loop& loop)
+{
+    const Index n = mesh_->n_faces();
+    measure(positions, time_step / diffusion_rounds, loop);
+    const double sigma = 2.0 * std::sin(angle * std::numbers::pi / 360.0) / sigmas_at_edges;
+    Points normals(n, 3);
+    for_each(loop, n, [&](Index f) {
+        normals.row(f) = vector_area(mesh_->face(f), positions) * (signs_.empty() ? 1.0 : signs_[f]);
+        normalise_row(normals, f);
+    });
+    for (int round = 0; round < diffusion_rounds; ++round) {
+        find_guides(normals, loop);
+        find_weights(normals, 2.0 * sigma * sigma, loop);
+        diffuse(normals, loop);
+        for_each(loop, n, [&](Index f) { normalise_row(normals, f); });
+    }
+    return normals;
+}
+
+void NormalDiffusion::measure(const Points& positions, double time_step, const Loop& loop)
+{
+    const Index n = mesh_->n_faces();
+    for_each(loop, n, [&](Index f) {
+        areas_[f] = area(mesh_->face(f), positions);
+        centroids_.row(f) = centroid(mesh_->face(f), positions);
+    });
+    const double mean_area = sum(loop, n, [&](Index f) { return areas_[f]; }) / n;
+    for_each(loop, n, [&](Index f) {
+        areas_[f] = mean_area > 0.0 ? areas_[f] / mean_area : 0.0;
+        double squares = 0.0;
+        for (const Index g : neighbours_[f])
+            squares += (centroids_.row(f) - centroids_.row(g)).squaredNorm();
+        const std::size_t count = neighbours_[f].size();
+        reach_[f] = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+    });
+    for_each(loop, n, [&](Index f) {
+        double moment = 0.0;
+        for (const Index g : neighbours_[f]) {
+            const double squared = (centroids_.row(f) - centroids_.row(g)).squaredNorm();
+            if (const double reach = reach_[f] * reach_[g]; reach > 0.0)
+                moment += std::exp(-2.0 * squared / reach) * squared;
+        }
+        scale_[f] = moment > 0.0 ? 2.0 * std::sqrt(areas_[f] * (time_step / moment)) : 0.0;
+    });
+}
+
+/// The guide is the mean with the least disagreement: 0 where all normals are the same, 1 where they cancel out.
+void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
+{
+    const Index n = mesh_->n_faces();
+    for_each(loop, n, [&](Index f) {
+        Point total = areas_[f] * normals.row(f);
+        double weight = areas_[f];
+        for (const Index g : neighbours_[f]) {
+            total += areas_[g] * normals.row(g);
+            weight += areas_[g];
+        }
+        disagreement_[f] = weight > 0.0 ? 1.0 - total.norm() / weight : 1.0;
+        means_.row(f) = total;
+        normalise_row(means_, f);
+    });
+    for_each(loop, n, [&](Index f) {
+        guide_[f] = f;
+        double least = clearly_less * disagreement_[f];
+        for (const Index g : neighbours_[f])
+            if (disagreement_[g] < least) {
+                least = disagreement_[g];
+                guide_[f] = g;
+            }
+    });
+}
+
+void NormalDiffusion::find_weights(const Points& normals, double two_sigma_squared, const Loop& loop)
+{
+    for_each(loop, mesh_->n_faces(), [&](Index f) {
+        const Point guide = means_.row(guide_[f]);
+        double total = 0.0;
+        for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
+            const Index g = neighbours_.faces[k];
+            const double chords = std::sqrt((normals.row(f) - normals.row(g)).squaredNorm() *
+                                            (guide - means_.row(guide_[g])).squaredNorm());
+            const double squared = (centroids_.row(f) - centroids_.row(g)).squaredNorm();
+            const double scale = scale_[f] * scale_[g];
+            const double weight =
+                scale > 0.0 ? scale * std::exp(-2.0 * squared / (reach_[f] * reach_[g]) - chords / two_sigma_squared)
+                            : 0.0;
+            weights_[k] = static_cast<float>(std::min(weight, largest_diffusion_weight));
+            total += static_cast<double>(weights_[k]);
+        }
+        diagonal_[f] = areas_[f] + total;
+    });
+}
+
+/// Conjugate gradients for A N + τ L N = A N₀ from N₀ on, preconditioned by the diagonal.
+void NormalDiffusion::diffuse(Points& normals, const Loop& loop)
+{
+    const Index n = mesh_->n_faces();
+    const auto laplacian = [&](const Points& x, Index f) {
+        Point result = Point::Zero();
+        for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k)
+            result += static_cast<double>(weights_[k]) * (x.row(f) - x.row(neighbours_.faces[k]));
+        return result;
+    };
+    const auto preconditioned = [&](Index f) {
+        return diagonal_[f] > 0.0 ? Point(residual_.row(f) / diagonal_[f]) : Point(Point::Zero());
+    };
+    const auto energy = [&] { return sum(loop, n, [&](Index f) { return residual_.row(f).dot(preconditioned(f)); }); };
+    for_each(loop, n, [&](Index f) {
+        residual_.row(f) = -laplacian(normals, f);
+        direction_.row(f) = preconditioned(f);
+    });
+    const double wanted = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, loop);
+    double before = energy();
+    for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, loop) > wanted; ++i) {
+        for_each(loop, n, [&](Index f) { product_.row(f) = areas_[f] * direction_.row(f) + laplacian(direction_, f); });
+        const double alpha = before / sum_of_products(direction_, product_, loop);
+        if (!std::isfinite(alpha))
+            break;
+        for_each(loop, n, [&](Index f) {
+            normals.row(f) += alpha * direction_.row(f);
+            residual_.row(f) -= alpha * product_.row(f);
+        });
+        const double after = energy();
+        const double beta = after / before;
+        before = after;
+        for_each(loop, n, [&](Index f) { direction_.row(f) = preconditioned(f) + beta * direction_.row(f); });
+    }
+}
+
+}  // namespace seamflow

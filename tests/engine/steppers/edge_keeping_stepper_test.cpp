@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "samples/common/meshes.h"
+#include "solvers/laplacian/geometry.h"
+#include "tests/support/denoising.h"
+#include "tests/support/flows.h"
+#include "tests/support/random_meshes.h"
+
+using namespace seamflow;
+using test::flowed;
+using test::largest_difference;
+
+namespace {
+
+/// @param edges dt in squared mean edge lengths.
+FlowOptions edge_options(const PolygonMesh& mesh, double edges = 16.0, double angle = 30.0)
+{
+    FlowOptions options;
+    options.keep_edges = angle;
+    options.time_step = edges * std::pow(mean_edge_length(mesh, mesh.vertices), 2);
+    return options;
+}
+
+double total_area(const PolygonMesh& mesh, const Points& positions)
+{
+    double sum = 0.0;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        sum += area(mesh.face(f), positions);
+    return sum;
+}
+
+/// What the best of some plain flows leaves.
+double best_of_plain_flows(const PolygonMesh& truth, const PolygonMesh& noisy)
+{
+    double best = std::numeric_limits<double>::infinity();
+    for (const double edges : {0.3, 0.6, 1.0, 1.6}) {
+        PolygonMesh result = noisy;
+        FlowOptions options = edge_options(truth, edges);
+        options.keep_edges.reset();
+        mean_curvature_flow(result, options);
+        best = std::min(best, test::angle_to_truth(truth, result));
+    }
+    return best;
+}
+
+}  // namespace
+
+TEST_CASE("much less is left of noise than by the plain flow, by Taubin and by bilateral normals, and volume stays")
+{
+    // Larger meshes, all noises and finer grids of parameters: see engine/accuracy.md.
+    constexpr double third = 1.0 / 3.0;
+    const test::BilateralGrid filters{{0.25, 0.35}, {30, 60}, {50}};
+    for (const char* kind : {"box", "gear", "stepped-cylinder", "chamfered-plate"})
+        for (const double noise : {0.2, 0.3}) {
+            CAPTURE(kind);
+            CAPTURE(noise);
+            const PolygonMesh truth = make_mesh(kind, 8000);
+            const PolygonMesh noisy = test::with_gaussian_noise(truth, noise, 1);
+            PolygonMesh result = noisy;
+            mean_curvature_flow(result, edge_options(truth, 16.0, 35.0));
+            const test::Denoised left = test::compare_with_truth(truth, result);
+            CHECK(left.angle < third * best_of_plain_flows(truth, noisy));
+            CHECK(left.angle < third * test::angle_to_truth(truth, test::taubin_smoothed(noisy, 15)));
+            CHECK(left.angle < test::angle_to_truth(truth, test::best_of_bilateral_filters(truth, noisy, filters)));
+            CHECK(left.distance < 0.05);
+            CHECK(std::abs(left.volume) < 3e-3);
+        }
+}
+
+TEST_CASE("parts without noise keep their edges and corners, step after step")
+{
+    for (const char* kind : {"box", "gear-quads"}) {
+        CAPTURE(kind);
+        const PolygonMesh truth = make_mesh(kind, 3000);
+        PolygonMesh result = truth;
+        FlowOptions options = edge_options(truth, 8.0);
+        options.steps = 3;
+        const FlowReport report = mean_curvature_flow(result, options);
+        const test::Denoised left = test::compare_with_truth(truth, result);
+        CHECK(left.angle < 0.1);
+        CHECK(left.distance < 0.005);
+        CHECK(std::abs(left.volume) < 2e-3);
+        CHECK(report.steps.size() == 3);
+        CHECK(std::ranges::any_of(report.remarks, [](const std::string& r) { return r.starts_with("Edges sharper"); }));
+    }
+}
+
+TEST_CASE("a flat mesh stays flat to the bit; boundaries and fixed vertices stay")
+{
+    for (PolygonMesh mesh : test::height_fields()) {
+        FlowOptions options = edge_options(mesh);
+        options.motion.fixed_vertices = {450, 451};
+        const Points result = flowed(mesh, options);
+        const Topology topology = make_topology(mesh);
+        for (Index v = 0; v < mesh.n_vertices(); ++v) {
+            const bool stays = topology.kind[v] != VertexKind::Interior || v == 450 || v == 451;
+            CHECK((result.row(v) == mesh.vertices.row(v)) == stays);
+        }
+        mesh.vertices.col(2).setZero();
+        CHECK(flowed(mesh, options).col(2).isZero(0.0));
+    }
+}
+
+TEST_CASE("a free boundary is smoothed and does not draw in")
+{
+    PolygonMesh sheet = make_quads(2500, {.amplitude = 0.0, .noise = 0.2});
+    const double edge = mean_edge_length(sheet, sheet.vertices);
+    sheet.vertices.row(10).z() = 0.3 * edge;
+    FlowOptions options = edge_options(sheet);
+    options.motion.boundary = Boundary::Free;
+    const Points result = flowed(sheet, options);
+    CHECK(std::abs(result(10, 2)) < 0.1 * edge);
+    CHECK(total_area(sheet, result) > 0.999);
+}
+
+TEST_CASE("the result turns, moves and scales with the mesh, and does not depend on how faces are oriented")
+{
+    const Eigen::Matrix3d rotation =
+        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+    const auto moved = [&](const Points& points, double s) {
+        return Points((s * points * rotation.transpose()).rowwise() + Point(3.0, -1.0, 2.0));
+    };
+    for (const char* kind : {"noisy-sphere", "box-quads", "mixed"})
+        for (const double s : {1.0, 1e-4, 300.0}) {
+            CAPTURE(kind);
+            const PolygonMesh mesh = test::with_gaussian_noise(make_mesh(kind, 900), 0.1, 2);
+            const FlowOptions options = edge_options(mesh);
+            const Points expected = flowed(mesh, options);
+            PolygonMesh other = test::with_faces_flipped(mesh, 5);
+            CHECK(largest_difference(flowed(other, options), expected) <= 1e-9);
+            other.vertices = moved(mesh.vertices, s);
+            CHECK(largest_difference(flowed(other, edge_options(other)), moved(expected, s)) <=
+                  1e-8 * std::max(s, 1.0));
+        }
+}
+
+TEST_CASE("faces without area and surfaces with one side do no harm")
+{
+    PolygonMesh mesh = make_triangles(900);
+    mesh.vertices.row(400) = mesh.vertices.row(401);
+    CHECK(flowed(mesh, edge_options(mesh)).allFinite());
+    const PolygonMesh band = test::moebius_band(20, 6);
+    CHECK(flowed(band, edge_options(band)).allFinite());
+    for (const test::NamedMesh& assorted : test::assorted_meshes())
+        if (assorted.mesh.n_faces() > 0)
+            CHECK(flowed(assorted.mesh, edge_options(assorted.mesh, 3.0)).allFinite());
+    const PolygonMesh sphere = make_noisy_sphere(500);
+    CHECK(flowed(sphere, edge_options(sphere, 1e30)).allFinite());
+}
+
+TEST_CASE("what leaves no room for edges is refused")
+{
+    PolygonMesh mesh = make_quads(400);
+    for (const double angle : {0.0, -3.0, 180.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        FlowOptions options = edge_options(mesh);
+        options.keep_edges = angle;
+        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("above 0 and below 180"),
+                             OptionError);
+    }
+    const auto refuses = [&](auto change) {
+        FlowOptions options = edge_options(mesh);
+        change(options);
+        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("keep_edges"), OptionError);
+    };
+    refuses([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; });
+    refuses([](FlowOptions& o) { o.cut.subdomains = 2; });
+    refuses([](FlowOptions& o) { o.resources.memory_limit = std::size_t{1} << 30; });
+    refuses([](FlowOptions& o) { o.interface.colouring = Colouring::Label; });
+    refuses([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; });
+    refuses([](FlowOptions& o) { o.accuracy.tolerance = 1e-3; });
+    refuses([](FlowOptions& o) { o.report.reference = true; });
+}
