@@ -15,8 +15,7 @@ namespace seamflow {
 /// depend on their number.
 class EdgeKeepingStepper final : public Stepper {
   public:
-    /// @param mesh, topology, progress must outlive the stepper. @param topology with twins, which are not needed
-    /// later.
+    /// @param mesh, topology, progress must outlive the stepper; the twins of the topology are not needed later.
     EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                        Progress& progress);
 
