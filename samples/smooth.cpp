@@ -8,12 +8,15 @@
 //        sub-meshes of lower colour
 //        that it takes values from
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/tasks/stopwatch.h"
@@ -22,6 +25,7 @@
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
+#include "partition/metrics/noise.h"
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
@@ -54,6 +58,21 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Mes
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
     }
+}
+
+/// Turns an amount that depends on the noise of the mesh into one that does not.
+void resolve_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
+{
+    run.preset = command.preset;
+    if (!command.amount.slope_of_noise)
+        return;
+    run.noise =
+        run.scale.mean_edge > 0.0 ? estimate_noise(mesh, make_topology(mesh, loop), loop) / run.scale.mean_edge : 0.0;
+    const double edges =
+        time_step_edges_for_noise(*run.noise, *command.amount.slope_of_noise, command.options.filter == Filter::LowPass,
+                                  std::max(command.options.steps, 1));
+    command.amount = {.time_step_edges = edges};
+    command.chosen += fmt::format("--time-step-edges {}", edges);
 }
 
 /// What --html shows, so far the input; empty without --html.
@@ -159,6 +178,7 @@ ExitStatus smooth(int argc, char** argv)
     const Loop loop = workers.loop();
     MeshFile file = read_mesh(command.input, loop);
     run.scale = measure_scale(file.mesh, loop);
+    resolve_noise(command, file.mesh, loop, run);
     complete_options(command, file.mesh, run.scale);
     const MotionOptions& motion = command.options.motion;
     if (motion.attachment > 0.0)
@@ -166,6 +186,7 @@ ExitStatus smooth(int argc, char** argv)
     run.has_attachment_weights = !motion.attachment_weights.empty();
     run.read_seconds = reading.seconds();
     print_input(out, run, file.mesh);
+    print_choice(out, run, command.chosen);
     print_amount(out, run.scale, command.options);
     require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
     if (command.every_step)

@@ -107,6 +107,8 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
     if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
         mesh.n_faces() == 0)
         return {};
+    if (options.accuracy.approach == Approach::Automatic && !is_plain_flow(options) && !speaks_of_sub_meshes(options))
+        return {loose_tolerance, "single sweeps would leave more, and conjugate gradients do not know this flow"};
     if (is_long(options, size))
         return {loose_tolerance, "steps as long as these would stray in single sweeps"};
     if (options.cut.subdomains > 0 &&

@@ -142,6 +142,10 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["laplacian"] = run.laplacian;
     json["flow"] = option_name(run.flow);
     json["filter"] = option_name(run.filter);
+    if (!run.preset.empty())
+        json["preset"] = run.preset;
+    if (run.noise)
+        json["noise"] = number(*run.noise);
     if (run.attachment)
         json["attachment"] = number(*run.attachment);
     json["attachment_weights"] = run.has_attachment_weights;

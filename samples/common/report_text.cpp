@@ -104,6 +104,14 @@ void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mes
         << std::endl;
 }
 
+void print_choice(std::ostream& out, const RunRecord& run, const std::string& options)
+{
+    if (run.noise)
+        out << fmt::format("noise      {:.3g} mean edge lengths, estimated", *run.noise) << std::endl;
+    if (!run.preset.empty())
+        out << fmt::format("chosen     by --preset {}: {}", run.preset, options) << std::endl;
+}
+
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
     const int steps = std::max(options.steps, 1);

@@ -16,6 +16,10 @@ namespace seamflow {
 /// What was read.
 void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh);
 
+/// What a preset has chosen, if one has.
+/// @param options that say the same.
+void print_choice(std::ostream& out, const RunRecord& run, const std::string& options);
+
 /// How much the flow is to smooth, in all units that it can be asked for in.
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options);
 

@@ -24,8 +24,12 @@ struct RunRecord {
     std::optional<double> attachment = {};
     /// Whether each vertex has one of its own.
     bool has_attachment_weights = false;
+    /// The preset that chose options; empty: none.
+    std::string preset = {};
     /// Of the input.
     MeshScale scale = {};
+    /// Its noise in mean edge lengths, if the amount follows from it.
+    std::optional<double> noise = {};
     /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;

@@ -1,5 +1,6 @@
 #include "samples/common/smooth_command.h"
 
+#include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "samples/common/command_line.h"
 #include "samples/common/flow_choices.h"
 #include "samples/common/output_files.h"
+#include "samples/common/presets.h"
 #include "samples/page/page_html.h"
 
 namespace seamflow {
@@ -51,7 +53,24 @@ void add_amount(CLI::App& app, SmoothingRequest& amount)
     add_length(*group, "--radius", amount.radius,
                "bumps of this radius and smaller lose half their height or more over all steps; in units of length, or "
                "in % of the bounding box's diagonal");
-    group->require_option(1);
+    group->require_option(0, 1);
+}
+
+/// "scan: what it is for (--steps 3); cad: …".
+std::string describe_presets()
+{
+    std::string text;
+    for (const Preset& preset : presets()) {
+        text += fmt::format("{}{}: {} (", text.empty() ? "" : "; ", preset.name, preset.purpose);
+        for (const PresetOption& option : options_of(preset))
+            text += fmt::format("{} {} ", option.name, option.value);
+        text += preset.amount.slope_of_noise
+                    ? fmt::format("and an amount that leaves slopes of {} degrees of the noise",
+                                  *preset.amount.slope_of_noise)
+                    : amount_of(preset);
+        text += ")";
+    }
+    return text;
 }
 
 void add_flow_options(CLI::App& app, SmoothCommand& command)
@@ -61,6 +80,14 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_flag_callback(
         "--plain", [&options] { options = FlowOptions::plain(); },
         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
+    std::vector<std::string> names;
+    for (const Preset& preset : presets())
+        names.emplace_back(preset.name);
+    app.add_option("--preset", command.preset,
+                   "options that suit a kind of mesh; those that are given go before them. " + describe_presets() +
+                       " [scan if no amount is given; cad with --keep-edges]")
+        ->check(CLI::IsMember(names))
+        ->type_name("scan|cad|terrain|fair");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_choice(app, "--flow", options.flow,
                "conformalized: the weights of the Laplacian stay those of the input; necks do not pinch, and closed "
@@ -198,9 +225,9 @@ std::string first_given(const CLI::App& app, std::initializer_list<const char*> 
 constexpr auto of_sub_meshes_alone = {"--subdomains", "--labels", "--parts", "--task-graph", "--trace"};
 
 /// Options that mean nothing to steps that keep edges.
-void require_room_for_edges(const CLI::App& app)
+void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
 {
-    if (app.count("--keep-edges") == 0)
+    if (!command.options.keep_edges)
         return;
     const std::string other = first_given(app, {"--subdomains",
                                                 "--labels",
@@ -275,9 +302,48 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
                           " has a number a line");
 }
 
+/// Options that leave no room for what a preset chooses, unless another option asks for it.
+std::string given_against_presets(const CLI::App& app)
+{
+    return first_given(app, {"--plain", "--scheme", "--conditions", "--transmission", "--p", "--p-rule", "--p-edge",
+                             "--q", "--overlap", "--no-correction", "--keep-gaps"});
+}
+
+/// Takes from the preset that is asked for, or that an amount which is not given asks for, what no option says.
+void apply_preset(const CLI::App& app, SmoothCommand& command)
+{
+    const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
+    if (command.preset.empty() && has_amount)
+        return;
+    if (const std::string other = given_against_presets(app); !other.empty())
+        throw OptionError(fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}",
+                                      other, command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
+                                      command.preset.empty() ? "" : ", and leave the preset out"));
+    if (command.preset.empty())
+        command.preset = app.count("--keep-edges") > 0 ? "cad" : presets().front().name;
+    const Preset& preset = *std::ranges::find(presets(), std::string_view(command.preset), &Preset::name);
+    // Of the flows of presets these two know nothing.
+    const bool is_plain = (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian)) ||
+                          command.options.accuracy.approach == Approach::ConjugateGradients;
+    for (const PresetOption& option : options_of(preset)) {
+        const bool is_further = option.name == "--flow" || option.name == "--filter" || option.name == "--attach";
+        const bool is_said = app.count(std::string(option.name)) > 0 ||
+                             (option.name == "--attach" && app.count("--attach-weights") > 0) ||
+                             (is_further && is_plain);
+        if (is_said)
+            continue;
+        option.set(command.options, command.attach);
+        command.chosen += fmt::format("{} {} ", option.name, option.value);
+    }
+    if (has_amount)
+        return;
+    command.amount = preset.amount;
+    command.chosen += amount_of(preset);
+}
+
 void require_consistent(const CLI::App& app, const SmoothCommand& command)
 {
-    require_room_for_edges(app);
+    require_room_for_edges(app, command);
     require_effective(app, command);
     if (app.count("--overlap") > 0 && command.options.interface.conditions != Conditions::Schwarz)
         throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
@@ -359,6 +425,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     command.arguments.assign(argv + 1, argv + argc);
+    apply_preset(app, command);
     command.limits_iterations = app.count("--converge-iterations") > 0;
     for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
         if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)

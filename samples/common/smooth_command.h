@@ -21,6 +21,10 @@ struct SmoothCommand {
     /// All of it but `labels`, `fixed_vertices`, what attaches vertices, and `time_step`, which need the mesh.
     FlowOptions options;
     SmoothingRequest amount;
+    /// Options that a preset has chosen, as they would be typed, without the amount: "--steps 3". Empty: there is none.
+    std::string chosen;
+    /// The name of that preset.
+    std::string preset;
     /// Whether the iterations of a step are as many as the user says: then it is no failure that a step has no more.
     bool limits_iterations = false;
     /// Files; empty: none.

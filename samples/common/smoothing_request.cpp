@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
@@ -37,6 +39,14 @@ double smoothed_radius(double time_step, int steps)
 double time_step_for_radius(double radius, int steps)
 {
     return radius * radius * step_per_squared_radius(steps);
+}
+
+double time_step_edges_for_noise(double noise, double slope, bool is_low_pass, int steps)
+{
+    const double left = std::tan(slope * std::numbers::pi / 180.0);
+    const double time = (is_low_pass ? 2.0 : 1.0) * noise / (4.0 * std::sqrt(std::numbers::pi) * left);
+    // What is printed of it is to be all of it.
+    return std::stod(fmt::format("{:.3g}", std::clamp(time, 0.01, 100.0) / steps));
 }
 
 LengthOnMesh parse_length(std::string_view text)

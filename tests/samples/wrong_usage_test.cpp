@@ -13,7 +13,11 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
     for (const char* arguments : {
              "",
              "mesh.obj",
-             "mesh.obj out.obj",
+             "mesh.obj out.obj --plain",
+             "mesh.obj out.obj --scheme explicit",
+             "mesh.obj out.obj --preset best",
+             "mesh.obj out.obj --preset scan --conditions robin",
+             "mesh.obj out.obj --preset cad --subdomains 4",
              "mesh.obj out.obj --time-step 0.05x",
              "mesh.obj out.obj --time-step nan",
              "mesh.obj out.obj --time-step 0",

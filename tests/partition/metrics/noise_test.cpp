@@ -1,11 +1,10 @@
-#include "partition/metrics/noise.h"
-
 #include <cmath>
 #include <random>
 
 #include <doctest/doctest.h>
 
 #include "engine/tasks/parallel_loop.h"
+#include "partition/metrics/noise.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/meshes.h"
 
