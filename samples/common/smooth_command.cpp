@@ -316,9 +316,10 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
     if (command.preset.empty() && has_amount)
         return;
     if (const std::string other = given_against_presets(app); !other.empty())
-        throw OptionError(fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}",
-                                      other, command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
-                                      command.preset.empty() ? "" : ", and leave the preset out"));
+        throw OptionError(
+            fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}", other,
+                        command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
+                        command.preset.empty() ? "" : ", and leave the preset out"));
     if (command.preset.empty())
         command.preset = app.count("--keep-edges") > 0 ? "cad" : presets().front().name;
     const Preset& preset = *std::ranges::find(presets(), std::string_view(command.preset), &Preset::name);

@@ -68,9 +68,8 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     }
     add("few iterations", [](FlowOptions& o) { o.accuracy.tolerance = 1e-9, o.accuracy.converge_iterations = 2; });
     // With so short a step the same is chosen for any number of steps.
-    add("chosen", [](FlowOptions& o) {
-        o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic, o.time_step *= 0.05;
-    });
+    add("chosen",
+        [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic, o.time_step *= 0.05; });
     add("undecomposed", [](FlowOptions& o) { o.cut.subdomains = 0, o.accuracy.approach = Approach::Undecomposed; });
     add("rescaled", [](FlowOptions& o) {
         o.accuracy.tolerance = 1e-2, o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
