@@ -51,9 +51,8 @@ enum class FlowEquation {
     /// ∂V/∂t = -Δ(V) V, mean curvature flow.
     MeanCurvature,
     /// The conformalized flow of Kazhdan, Solomon and Ben-Chen (Can Mean-Curvature Flow Be Modified to Be
-    /// Non-Singular?,
-    /// 2012): (M(Vⁿ) + dt K(V⁰)) Vⁿ⁺¹ = M(Vⁿ) Vⁿ. Necks do not pinch; a closed surface without handles goes to a
-    /// sphere. K is assembled once. For symmetric Laplacians and backward Euler steps.
+    /// Non-Singular?, 2012): (M(Vⁿ) + dt K(V⁰)) Vⁿ⁺¹ = M(Vⁿ) Vⁿ. Necks do not pinch; a closed surface
+    /// without handles goes to a sphere. K is assembled once. For symmetric Laplacians and backward Euler steps.
     Conformalized,
 };
 

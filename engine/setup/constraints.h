@@ -14,10 +14,8 @@ namespace seamflow {
 /// defined.
 /// @param remarks gets a sentence about those.
 /// @throws InputError for a number in MotionOptions::fixed_vertices that is none of a vertex; for another number of
-/// attachment weights than the mesh has vertices; with
-/// MotionOptions::strict
-///         naming the first vertex, edge or face that the flow is not defined at; without it too if it is defined
-///         nowhere.
+///         attachment weights than the mesh has vertices; with MotionOptions::strict naming
+///         the first vertex, edge or face that the flow is not defined at; without it too if it is defined nowhere.
 Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
                                    std::vector<std::string>& remarks);
 

@@ -33,8 +33,8 @@ struct PredictedCost {
     [[nodiscard]] double of(int steps) const { return setup + steps * step; }
 };
 
-/// How many iterations a step by conjugate gradients takes: those by which the worst of all residuals shrinks to the
-/// tolerance (Saad, Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), or nearly so many.
+/// How many iterations a step by conjugate gradients takes: a power of the condition number times the digits wanted, as
+/// in the bound of Saad (Iterative Methods for Sparse Linear Systems, 2003, eq. 6.128), fitted to what was measured.
 double predicted_iterations(const FlowSize& size, double tolerance);
 
 /// @param approach Sweep, Converged, ConjugateGradients or Undecomposed.

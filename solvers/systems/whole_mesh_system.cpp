@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "partition/cut/boxes.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
-#include "solvers/krylov/sums.h"
 #include "solvers/laplacian/kernels.h"
 
 namespace seamflow {
