@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "partition/cut/boxes.h"
@@ -22,7 +24,7 @@ struct RowGeometry {
     /// By vertices, and by rows.
     const Points& positions;
     const Points& of_rows;
-    const IndexLists& boxes;
+    const IndexLists& blocks;
     const std::vector<Index>& row_of;
     BlockRowMatrix& matrix;
 };
@@ -33,7 +35,7 @@ struct RowGeometry {
 template <EdgeKernel Kernel, class Entry>
 double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
-    const Index v = g.boxes.values[place.row];
+    const Index v = g.blocks.values[place.row];
     const Point here = g.of_rows.row(place.row);
     double mass = 0.0;
     if (g.topology.kind[v] != VertexKind::Boundary) {
@@ -62,7 +64,7 @@ template <FaceKernel Kernel, class Entry>
 double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
     double mass = 0.0;
-    for (const Index corner : g.topology.corners_at(g.boxes.values[place.row])) {
+    for (const Index corner : g.topology.corners_at(g.blocks.values[place.row])) {
         const Index f = g.topology.face_of[corner];
         measure_corner<Kernel>(g.mesh.face(f), at(corner - g.mesh.face_offsets[f]), g.positions,
                                [&](const auto& face, std::size_t i) {
@@ -156,6 +158,8 @@ Eigen::Array4f to_row(const Point& point)
 constexpr Index most_blocks = 64;
 constexpr Index fewest_rows = 512;
 constexpr Index usual_rows = BlockRowMatrix::most_rows / 2;
+/// Of the edges.
+constexpr double most_between_blocks = 1.0 / 6.0;
 
 Index number_of_blocks(Index n_rows)
 {
@@ -163,28 +167,65 @@ Index number_of_blocks(Index n_rows)
     return static_cast<Index>(std::bit_floor(static_cast<unsigned>(std::max(wanted, 1))));
 }
 
-std::vector<Index> make_row_of(const IndexLists& boxes, const Loop& loop)
+/// The vertices as they are numbered.
+IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 {
-    std::vector<Index> row_of(boxes.values.size());
-    for_each(loop, static_cast<Index>(row_of.size()), [&](Index i) { row_of[boxes.values[i]] = i; });
+    IndexLists blocks;
+    blocks.values.resize(at(n_rows));
+    std::iota(blocks.values.begin(), blocks.values.end(), 0);
+    for (Index block = 1; block <= n_blocks; ++block)
+        blocks.offsets.push_back(static_cast<Index>(std::int64_t{n_rows} * block / n_blocks));
+    return blocks;
+}
+
+/// Of the edges of faces, the part whose ends such blocks part.
+double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Loop& loop)
+{
+    std::vector<Index> block_of(at(mesh.n_vertices()));
+    for_each(loop, blocks.size(),
+             [&](Index block) { std::fill_n(block_of.begin() + blocks.offsets[block], blocks[block].size(), block); });
+    const double n_between = sum(loop, mesh.n_faces(), [&](Index f) {
+        const std::span<const Index> face = mesh.face(f);
+        double n = block_of[face.back()] != block_of[face.front()] ? 1.0 : 0.0;
+        for (std::size_t i = 1; i < face.size(); ++i)
+            n += block_of[face[i - 1]] != block_of[face[i]] ? 1.0 : 0.0;
+        return n;
+    });
+    return n_between / static_cast<double>(std::max<std::size_t>(mesh.face_vertices.size(), 1));
+}
+
+/// Those of consecutive vertices need no set-up; but most scans have their vertices in an order that parts neighbours.
+IndexLists make_blocks(const PolygonMesh& mesh, const Loop& loop)
+{
+    const Index n = number_of_blocks(mesh.n_vertices());
+    IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
+    if (part_between(mesh, blocks, loop) <= most_between_blocks)
+        return blocks;
+    return divide_into_boxes(mesh.vertices, n, loop);
+}
+
+std::vector<Index> make_row_of(const IndexLists& blocks, const Loop& loop)
+{
+    std::vector<Index> row_of(blocks.values.size());
+    for_each(loop, static_cast<Index>(row_of.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
     return row_of;
 }
 
 /// Vertices that do not move have the row of the identity.
-BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const IndexLists& boxes,
+BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const IndexLists& vertices,
                            const std::vector<Index>& row_of, Reach reach, const Loop& loop)
 {
-    std::vector<Index> blocks{0};
-    for (Index box = 0; box < boxes.size(); ++box)
-        while (blocks.back() < boxes.offsets[box + 1])
-            blocks.push_back(std::min(blocks.back() + BlockRowMatrix::most_rows, boxes.offsets[box + 1]));
-    return {blocks,
+    std::vector<Index> begin{0};
+    for (Index block = 0; block < vertices.size(); ++block)
+        while (begin.back() < vertices.offsets[block + 1])
+            begin.push_back(std::min(begin.back() + BlockRowMatrix::most_rows, vertices.offsets[block + 1]));
+    return {begin,
             [&](Index block) {
                 RowPattern pattern(mesh, topology, row_of, reach);
                 IndexLists rows;
-                for (Index i = blocks[block]; i < blocks[block + 1]; ++i) {
-                    if (topology.moves(boxes.values[i])) {
-                        const std::vector<Index>& columns = pattern.list(boxes.values[i]);
+                for (Index i = begin[block]; i < begin[block + 1]; ++i) {
+                    if (topology.moves(vertices.values[i])) {
+                        const std::vector<Index>& columns = pattern.list(vertices.values[i]);
                         rows.values.insert(rows.values.end(), columns.begin(), columns.end());
                     }
                     rows.close();
@@ -201,19 +242,19 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
-    , boxes_(divide_into_boxes(mesh.vertices, number_of_blocks(mesh.n_vertices()), loop))
-    , row_of_(make_row_of(boxes_, loop))
-    , matrix_(make_matrix(mesh, topology, boxes_, row_of_, traits_of(laplacian).reach, loop))
+    , blocks_(make_blocks(mesh, loop))
+    , row_of_(make_row_of(blocks_, loop))
+    , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, loop))
     , moves_(at(mesh.n_vertices()))
     , before_(mesh.n_vertices(), 3)
 {
-    for_each(loop, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(boxes_.values[i]) ? 1 : 0; });
+    for_each(loop, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
 WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loop& loop)
 {
-    const RowGeometry geometry{*mesh_, *topology_, before, before_, boxes_, row_of_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
     using Sums = Eigen::Array<double, 8, 1>;
     Sums sums;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -253,7 +294,7 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
 /// @returns the sum of its squares, each over the diagonal.
 double WholeMeshSystem::measure(const Points& before, const Loop& loop)
 {
-    const RowGeometry geometry{*mesh_, *topology_, before, before_, boxes_, row_of_, matrix_};
+    const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -297,7 +338,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
-    for_each(loop, matrix_.n_rows(), [&](Index i) { before_.row(i) = before.row(boxes_.values[i]); });
+    for_each(loop, matrix_.n_rows(), [&](Index i) { before_.row(i) = before.row(blocks_.values[i]); });
     const Sizes sizes = assemble(before, loop);
     // There is nothing to smooth.
     if ((sizes.residual <= sizes.rounding).all()) {
@@ -326,7 +367,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
             });
         };
         if (is_last) {
-            move(before_, [&](Index i) { return after.row(boxes_.values[i]); });
+            move(before_, [&](Index i) { return after.row(blocks_.values[i]); });
             reached = nullptr;
         } else {
             after_.resize(matrix_.n_rows(), 3);
@@ -343,7 +384,7 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
         criterion.note(pass.iterations, left, left / before_pass);
     }
     if (reached != nullptr)
-        for_each(loop, matrix_.n_rows(), [&](Index i) { after.row(boxes_.values[i]) = reached->row(i); });
+        for_each(loop, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = reached->row(i); });
     return {criterion.result(left), distance};
 }
 

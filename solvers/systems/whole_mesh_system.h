@@ -73,7 +73,7 @@ class WholeMeshSystem {
     /// That of this step.
     Units units_;
     /// The vertices of rows, by blocks; and the rows of vertices.
-    IndexLists boxes_;
+    IndexLists blocks_;
     std::vector<Index> row_of_;
     BlockRowMatrix matrix_;
     /// By rows: whether they move, where they are before the step, and after it so far if the residual is renewed.
