@@ -30,8 +30,9 @@ FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, 
     return identity;
 }
 
+/// @param choices gets a sentence if the number of sub-meshes is chosen.
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
-             const Loop& loop, const Alongside& alongside)
+             const Loop& loop, const Alongside& alongside, std::vector<std::string>& choices)
 {
     if (options.keep_edges || options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
         return cut_into(mesh, topology, 1, loop);
@@ -41,9 +42,8 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
         return cut_into(mesh, topology, options.cut.subdomains, loop, alongside);
     const SubdomainChoice choice =
         choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
-    Cut cut = cut_into(mesh, topology, choice.count, loop, alongside);
-    cut.remarks.insert(cut.remarks.begin(), choice.reason + ".");
-    return cut;
+    choices.push_back(choice.reason + ".");
+    return cut_into(mesh, topology, choice.count, loop, alongside);
 }
 
 /// Joins the faces and settles which vertices move.
@@ -82,8 +82,9 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
         if (options.report.measures)
             prepared.meter.emplace(mesh, prepared.topology);
     };
-    prepared.cut = make_cut(mesh, prepared.size, prepared.topology, prepared.options, progress.loop(),
-                            [&](const std::function<void()>& serial) { run_both(serial, measure); });
+    prepared.cut = make_cut(
+        mesh, prepared.size, prepared.topology, prepared.options, progress.loop(),
+        [&](const std::function<void()>& serial) { run_both(serial, measure); }, prepared.choices);
     if (!is_measured)
         measure();
 }
@@ -113,7 +114,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
         accuracy.approach = Approach::Undecomposed;
         accuracy.tolerance.reset();
     } else if (!choice.reason.empty()) {
-        remarks.insert(remarks.begin(), choice.reason);
+        prepared->choices.insert(prepared->choices.begin(), choice.reason);
     }
     if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
         require_boundary_unshared(mesh.mesh(), topology, prepared->cut);
@@ -130,6 +131,7 @@ void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport&
     report.convergence.approach = options.accuracy.approach;
     report.convergence.tolerance = options.accuracy.tolerance;
     report.cut.repaired_faces = prepared.cut.repaired_faces;
+    report.choices = prepared.choices;
     report.remarks = prepared.remarks;
     report.mesh.non_manifold_vertices =
         static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));

@@ -32,6 +32,8 @@ struct PreparedFlow {
     std::vector<double> curvature;
     /// Refers to the topology; empty without ReportOptions::measures.
     std::optional<DisplacementMeter> meter;
+    /// Why sub-meshes and steps were chosen as they were.
+    std::vector<std::string> choices;
     /// About the mesh and the cut.
     std::vector<std::string> remarks;
 };

@@ -95,7 +95,8 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
 {
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
     return [&command, &input, &write_seconds, &page, &out, &loop, mean_edge, snapshot](const StepState& state) mutable {
-        print_step(out, state.report, state.step, command.options.steps, mean_edge);
+        if (command.verbose)
+            print_step(out, state.report, state.step, command.options.steps, mean_edge);
         if (page)
             page->add_step(state.step, state.positions, state.reference_positions);
         if (!command.every_step)
@@ -116,6 +117,19 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     if (!command.parts.empty())
         write_labelled_ply(command.parts, file.mesh, report.cut.labels, loop);
     return remarks;
+}
+
+/// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth.
+void remark_on_loss(const SmoothCommand& command, const SurfaceChange& change, std::vector<std::string>& remarks)
+{
+    constexpr double much = 0.2;
+    if (!change.before.volume || !change.after.volume || command.options.motion.rescale != Rescale::None)
+        return;
+    const double lost = 1.0 - *change.after.volume / *change.before.volume;
+    if (lost > much)
+        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: --filter low-pass loses less, "
+                                      "--rescale volume scales it back, and less smoothing is gentler.",
+                                      100.0 * lost));
 }
 
 /// What is written about the run: report, trace and page.
@@ -173,7 +187,7 @@ ExitStatus smooth(int argc, char** argv)
                   .flow = command.options.flow,
                   .filter = command.options.filter};
 
-    const Stopwatch reading;
+    const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Loop loop = workers.loop();
     MeshFile file = read_mesh(command.input, loop);
@@ -184,9 +198,9 @@ ExitStatus smooth(int argc, char** argv)
     if (motion.attachment > 0.0)
         run.attachment = motion.attachment;
     run.has_attachment_weights = !motion.attachment_weights.empty();
-    run.read_seconds = reading.seconds();
+    run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh);
-    print_choice(out, run, command.chosen);
+    print_preset(out, run, command.chosen);
     print_amount(out, run.scale, command.options);
     require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
     if (command.every_step)
@@ -196,6 +210,9 @@ ExitStatus smooth(int argc, char** argv)
     const std::vector<std::string> losses =
         remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
     std::optional<PageFlow> page = make_page(command, file.mesh);
+    std::optional<SurfaceChangeMeter> change;
+    if (!command.quiet || !command.report.empty())
+        change.emplace(file.mesh, loop);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =
         long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, loop));
@@ -224,8 +241,15 @@ ExitStatus smooth(int argc, char** argv)
     for (const auto& remarks : {losses, write_results(command, file, report, loop)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
+    if (change) {
+        run.surface = change->measure(file.mesh, loop);
+        remark_on_loss(command, run.surface, report.remarks);
+    }
+    run.seconds = whole.seconds();
     write_reports(command, run, report, page);
-    print_summary(out, run, report);
+    if (command.verbose)
+        print_details(out, run, report);
+    print_result(out, run, report);
     return require_converged(command, report);
 }
 

@@ -148,6 +148,8 @@ struct FlowReport {
     std::optional<PolygonMesh> separated;
     /// With ReportOptions::record_schedule, of a flow in backward Euler steps.
     std::optional<Schedule> schedule;
+    /// How steps are taken and why, where that was left open; a sentence each.
+    std::vector<std::string> choices;
     /// Remarks for the user, a sentence each: a number of sub-meshes that was changed, vertices held fixed, and so on.
     std::vector<std::string> remarks;
 };

@@ -4,7 +4,9 @@
 #include <csignal>
 #include <cstring>
 
+#include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,16 +40,21 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts)
     return pointers;
 }
 
+/// @param usage receives what the process used, if it could be started.
 std::string run_and_wait(const std::string& program, std::vector<std::string>& words,
-                         std::vector<std::string>& variables)
+                         std::vector<std::string>& variables, rusage& usage)
 {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
-    const int failure = posix_spawn(&child, program.c_str(), nullptr, nullptr, pointers_to(words).data(),
+    const int failure = posix_spawn(&child, program.c_str(), &actions, nullptr, pointers_to(words).data(),
                                     pointers_to(variables).data());
+    posix_spawn_file_actions_destroy(&actions);
     if (failure != 0)
         return std::string("cannot be started: ") + std::strerror(failure);
     int status = 0;
-    while (waitpid(child, &status, 0) < 0)
+    while (wait4(child, &status, 0, &usage) < 0)
         if (errno != EINTR)
             return std::string("cannot be waited for: ") + std::strerror(errno);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
@@ -64,8 +71,10 @@ ProcessEnd run_process(const std::string& program, std::vector<std::string> word
     std::vector<std::string> variables = environment_for(threads);
     const Stopwatch watch;
     ProcessEnd end;
-    end.failure = run_and_wait(program, words, variables);
+    rusage usage{};
+    end.failure = run_and_wait(program, words, variables, usage);
     end.seconds = watch.seconds();
+    end.peak_memory_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
     return end;
 }
 

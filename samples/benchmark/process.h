@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,12 @@ struct ProcessEnd {
     std::string failure;
     /// Wall-clock time from its start to its end.
     double seconds = 0.0;
+    /// The most memory that it had.
+    std::size_t peak_memory_bytes = 0;
 };
 
-/// Runs a program and waits for it. Libraries that start threads of their own are held to this number of them.
+/// Runs a program, whatever it prints unread, and waits for it. Libraries that start threads of their own are held to
+/// this number of them.
 /// @param words its arguments, its name first.
 ProcessEnd run_process(const std::string& program, std::vector<std::string> words, int threads);
 

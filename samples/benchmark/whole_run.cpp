@@ -26,14 +26,12 @@ std::string path_of_smooth()
     return (fs::read_symlink("/proc/self/exe").parent_path() / "smooth").string();
 }
 
-std::vector<std::string> words_of_smooth(const fs::path& input, const fs::path& output, const fs::path& report,
-                                         const WholeRun& run)
+std::vector<std::string> words_of_smooth(const fs::path& input, const fs::path& output, const WholeRun& run)
 {
     const FlowOptions& flow = run.flow;
     std::vector<std::string> words{"smooth",
                                    input.string(),
                                    output.string(),
-                                   "--quiet",
                                    "--laplacian",
                                    std::string(name_of(flow.laplacian)),
                                    "--time-step-edges",
@@ -41,9 +39,7 @@ std::vector<std::string> words_of_smooth(const fs::path& input, const fs::path& 
                                    "--steps",
                                    std::to_string(flow.steps),
                                    "--threads",
-                                   std::to_string(flow.resources.threads),
-                                   "--report",
-                                   report.string()};
+                                   std::to_string(flow.resources.threads)};
     if (flow.cut.subdomains > 0)
         words.insert(words.end(), {"--subdomains", std::to_string(flow.cut.subdomains)});
     if (flow.accuracy.tolerance)
@@ -77,7 +73,24 @@ class WholeRunner {
             require_success(row);
             peer.whole.seconds.push_back(row.result.process_seconds);
         }
-        run_smooth();
+        const ProcessEnd end = run_smooth({});
+        run_.smooth.seconds.push_back(end.seconds);
+        run_.peak_memory_bytes = end.peak_memory_bytes;
+    }
+
+    /// Of one more run, for a report, less what is measured for it.
+    void note_phases()
+    {
+        const fs::path file = grid_.rows().scratch().path() / "report.json";
+        const double whole = run_smooth({"--report", file.string()}).seconds;
+        const Json seconds = Json::parse(std::ifstream(file)).at("seconds");
+        WholeRunPhases& phases = run_.phases;
+        seconds.at("read").get_to(phases.read);
+        seconds.at("cut").get_to(phases.cut);
+        seconds.at("analyse").get_to(phases.analyse);
+        seconds.at("step").get_to(phases.steps);
+        seconds.at("write").get_to(phases.write);
+        phases.rest = whole - phases.read - seconds.at("total").get<double>() - phases.write;
     }
 
     void add_peer(Row row)
@@ -98,31 +111,14 @@ class WholeRunner {
     }
 
   private:
-    void run_smooth()
+    ProcessEnd run_smooth(const std::vector<std::string>& further)
     {
-        const fs::path report = grid_.rows().scratch().path() / "report.json";
-        const ProcessEnd end =
-            run_process(path_of_smooth(), words_of_smooth(input_, output_, report, run_), run_.flow.resources.threads);
+        std::vector<std::string> words = words_of_smooth(input_, output_, run_);
+        words.insert(words.end(), further.begin(), further.end());
+        ProcessEnd end = run_process(path_of_smooth(), words, run_.flow.resources.threads);
         if (!end.failure.empty())
             throw ComputationError("smooth: " + end.failure);
-        run_.smooth.seconds.push_back(end.seconds);
-        if (end.seconds == run_.smooth.least())
-            note_phases(Json::parse(std::ifstream(report)), end.seconds);
-    }
-
-    void note_phases(const Json& report, double whole)
-    {
-        const Json& seconds = report.at("seconds");
-        WholeRunPhases& phases = run_.phases;
-        seconds.at("read").get_to(phases.read);
-        seconds.at("cut").get_to(phases.cut);
-        seconds.at("analyse").get_to(phases.analyse);
-        seconds.at("step").get_to(phases.steps);
-        seconds.at("write").get_to(phases.write);
-        const double total = seconds.at("total").get<double>();
-        phases.measuring = total - phases.cut - phases.analyse - phases.steps;
-        phases.rest = whole - phases.read - total - phases.write;
-        report.at("peak_memory_bytes").get_to(run_.peak_memory_bytes);
+        return end;
     }
 
     void run_cholmod_step()
@@ -147,9 +143,8 @@ Json turns_json(const Turns& turns)
 
 Json phases_json(const WholeRunPhases& phases)
 {
-    return {
-        {"read", phases.read},           {"cut", phases.cut},     {"analyse", phases.analyse}, {"steps", phases.steps},
-        {"measuring", phases.measuring}, {"write", phases.write}, {"rest", phases.rest}};
+    return {{"read", phases.read},   {"cut", phases.cut},     {"analyse", phases.analyse},
+            {"steps", phases.steps}, {"write", phases.write}, {"rest", phases.rest}};
 }
 
 void print_turns(std::ostream& out, const std::string& name, const Turns& turns, const Turns& smooth)
@@ -198,6 +193,7 @@ WholeRun run_whole(const PolygonMesh& mesh, const fs::path& given, const std::st
     }
     for (int turn = 0; turn < options.turns; ++turn)
         runner.take_turn();
+    runner.note_phases();
     runner.measure_output();
     return run;
 }
@@ -213,8 +209,7 @@ void print_whole_run(std::ostream& out, const WholeRun& run)
     const WholeRunPhases& p = run.phases;
     for (const auto& [name, value] :
          {std::pair{"read", p.read}, std::pair{"cut", p.cut}, std::pair{"analyse", p.analyse},
-          std::pair{"steps", p.steps}, std::pair{"measuring", p.measuring}, std::pair{"write", p.write},
-          std::pair{"rest", p.rest}})
+          std::pair{"steps", p.steps}, std::pair{"write", p.write}, std::pair{"rest", p.rest}})
         out << fmt::format("  {:<32} {:>9.4f}\n", name, value);
     for (const WholePeer& peer : run.peers)
         print_turns(out, name_with_tolerance(peer.row), peer.whole, run.smooth);

@@ -18,8 +18,6 @@ struct WholeRunPhases {
     double cut = 0.0;
     double analyse = 0.0;
     double steps = 0.0;
-    /// What is measured of the steps.
-    double measuring = 0.0;
     double write = 0.0;
     /// Start and end of the process, and all else.
     double rest = 0.0;
@@ -49,9 +47,9 @@ struct WholeRun {
     std::string format;
     std::uintmax_t file_bytes = 0;
     Turns smooth;
-    /// Of the turn with the least time.
+    /// Of a run beside them.
     WholeRunPhases phases;
-    std::int64_t peak_memory_bytes = 0;
+    std::size_t peak_memory_bytes = 0;
     /// Distance to the undecomposed flow.
     std::optional<double> v_max;
     std::optional<double> v_mean;

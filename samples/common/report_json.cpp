@@ -112,6 +112,21 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
     return list;
 }
 
+Json look_json(const SurfaceLook& look)
+{
+    return {{"area", number(look.area)},
+            {"volume", look.volume ? number(*look.volume) : Json(nullptr)},
+            {"roughness_rms", number(look.roughness.rms)},
+            {"roughness_percentile_95", number(look.roughness.percentile_95)}};
+}
+
+Json surface_json(const RunRecord& run)
+{
+    Json json{{"before", look_json(run.surface.before)}, {"after", look_json(run.surface.after)}};
+    add_statistics(json, "moved", run.surface.moved, run.scale.mean_edge);
+    return json;
+}
+
 /// Names of files need not be valid UTF-8, JSON must.
 std::string text_of(const Json& json)
 {
@@ -167,6 +182,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["seconds"] = seconds_json(run, report.seconds);
     json["steps"] = steps_json(report.steps, run.scale.mean_edge);
     json["displacement"] = total_json(report.displacement, run.scale.mean_edge);
+    json["surface"] = surface_json(run);
+    json["choices"] = report.choices;
     json["remarks"] = report.remarks;
     json["peak_memory_bytes"] = peak_memory_bytes();
     return text_of(json);

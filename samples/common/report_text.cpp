@@ -46,13 +46,10 @@ void print_cut(std::ostream& out, const FlowReport& report)
                        sizes[sizes.size() / 2], sizes.back());
 }
 
-void print_times(std::ostream& out, const RunRecord& run, const PhaseSeconds& phases)
+/// "a -> b".
+std::string change(double before, double after, int significant)
 {
-    out << fmt::format("time       read {:.3f} s, cut {:.3f} s, analyse {:.3f} s, all steps {:.3f} s, write {:.3f} s\n",
-                       run.read_seconds, phases.cut, phases.analyse, phases.step, run.write_seconds);
-    out << fmt::format(
-        "in tasks   assemble {:.3f} s, factorise {:.3f} s, solve {:.3f} s, correct {:.3f} s (summed over threads)\n",
-        phases.assemble, phases.factorise, phases.solve, phases.correct);
+    return digits(before, significant) + " -> " + digits(after, significant);
 }
 
 /// Explicit Euler steps factorise nothing. Only Cholesky's method has its memory set aside.
@@ -86,6 +83,13 @@ void print_total(std::ostream& out, const TotalDisplacement& total, double mean_
                        total.path.normal.mean / unit, total.path.normal.max / unit);
 }
 
+void print_distance_to_reference(std::ostream& out, const VertexDistance& distance)
+{
+    const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;
+    out << fmt::format("V_mean {:.6g}  V_RMS {:.6g}  V_max {:.6g}", distance.mean / unit, distance.rms / unit,
+                       distance.max / unit);
+}
+
 void print_distance(std::ostream& out, const char* name, double absolute, double mean_edge)
 {
     out << fmt::format("{}  {:.10g}", name, absolute);
@@ -104,52 +108,49 @@ void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mes
         << std::endl;
 }
 
-void print_choice(std::ostream& out, const RunRecord& run, const std::string& options)
+void print_preset(std::ostream& out, const RunRecord& run, const std::string& options)
 {
+    if (run.preset.empty())
+        return;
+    out << "preset     " << run.preset;
     if (run.noise)
-        out << fmt::format("noise      {:.3g} mean edge lengths, estimated", *run.noise) << std::endl;
-    if (!run.preset.empty())
-        out << fmt::format("chosen     by --preset {}: {}", run.preset, options) << std::endl;
+        out << fmt::format(", for noise of {:.3g} mean edge lengths", *run.noise);
+    out << ": " << options << std::endl;
 }
 
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
-    const int steps = std::max(options.steps, 1);
-    const double radius = options.steps == 0 ? 0.0 : smoothed_radius(options.time_step, steps);
-    out << fmt::format(
-               "amount     dt {:.6g} = {:.6g} squared mean edge lengths, √dt {:.6g}; {} bumps of radius {:.6g} = "
-               "{:.3g}% of the diagonal",
-               options.time_step, options.time_step / (scale.mean_edge * scale.mean_edge), std::sqrt(options.time_step),
-               options.steps == 1 ? "one step smooths" : fmt::format("{} steps smooth", options.steps), radius,
-               100.0 * radius / scale.diagonal)
+    const double radius = options.steps == 0 ? 0.0 : smoothed_radius(options.time_step, options.steps);
+    out << fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g}): bumps of radius {:.6g}, {:.3g}% "
+                       "of the diagonal, lose half their height",
+                       counted(options.steps, "step", "steps"), options.time_step / (scale.mean_edge * scale.mean_edge),
+                       options.time_step, radius, 100.0 * radius / scale.diagonal)
         << std::endl;
 }
 
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
 {
-    out << fmt::format("step {} of {}  {:.3f} s  largest mean curvature {:.6g} -> {:.6g}", step, steps, report.seconds,
-                       report.max_mean_curvature_before, report.max_mean_curvature_after);
+    const double edge = mean_edge > 0.0 ? mean_edge : 1.0;
+    out << fmt::format("step {} of {}  {:.3f} s  moved {:.3g} normally, {:.3g} tangentially", step, steps,
+                       report.seconds, report.displacement.normal.mean / edge,
+                       report.displacement.tangential.mean / edge);
     if (report.iterations)
         out << fmt::format("  iterations {}, residual {:.2g}", *report.iterations, report.residual.value_or(0.0));
-    if (report.gap) {
-        const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
-        out << fmt::format("  gap mean {:.6g}, largest {:.6g}", report.gap->mean / unit, report.gap->max / unit);
-    }
+    if (report.gap)
+        out << fmt::format("  gap mean {:.6g}, largest {:.6g}", report.gap->mean / edge, report.gap->max / edge);
     if (report.estimated_v_max)
         out << fmt::format("  estimated distance to the undecomposed flow {:.2g} mean edge lengths",
                            *report.estimated_v_max);
     if (report.distance) {
-        const VertexDistance& distance = *report.distance;
-        const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;
-        out << fmt::format("  V_mean {:.6g}  V_RMS {:.6g}  V_max {:.6g}", distance.mean / unit, distance.rms / unit,
-                           distance.max / unit);
+        out << "  ";
+        print_distance_to_reference(out, *report.distance);
     }
     if (report.reference_seconds)
         out << fmt::format("  (undecomposed {:.3f} s)", *report.reference_seconds);
     out << std::endl;
 }
 
-void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& report)
+void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
     out << "flow       " << run.laplacian;
     if (run.flow != FlowEquation::MeanCurvature)
@@ -163,13 +164,41 @@ void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& re
     out << ", time step " << digits(report.time_step, 10) << '\n';
     print_cut(out, report);
     print_factors(out, report);
-    print_times(out, run, report.seconds);
+    out << fmt::format(
+        "in tasks   assemble {:.3f} s, factorise {:.3f} s, solve {:.3f} s, correct {:.3f} s (summed over threads)\n",
+        report.seconds.assemble, report.seconds.factorise, report.seconds.solve, report.seconds.correct);
     print_total(out, report.displacement, run.scale.mean_edge);
-    out << "threads    " << report.resources.threads << '\n';
-    out << "memory     " << digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4) << " MB at most\n";
+}
+
+void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report)
+{
+    for (std::size_t i = 0; i < report.choices.size(); ++i)
+        out << (i == 0 ? "chosen     " : " ") << report.choices[i] << (i + 1 == report.choices.size() ? "\n" : "");
+    const PhaseSeconds& phases = report.seconds;
+    out << fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; {}, {} MB\n",
+                       run.seconds, run.read_seconds, phases.cut + phases.analyse, phases.step, run.write_seconds,
+                       counted(report.resources.threads, "thread", "threads"),
+                       digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4));
     for (const std::string& remark : report.remarks)
         out << "remark     " << remark << '\n';
-    out << "result     " << run.output << std::endl;
+    if (!report.steps.empty() && report.steps.back().distance) {
+        out << "distance   ";
+        print_distance_to_reference(out, *report.steps.back().distance);
+        out << " mean edge lengths, from the undecomposed flow\n";
+    }
+    const auto& [before, after, moved] = run.surface;
+    const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
+    out << fmt::format(
+        "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {} degrees, "
+        "area {}",
+        run.output, moved.mean / edge, moved.max / edge, change(before.roughness.rms, after.roughness.rms, 3),
+        change(before.area, after.area, 6));
+    if (before.volume && after.volume)
+        out << ", volume " << change(*before.volume, *after.volume, 6);
+    if (!report.steps.empty() && report.steps.back().estimated_v_max)
+        out << fmt::format("; by estimate {:.2g} mean edge lengths at most from the undecomposed flow",
+                           *report.steps.back().estimated_v_max);
+    out << std::endl;
 }
 
 void print_comparison(std::ostream& out, const Comparison& comparison)

@@ -18,7 +18,7 @@ void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mes
 
 /// What a preset has chosen, if one has.
 /// @param options that say the same.
-void print_choice(std::ostream& out, const RunRecord& run, const std::string& options);
+void print_preset(std::ostream& out, const RunRecord& run, const std::string& options);
 
 /// How much the flow is to smooth, in all units that it can be asked for in.
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options);
@@ -28,8 +28,11 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
 /// @param mean_edge of the input; gaps are printed in it.
 void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge);
 
-/// What the flow did: the cut, the time per phase, memory, remarks and where the result is.
-void print_summary(std::ostream& out, const RunRecord& run, const FlowReport& report);
+/// How steps were taken: the cut, factors, the time per task and displacements.
+void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report);
+
+/// What was chosen and why, remarks, time and memory, where the result is, and how it differs from the input.
+void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report);
 
 /// What `compare` found, absolute and in mean edge lengths of the reference; displacements in the latter alone.
 void print_comparison(std::ostream& out, const Comparison& comparison);

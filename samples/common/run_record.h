@@ -6,6 +6,7 @@
 
 #include "engine/options/flow_options.h"
 #include "samples/common/smoothing_request.h"
+#include "samples/common/surface_change.h"
 
 namespace seamflow {
 
@@ -33,6 +34,10 @@ struct RunRecord {
     /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;
+    /// Of the whole run so far.
+    double seconds = 0.0;
+    /// From the input to the result.
+    SurfaceChange surface = {};
 };
 
 }  // namespace seamflow

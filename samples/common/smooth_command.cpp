@@ -209,7 +209,9 @@ void add_long_run(CLI::App& app, SmoothCommand& command)
     add_parsed(app, "--checkpoint-every", command.checkpoint_period, parse_checkpoint_period, "STEPS|TIME",
                "how often, in steps (10) or time (30s, 5min, 1h), and at the end [1]")
         ->needs(checkpoint);
-    app.add_flag("--quiet", command.quiet, "print nothing but errors");
+    auto* quiet = app.add_flag("--quiet", command.quiet, "print nothing but errors");
+    app.add_flag("--verbose", command.verbose, "also print what each step did, the cut, and the time in tasks")
+        ->excludes(quiet);
 }
 
 /// The first of these options that was given; empty: none.
@@ -435,7 +437,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
         command.options.accuracy.approach = Approach::Decomposed;
     // Nobody would see it.
     command.options.report.measures =
-        !(command.quiet && command.report.empty() && command.html.empty() && command.checkpoint.empty());
+        command.verbose || !command.report.empty() || !command.html.empty() || !command.checkpoint.empty();
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);

@@ -45,8 +45,9 @@ struct SmoothCommand {
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
     CheckpointPeriod checkpoint_period;
-    /// Whether to print errors alone.
+    /// Whether to print errors alone; and what each step and task did.
     bool quiet = false;
+    bool verbose = false;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
     /// As the user typed it.

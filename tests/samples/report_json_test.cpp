@@ -52,10 +52,20 @@ TEST_CASE("a report is valid JSON whatever happened")
     report.cut.sub_meshes = {{.p = std::numeric_limits<double>::infinity()}};
     RunRecord run;
     run.input = "\xff.obj";
+    report.choices = {"a choice"};
     report.remarks = {"a \"remark\"\n"};
+    run.surface.after = {.area = std::numeric_limits<double>::infinity(), .volume = 2.0, .roughness = {3.0, 4.0}};
+    run.surface.moved = {.mean = 1.0, .rms = 2.0, .max = 3.0};
     const Json json = Json::parse(smooth_report_json(run, report));
     CHECK(json["time_step"].is_null());
     CHECK(json["p"][0].is_null());
+    CHECK(json["choices"][0] == "a choice");
+    CHECK(json["surface"]["before"]["volume"].is_null());
+    CHECK(json["surface"]["after"]["area"].is_null());
+    CHECK(json["surface"]["after"]["volume"] == 2.0);
+    CHECK(json["surface"]["after"]["roughness_percentile_95"] == 4.0);
+    CHECK(json["surface"]["moved_max_absolute"] == 3.0);
+
     CHECK(json["remarks"][0] == "a \"remark\"\n");
     Comparison comparison;
     comparison.vertex_distance.emplace();

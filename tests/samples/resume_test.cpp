@@ -58,7 +58,7 @@ TEST_CASE("a run that was killed goes on to the same bits and the same report")
         const Json report = results_in(w.json("report.json"));
         std::filesystem::remove(w.directory / "out.obj");
         const std::string kept =
-            arguments + flow + " --checkpoint kept --checkpoint-every " + std::to_string(1 + random() % 2);
+            arguments + flow + " --verbose --checkpoint kept --checkpoint-every " + std::to_string(1 + random() % 2);
         for (const int step : {2, 4})
             run_until(w, kept + " --threads " + std::to_string(1 + random() % 3),
                       "\nstep " + std::to_string(step) + " ");

@@ -66,7 +66,7 @@ export function showFacts(section, flow) {
     for (const [name, text] of rows(report))
         list.append(element("dt", {}, name), element("dd", {}, text));
     const remarks = element("ul");
-    for (const remark of [...report.remarks, flow.remark].filter((text, k, all) => text && all.indexOf(text) === k))
+    for (const remark of [...report.choices, ...report.remarks, flow.remark].filter((text, k, all) => text && all.indexOf(text) === k))
         remarks.append(element("li", {}, remark));
     section.replaceChildren(element("h2", {}, "Run"), list);
     if (remarks.childElementCount > 0)

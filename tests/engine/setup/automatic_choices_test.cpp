@@ -74,14 +74,14 @@ TEST_CASE("the choice and its reason are in the report, and so is a warning of n
     PolygonMesh mesh = make_quads(8000);
     const FlowReport chosen = mean_curvature_flow(mesh, options);
     CHECK(chosen.cut.n_sub_meshes() == 3);
-    REQUIRE(chosen.remarks.size() == 1);
-    CHECK(chosen.remarks[0].find("3 sub-meshes chosen") == 0);
+    REQUIRE(chosen.choices.size() == 1);
+    CHECK(chosen.choices[0].find("3 sub-meshes chosen") == 0);
 
     options.cut.subdomains = 40;
     options.time_step = 1e-3;
     const FlowReport narrow = mean_curvature_flow(mesh, options);
-    REQUIRE(narrow.remarks.size() == 1);
-    CHECK(narrow.remarks[0].find("narrow") != std::string::npos);
+    REQUIRE(narrow.choices.size() == 1);
+    CHECK(narrow.choices[0].find("narrow") != std::string::npos);
 }
 
 TEST_CASE("a tolerance that is asked for is kept, whatever the mesh")
@@ -154,7 +154,7 @@ TEST_CASE("the report has the tolerance that was chosen, and says why")
     const FlowReport converged = report_of(step_options(mesh, Laplacian::AlexaWardetzky, 50.0));
     REQUIRE(converged.convergence.tolerance);
     CHECK(converged.steps.back().residual.value() <= *converged.convergence.tolerance);
-    CHECK(converged.remarks.front().find("Steps are converged") == 0);
+    CHECK(converged.choices.front().find("Steps are converged") == 0);
     const FlowReport swept = report_of(step_options(mesh, Laplacian::AlexaWardetzky, 1.0));
     CHECK_FALSE(swept.convergence.tolerance);
     CHECK_FALSE(swept.steps.back().residual);

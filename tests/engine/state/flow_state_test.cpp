@@ -84,6 +84,7 @@ TEST_CASE("a flow that goes on after any step ends with the same bits and the sa
                     check_same(resumed.report.steps[i], whole.report.steps[i]);
                 check_same(resumed.report.displacement.path.tangential, whole.report.displacement.path.tangential);
                 check_same(resumed.report.displacement.drift, whole.report.displacement.drift);
+                CHECK(resumed.report.choices == whole.report.choices);
                 CHECK(resumed.report.remarks == whole.report.remarks);
                 CHECK(resumed.report.convergence.steps_short_of_tolerance ==
                       whole.report.convergence.steps_short_of_tolerance);

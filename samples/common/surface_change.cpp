@@ -1,0 +1,80 @@
+#include "samples/common/surface_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <xxhash.h>
+
+#include "partition/index_lists.h"
+#include "partition/metrics/volume.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The faces around so many vertices tell the roughness of all within about a hundredth.
+constexpr Index enough_vertices = 4000;
+
+/// Vertices spread over the mesh without a pattern.
+bool is_sampled(Index v, Index n_vertices)
+{
+    return n_vertices <= enough_vertices ||
+           XXH3_64bits(&v, sizeof v) % static_cast<XXH64_hash_t>(n_vertices) < enough_vertices;
+}
+
+/// @param vertices those of the faces, ascending.
+PolygonMesh extract(const PolygonMesh& mesh, const std::vector<Index>& faces, const std::vector<Index>& vertices)
+{
+    PolygonMesh part;
+    std::vector<Index> corners;
+    for (const Index f : faces) {
+        corners.clear();
+        for (const Index v : mesh.face(f))
+            corners.push_back(
+                static_cast<Index>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin()));
+        part.add_face(corners);
+    }
+    return part;
+}
+
+}  // namespace
+
+SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop)
+    : positions_(mesh.vertices)
+{
+    const std::vector<Index> faces = select(loop, mesh.n_faces(), [&](Index f) {
+        return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_sampled(v, mesh.n_vertices()); });
+    });
+    for (const Index f : faces)
+        sampled_vertices_.insert(sampled_vertices_.end(), mesh.face(f).begin(), mesh.face(f).end());
+    sort_unique(sampled_vertices_);
+    sample_ = extract(mesh, faces, sampled_vertices_);
+    before_ = look_at(mesh, loop);
+}
+
+SurfaceLook SurfaceChangeMeter::look_at(const PolygonMesh& mesh, const Loop& loop) const
+{
+    PolygonMesh sample = sample_;
+    sample.vertices.resize(static_cast<Eigen::Index>(sampled_vertices_.size()), 3);
+    for (std::size_t i = 0; i < sampled_vertices_.size(); ++i)
+        sample.vertices.row(static_cast<Eigen::Index>(i)) = mesh.vertices.row(sampled_vertices_[i]);
+    return {.area = sum(loop, mesh.n_faces(), [&](Index f) { return vector_area(mesh.face(f), mesh.vertices).norm(); }),
+            .volume = enclosed_volume(mesh, loop),
+            .roughness = roughness(sample, sample.vertices)};
+}
+
+SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const Loop& loop) const
+{
+    std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
+    for_each_block(loop, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v)
+            of_block[block].add((mesh.vertices.row(v) - positions_.row(v)).norm());
+    });
+    LengthSums moved;
+    for (const LengthSums& sums : of_block)
+        moved.add(sums);
+    return {.before = before_, .after = look_at(mesh, loop), .moved = moved.statistics()};
+}
+
+}  // namespace seamflow
