@@ -2,6 +2,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
+#include <random>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -10,6 +12,7 @@
 #include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/random_meshes.h"
 
 using namespace seamflow;
 using test::flowed;
@@ -137,6 +140,24 @@ TEST_CASE("what has no meaning with conjugate gradients is refused")
     refuses([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; });
     refuses([](FlowOptions& o) { o.resources.memory_limit = 1'000'000'000; });
     refuses([](FlowOptions& o) { o.resources.factorisation = Factorisation::Own; });
+}
+
+TEST_CASE("the order of the vertices makes no difference to the number of iterations")
+{
+    const PolygonMesh mesh = make_triangles(20000);
+    std::vector<Index> new_vertex(mesh.n_vertices());
+    std::iota(new_vertex.begin(), new_vertex.end(), 0);
+    std::shuffle(new_vertex.begin(), new_vertex.end(), std::mt19937(3));
+    std::vector<Index> new_face(mesh.n_faces());
+    std::iota(new_face.begin(), new_face.end(), 0);
+    const auto iterations = [](PolygonMesh flowing) {
+        FlowOptions options = by_conjugate_gradients(Laplacian::Fujiwara, 1e-4);
+        options.steps = 1;
+        return mean_curvature_flow(flowing, options).steps[0].iterations.value();
+    };
+    const int as_made = iterations(mesh);
+    CHECK(as_made > 20);
+    CHECK(iterations(test::renumbered(mesh, new_vertex, new_face)) == doctest::Approx(as_made).epsilon(0.2));
 }
 
 TEST_CASE("few iterations are told as such, and iterations that lead nowhere as stagnation")
