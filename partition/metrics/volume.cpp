@@ -20,8 +20,10 @@ XXH64_hash_t hash_of_half_edge(Index from, Index to)
     return from < to ? hash : XXH64_hash_t{0} - hash;
 }
 
-/// Whether half-edges and their opposites cancel each other: the sum of their hashes is 0 then, and hardly ever else.
-bool is_closed(const PolygonMesh& mesh, const Loop& loop)
+}  // namespace
+
+/// Half-edges and their opposites cancel each other: the sum of their hashes is 0 then, and hardly ever else.
+bool encloses_volume(const PolygonMesh& mesh, const Loop& loop)
 {
     std::vector<XXH64_hash_t> of_block(at(mesh.n_faces() / block_size) + 1, 0);
     for_each_block(loop, mesh.n_faces(), [&](Index block, Index begin, Index end) {
@@ -39,10 +41,8 @@ bool is_closed(const PolygonMesh& mesh, const Loop& loop)
     XXH64_hash_t sum = 0;
     for (const XXH64_hash_t part : of_block)
         sum += part;
-    return sum == 0;
+    return mesh.n_faces() > 0 && sum == 0;
 }
-
-}  // namespace
 
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Loop& loop)
 {
@@ -53,13 +53,6 @@ double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const P
             mean += positions.row(v) - origin;
         return vector_area(corners, positions).dot(mean) / (3.0 * static_cast<double>(corners.size()));
     });
-}
-
-std::optional<double> enclosed_volume(const PolygonMesh& mesh, const Loop& loop)
-{
-    if (mesh.n_faces() == 0 || !is_closed(mesh, loop))
-        return std::nullopt;
-    return std::abs(volume_of_cones(mesh, mesh.vertices, mesh.vertices.row(mesh.face(0).front()), loop));
 }
 
 }  // namespace seamflow

@@ -41,10 +41,14 @@ PolygonMesh extract(const PolygonMesh& mesh, const std::vector<Index>& faces, co
 }  // namespace
 
 SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop)
-    : positions_(mesh.vertices)
+    : positions_(mesh.n_vertices(), 3)
+    , has_volume_(encloses_volume(mesh, loop))
 {
+    copy(loop, mesh.vertices, positions_);
+    std::vector<char> is_in_sample(at(mesh.n_vertices()));
+    for_each(loop, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
     const std::vector<Index> faces = select(loop, mesh.n_faces(), [&](Index f) {
-        return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_sampled(v, mesh.n_vertices()); });
+        return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
     });
     for (const Index f : faces)
         sampled_vertices_.insert(sampled_vertices_.end(), mesh.face(f).begin(), mesh.face(f).end());
@@ -59,9 +63,13 @@ SurfaceLook SurfaceChangeMeter::look_at(const PolygonMesh& mesh, const Loop& loo
     sample.vertices.resize(static_cast<Eigen::Index>(sampled_vertices_.size()), 3);
     for (std::size_t i = 0; i < sampled_vertices_.size(); ++i)
         sample.vertices.row(static_cast<Eigen::Index>(i)) = mesh.vertices.row(sampled_vertices_[i]);
-    return {.area = sum(loop, mesh.n_faces(), [&](Index f) { return vector_area(mesh.face(f), mesh.vertices).norm(); }),
-            .volume = enclosed_volume(mesh, loop),
-            .roughness = roughness(sample, sample.vertices)};
+    SurfaceLook look{
+        .area = sum(loop, mesh.n_faces(), [&](Index f) { return vector_area(mesh.face(f), mesh.vertices).norm(); }),
+        .volume = std::nullopt,
+        .roughness = roughness(sample, sample.vertices)};
+    if (has_volume_)
+        look.volume = std::abs(volume_of_cones(mesh, mesh.vertices, mesh.vertices.row(mesh.face(0).front()), loop));
+    return look;
 }
 
 SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const Loop& loop) const

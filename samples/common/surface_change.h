@@ -14,7 +14,7 @@ namespace seamflow {
 struct SurfaceLook {
     /// Of all faces, length².
     double area = 0.0;
-    /// Length³; empty where it has none (see enclosed_volume).
+    /// Length³; empty where it has none (see encloses_volume).
     std::optional<double> volume;
     /// Of large meshes by a sample of their faces.
     Roughness roughness;
@@ -44,6 +44,7 @@ class SurfaceChangeMeter {
     /// Some of the faces, and which vertices of the mesh theirs are.
     PolygonMesh sample_;
     std::vector<Index> sampled_vertices_;
+    bool has_volume_;
     SurfaceLook before_;
 };
 
