@@ -4,6 +4,7 @@
 
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
 #include "samples/common/compare_command.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
@@ -25,13 +26,14 @@ ExitStatus compare(int argc, char** argv)
     Comparison comparison = compare_meshes(reference, candidate, command.direction);
     comparison.reference = command.reference.string();
     comparison.candidate = command.candidate.string();
-    print_comparison(std::cout, comparison);
+    std::ostream& out = is_standard_stream(command.report) ? std::cerr : std::cout;
+    print_comparison(out, comparison);
     if (!command.report.empty())
         write_text(command.report, compare_report_json(comparison));
     if (!command.error_map.empty()) {
         const ErrorRange range =
             write_error_map(command.error_map, reference, candidate, command.shown, command.full_scale);
-        print_error_map(std::cout, command.error_map.string(), range);
+        print_error_map(out, command.error_map.string(), range);
     }
     return ExitStatus::Success;
 }

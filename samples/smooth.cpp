@@ -9,11 +9,13 @@
 //        that it takes values from
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -172,21 +174,14 @@ ExitStatus require_converged(const SmoothCommand& command, const FlowReport& rep
     return ExitStatus::ComputationFailed;
 }
 
-ExitStatus smooth(int argc, char** argv)
+/// Reads, flows and writes.
+/// @param run has what the command line says.
+ExitStatus run(SmoothCommand& command, RunRecord& run)
 {
-    SmoothCommand command;
-    if (const auto end = parse_smooth_command(argc, argv, command))
-        return *end;
     Interruption interruption("smooth");
     std::ostream silence(nullptr);
-    std::ostream& out = command.quiet ? silence : is_standard_stream(command.output) ? std::cerr : std::cout;
-    RunRecord run{.input = command.input.string(),
-                  .output = command.output.string(),
-                  .arguments = command.arguments,
-                  .laplacian = std::string(name_of(command.options.laplacian)),
-                  .flow = command.options.flow,
-                  .filter = command.options.filter};
-
+    const bool is_taken = is_standard_stream(command.output) || is_standard_stream(command.report);
+    std::ostream& out = command.quiet ? silence : is_taken ? std::cerr : std::cout;
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Loop loop = workers.loop();
@@ -207,8 +202,11 @@ ExitStatus smooth(int argc, char** argv)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    const std::vector<std::string> losses =
+    std::vector<std::string> losses =
         remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(command.input, command.output, ignored))
+        losses.push_back("The result has replaced the input, in one go when it was complete.");
     std::optional<PageFlow> page = make_page(command, file.mesh);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty())
@@ -251,6 +249,30 @@ ExitStatus smooth(int argc, char** argv)
         print_details(out, run, report);
     print_result(out, run, report);
     return require_converged(command, report);
+}
+
+ExitStatus smooth(int argc, char** argv)
+{
+    SmoothCommand command;
+    if (const auto end = parse_smooth_command(argc, argv, command))
+        return *end;
+    RunRecord record{.input = command.input.string(),
+                     .output = command.output.string(),
+                     .arguments = command.arguments,
+                     .laplacian = std::string(name_of(command.options.laplacian)),
+                     .flow = command.options.flow,
+                     .filter = command.options.filter};
+    try {
+        return run(command, record);
+    } catch (...) {
+        // The report says what standard error says, if it can be written.
+        try {
+            if (!command.report.empty())
+                write_text(command.report, smooth_failure_json(record, current_failure()));
+        } catch (const OutputError&) {
+        }
+        throw;
+    }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
 #include "samples/common/command_line.h"
 #include "samples/common/output_files.h"
 
@@ -24,7 +25,8 @@ void add_options(CLI::App& app, CompareCommand& command)
     add_choice<Direction>(app, "--direction", command.direction, directions,
                           "from whose vertices to whose surface H_ is measured; symmetric: the larger of both "
                           "[reference-to-candidate]");
-    app.add_option("--report", command.report, "also write the numbers as JSON")->type_name("REPORT.json");
+    app.add_option("--report", command.report, "also write the numbers as JSON; - for standard output")
+        ->type_name("REPORT.json");
     auto* error_map =
         app.add_option("--error-map", command.error_map, "write the candidate with a colour and a value per vertex")
             ->type_name("FILE.ply");
@@ -45,10 +47,11 @@ void require_usable_files(const CompareCommand& command)
     if (!command.error_map.empty() && kind_for_writing(command.error_map, FileKind{}).format != FileFormat::Ply)
         throw OptionError("--error-map " + command.error_map.string() + ": error maps are written as .ply only");
     std::vector<std::filesystem::path> results;
-    for (const auto& path : {command.report, command.error_map})
-        if (!path.empty())
-            results.push_back(path);
+    if (!command.error_map.empty())
+        results.push_back(command.error_map);
     require_files(results);
+    if (!command.report.empty() && !is_standard_stream(command.report))
+        results.push_back(command.report);
     for (const auto& input : {command.reference, command.candidate}) {
         std::vector<std::filesystem::path> files = results;
         files.push_back(input);

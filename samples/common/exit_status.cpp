@@ -11,48 +11,50 @@ namespace seamflow {
 
 namespace {
 
-ExitStatus tell(const char* program, const char* message, ExitStatus status)
+ExitStatus tell(const char* program, const Failure& failure)
 {
     std::cout.flush();
-    std::cerr << program << ": " << message << '\n';
-    return status;
-}
-
-ExitStatus guarded(const char* program, const std::function<ExitStatus()>& body)
-{
-    try {
-        return body();
-    } catch (const OptionError& error) {
-        return tell(program, error.what(), ExitStatus::WrongUsage);
-    } catch (const InputError& error) {
-        return tell(program, error.what(), ExitStatus::UnusableInput);
-    } catch (const OutputError& error) {
-        return tell(program, error.what(), ExitStatus::OutputNotWritten);
-    } catch (const std::bad_alloc&) {
-        return tell(program,
-                    "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or "
-                    "give it less to do at once (fewer vertices; where these options are, more --subdomains or fewer "
-                    "--threads)",
-                    ExitStatus::ComputationFailed);
-    } catch (const std::exception& error) {
-        return tell(program, error.what(), ExitStatus::ComputationFailed);
-    } catch (...) {
-        return tell(program, "failed for an unknown reason", ExitStatus::ComputationFailed);
-    }
+    std::cerr << program << ": " << failure.message << '\n';
+    return failure.status;
 }
 
 }  // namespace
 
+Failure current_failure()
+{
+    try {
+        throw;
+    } catch (const OptionError& error) {
+        return {ExitStatus::WrongUsage, error.what()};
+    } catch (const InputError& error) {
+        return {ExitStatus::UnusableInput, error.what()};
+    } catch (const OutputError& error) {
+        return {ExitStatus::OutputNotWritten, error.what()};
+    } catch (const std::bad_alloc&) {
+        return {ExitStatus::ComputationFailed,
+                "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or "
+                "give it less to do at once (fewer vertices; where these options are, more --subdomains or fewer "
+                "--threads)"};
+    } catch (const std::exception& error) {
+        return {ExitStatus::ComputationFailed, error.what()};
+    } catch (...) {
+        return {ExitStatus::ComputationFailed, "failed for an unknown reason"};
+    }
+}
+
 int run_program(const char* program, const std::function<ExitStatus()>& body)
 {
-    const ExitStatus status = guarded(program, [&] {
+    ExitStatus status = ExitStatus::Success;
+    try {
         do_without_blas_threads_where_limited();
-        return body();
-    });
+        status = body();
+    } catch (...) {
+        status = tell(program, current_failure());
+    }
     std::cout.flush();
     if (status == ExitStatus::Success && !std::cout)
-        return static_cast<int>(
-            tell(program, "standard output could not be written: is its disk full?", ExitStatus::OutputNotWritten));
+        status =
+            tell(program, {ExitStatus::OutputNotWritten, "standard output could not be written: is its disk full?"});
     return static_cast<int>(status);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace seamflow {
 
@@ -16,9 +17,18 @@ enum class ExitStatus : int {
     Terminated = 143,
 };
 
-/// Runs the body of a program and turns what it throws into an exit status, with one message on standard error:
-/// OptionError → WrongUsage, InputError → UnusableInput, OutputError → OutputNotWritten; ComputationError, running out
-/// of memory and anything else → ComputationFailed.
+/// Why a program ends, and how.
+struct Failure {
+    ExitStatus status = ExitStatus::ComputationFailed;
+    std::string message;
+};
+
+/// Of the exception that is being handled: OptionError → WrongUsage, InputError → UnusableInput, OutputError →
+/// OutputNotWritten; ComputationError, running out of memory and anything else → ComputationFailed.
+Failure current_failure();
+
+/// Runs the body of a program and turns what it throws into an exit status, with one message on standard error (see
+/// current_failure).
 /// @param program the name that begins the message.
 /// @returns the status, for main to return.
 int run_program(const char* program, const std::function<ExitStatus()>& body);

@@ -189,6 +189,14 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     return text_of(json);
 }
 
+std::string smooth_failure_json(const RunRecord& run, const Failure& failure)
+{
+    return text_of({{"input", run.input},
+                    {"output", run.output},
+                    {"arguments", run.arguments},
+                    {"error", {{"message", failure.message}, {"exit_status", static_cast<int>(failure.status)}}}});
+}
+
 std::string compare_report_json(const Comparison& comparison)
 {
     Json json;

@@ -6,6 +6,7 @@
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/io/fault_log.h"
 #include "samples/common/comparison.h"
+#include "samples/common/exit_status.h"
 #include "samples/common/run_record.h"
 
 namespace seamflow {
@@ -14,6 +15,9 @@ namespace seamflow {
 /// v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh, v_mean_absolute and so on in units
 /// of length; displacements are in mean edge lengths of the input.
 std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
+
+/// The same of a run that has failed: the files, the arguments and the error.
+std::string smooth_failure_json(const RunRecord& run, const Failure& failure);
 
 /// REPORT.json of `compare`; the same units. What was not measured has no keys.
 std::string compare_report_json(const Comparison& comparison);

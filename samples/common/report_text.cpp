@@ -195,7 +195,7 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
         change(before.area, after.area, 6));
     if (before.volume && after.volume)
         out << ", volume " << change(*before.volume, *after.volume, 6);
-    if (!report.steps.empty() && report.steps.back().estimated_v_max)
+    if (!report.steps.empty() && report.steps.back().estimated_v_max.value_or(0.0) > 0.0)
         out << fmt::format("; by estimate {:.2g} mean edge lengths at most from the undecomposed flow",
                            *report.steps.back().estimated_v_max);
     out << std::endl;

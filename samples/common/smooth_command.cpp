@@ -9,7 +9,9 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
 #include "samples/common/command_line.h"
+#include "samples/common/cpu_quota.h"
 #include "samples/common/flow_choices.h"
 #include "samples/common/output_files.h"
 #include "samples/common/presets.h"
@@ -169,7 +171,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         app, "--precision", options.resources.precision,
         "of the factorisations of converged steps, which are refined to the tolerance in any; auto: single where "
         "that loses few digits [auto]");
-    add_integer(app, "--threads", options.resources.threads, 0, "number of threads, at most 1024; 0: all cores [0]");
+    add_integer(app, "--threads", options.resources.threads, 0,
+                "number of threads, at most 1024; 0: as many as there are cores, and as the control group allows [0]");
     add_bytes(
         app, "--memory-limit", options.resources.memory_limit,
         "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
@@ -187,7 +190,9 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
     app.add_option("--every-step", every_step, "also write the mesh after every step; %d is its number")
         ->type_name("PATTERN");
     app.add_option("--parts", command.parts, "write the cut: faces with colours and labels")->type_name("PARTS.ply");
-    app.add_option("--report", command.report, "write times, sizes and distances")->type_name("REPORT.json");
+    app.add_option("--report", command.report,
+                   "write times, sizes and distances, or why it failed; - for standard output")
+        ->type_name("REPORT.json");
     app.add_option("--trace", command.trace, "write which task ran when in which thread, for ui.perfetto.dev")
         ->type_name("TRACE.json");
     app.add_option("--task-graph", command.task_graph,
@@ -396,10 +401,14 @@ void require_usable_files(const SmoothCommand& command)
     std::vector<std::filesystem::path> results;
     for (int step = 1; command.every_step && step <= command.options.steps; ++step)
         results.push_back(command.every_step->path(step));
-    for (const auto& path : {command.parts, command.report, command.trace, command.task_graph, command.html})
+    for (const auto& path : {command.parts, command.trace, command.task_graph, command.html})
         if (!path.empty())
             results.push_back(path);
     require_files(results);
+    if (is_standard_stream(command.report) && is_standard_stream(command.output))
+        throw OptionError("OUTPUT and --report are both -: name a file for one of them");
+    if (!command.report.empty() && !is_standard_stream(command.report))
+        results.push_back(command.report);
     require_files({command.labels, command.fix, command.attach_weights});
     for (const auto& input : {command.input, command.labels, command.fix, command.attach_weights}) {
         std::vector<std::filesystem::path> files = results;
@@ -428,6 +437,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     command.arguments.assign(argv + 1, argv + argc);
+    if (command.options.resources.threads == 0)
+        command.options.resources.threads = threads_within_quota();
     apply_preset(app, command);
     command.limits_iterations = app.count("--converge-iterations") > 0;
     for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})

@@ -56,11 +56,34 @@ TEST_CASE("output that cannot be written ends with 5, before the work begins")
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --parts nowhere/parts.ply") == 5);
     CHECK(w.smooth("mesh.obj out.obj --time-step 1 --every-step nowhere/%d.obj") == 5);
     CHECK(w.smooth("mesh.obj out.stl --time-step 1") == 5);
-    CHECK(w.said().find("amount ") == std::string::npos);
+    CHECK(w.said().find("result ") == std::string::npos);
     CHECK(w.run(COMPARE " mesh.obj mesh.obj --report nowhere/report.json") == 5);
     CHECK(w.run(COMPARE " mesh.obj mesh.obj --error-map nowhere/map.ply") == 5);
     CHECK(w.run(GENERATE " quads nowhere/out.obj") == 5);
     CHECK_FALSE(w.has("out.obj"));
+}
+
+TEST_CASE("a report goes to standard output, and one of a run that fails says why")
+{
+    const Workshop w;
+    REQUIRE(w.run("(" SMOOTH " mesh.obj out.obj --time-step-edges 2 --report - > report.json 2> printed)") == 0);
+    CHECK(w.json("report.json")["output"] == "out.obj");
+    CHECK(test::content_of(w.directory / "printed").find("result     out.obj") != std::string::npos);
+    CHECK(w.run("(cat mesh.obj | " SMOOTH " - out.obj --time-step-edges 2 --report - --quiet > report.json)") == 0);
+    CHECK(w.json("report.json")["input"] == "-");
+    CHECK(w.smooth("mesh.obj - --time-step-edges 2 --report -") == 2);
+    CHECK(w.smooth("mesh.obj out.obj --time-step-edges 2 --trace -") == 2);
+    CHECK(w.run("(" COMPARE " mesh.obj out.obj --report - > report.json 2> printed)") == 0);
+    CHECK(w.json("report.json")["v_max"].get<double>() > 0.0);
+
+    CHECK(w.smooth("nothing.obj other.obj --time-step-edges 2 --report report.json") == 3);
+    const Json failed = w.json("report.json");
+    CHECK(failed["input"] == "nothing.obj");
+    CHECK(failed["arguments"].size() == 6);
+    CHECK(failed["error"]["exit_status"] == 3);
+    CHECK("smooth: " + failed["error"]["message"].get<std::string>() + "\n" == w.said());
+    CHECK(w.run("(" SMOOTH " nothing.obj other.obj --time-step-edges 2 --report - > report.json)") == 3);
+    CHECK(w.json("report.json")["error"]["exit_status"] == 3);
 }
 
 TEST_CASE("the report of smooth has its keys")
