@@ -185,7 +185,9 @@ ExitStatus smooth(int argc, char** argv)
                   .arguments = command.arguments,
                   .laplacian = std::string(name_of(command.options.laplacian)),
                   .flow = command.options.flow,
-                  .filter = command.options.filter};
+                  .filter = command.options.filter,
+                  .rescale = command.options.motion.rescale,
+                  .keep_edges = command.options.keep_edges};
 
     const Stopwatch reading;
     Workers workers(command.options.resources.threads);
