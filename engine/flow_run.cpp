@@ -64,6 +64,21 @@ void add_task_seconds(PhaseSeconds& seconds, const PhaseSeconds& further)
     seconds.interface += further.interface;
 }
 
+/// Whether a step begins with the rescaled result of the one before, not with that itself. The weights of the
+/// conformalized flow do not know the size of the surface: so it comes to a sphere instead of vanishing.
+bool goes_on_scaled(const FlowOptions& options)
+{
+    return options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized;
+}
+
+/// Rescales the surface that the next step begins with.
+void rescale(Stepper& stepper, const Rescaling& rescaling)
+{
+    Points rescaled = stepper.positions();
+    const Similarity similarity = rescaling.apply(rescaled);
+    stepper.go_on_from(rescaled, similarity);
+}
+
 /// @throws InputError where a state does not fit the mesh.
 void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 {
@@ -157,9 +172,10 @@ void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
     stepper_->restore(state.flow);
     if (reference_)
         reference_->restore(*state.reference);
-    Points rescaled = stepper_->positions();
-    rescaling.apply(rescaled);
-    mesh_.move_to(rescaled);
+    Points positions = stepper_->positions();
+    if (!goes_on_scaled(options()))
+        rescaling.apply(positions);
+    mesh_.move_to(positions);
     if (prepared_->meter)
         prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
     report_.steps = state.steps;
@@ -185,12 +201,16 @@ FlowState FlowRun::capture(const FlowState* resume) const
     return state;
 }
 
-void FlowRun::compare_with_reference(int step, const StepFractions& fractions, StepReport& of_step)
+void FlowRun::compare_with_reference(int step, const Rescaling& rescaling, const StepFractions& fractions,
+                                     StepReport& of_step)
 {
     progress_.enter(FlowPhase::Reference, step, fractions.begin_of_reference(), fractions.end());
     Stopwatch watch;
-    named("step " + std::to_string(step) + " of the undecomposed flow",
-          [&] { reference_->step(reference_->positions()); });
+    named("step " + std::to_string(step) + " of the undecomposed flow", [&] {
+        reference_->step(reference_->positions());
+        if (goes_on_scaled(options()))
+            rescale(*reference_, rescaling);
+    });
     of_step.reference_seconds = watch.lap();
     of_step.distance = vertex_distance(mesh_.mesh(), reference_->positions(), stepper_->positions());
 }
@@ -228,10 +248,10 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     if (!report_.steps.empty())
         curvature_before_ = report_.steps.back().max_mean_curvature_after;
     StepFractions fractions(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
-    const bool is_rescaled = options().motion.rescale != Rescale::None;
-    // Steps begin where the last one ended before it was rescaled.
-    Points unscaled = is_rescaled ? stepper_->positions() : Points();
-    const Points& before = is_rescaled ? unscaled : mesh.vertices;
+    const bool is_scaled = goes_on_scaled(options());
+    const bool is_scaled_apart = options().motion.rescale != Rescale::None && !is_scaled;
+    Points unscaled = is_scaled_apart ? stepper_->positions() : Points();
+    const Points& before = is_scaled_apart ? unscaled : mesh.vertices;
     Points rescaled;
     Points undecomposed;
     for (int step = first; step <= options().steps; ++step) {
@@ -246,12 +266,14 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named(name, [&] {
             limit.require(before, stepper_->positions(), report_.cut.labels);
-            if (is_rescaled) {
+            if (is_scaled_apart) {
                 unscaled = rescaled = stepper_->positions();
                 rescaling.apply(rescaled);
+            } else if (is_scaled) {
+                rescale(*stepper_, rescaling);
             }
         });
-        const Points& after = is_rescaled ? rescaled : stepper_->positions();
+        const Points& after = is_scaled_apart ? rescaled : stepper_->positions();
         if (prepared_->meter) {
             of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
             of_step.max_mean_curvature_before = curvature_before_;
@@ -260,9 +282,10 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         }
         const double measuring = watch.lap();
         if (reference_) {
-            compare_with_reference(step, fractions, of_step);
+            compare_with_reference(step, rescaling, fractions, of_step);
             undecomposed = reference_->positions();
-            named(name + " of the undecomposed flow", [&] { rescaling.apply(undecomposed); });
+            if (is_scaled_apart)
+                named(name + " of the undecomposed flow", [&] { rescaling.apply(undecomposed); });
         }
         fractions.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 

@@ -33,7 +33,8 @@ class FlowRun {
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void restore(const FlowState& state, const Rescaling& rescaling);
     [[nodiscard]] FlowState capture(const FlowState* resume) const;
-    void compare_with_reference(int step, const StepFractions& fractions, StepReport& of_step);
+    void compare_with_reference(int step, const Rescaling& rescaling, const StepFractions& fractions,
+                                StepReport& of_step);
     void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
               const FlowState* resume) const;
     void finish(double extent_before, const FlowState* resume);

@@ -31,6 +31,7 @@
 #include "samples/common/interruption.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
+#include "samples/common/noise_removal.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -74,6 +75,19 @@ void resolve_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& 
         time_step_edges_for_noise(*run.noise, *command.amount.slope_of_noise, command.options.filter == Filter::LowPass,
                                   std::max(command.options.steps, 1));
     command.amount = {.time_step_edges = edges};
+}
+
+/// Where the amount depends on the noise of the mesh, no more is taken off it.
+void stay_within_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, const RunRecord& run)
+{
+    if (!run.noise)
+        return;
+    const double within = time_step_within_noise(mesh, *run.noise * run.scale.mean_edge, command.options, loop) /
+                          command.options.time_step;
+    // What is printed of it is to be all of it.
+    const double edges = std::stod(fmt::format("{:.3g}", within * *command.amount.time_step_edges));
+    command.amount.time_step_edges = edges;
+    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
     command.chosen += fmt::format("--time-step-edges {}", edges);
 }
 
@@ -189,6 +203,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     run.scale = measure_scale(file.mesh, loop);
     resolve_noise(command, file.mesh, loop, run);
     complete_options(command, file.mesh, run.scale);
+    stay_within_noise(command, file.mesh, loop, run);
     const MotionOptions& motion = command.options.motion;
     if (motion.attachment > 0.0)
         run.attachment = motion.attachment;
@@ -202,8 +217,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    std::vector<std::string> losses =
-        remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
+    std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))
         losses.push_back("The result has replaced the input, in one go when it was complete.");
@@ -261,7 +275,9 @@ ExitStatus smooth(int argc, char** argv)
                      .arguments = command.arguments,
                      .laplacian = std::string(name_of(command.options.laplacian)),
                      .flow = command.options.flow,
-                     .filter = command.options.filter};
+                     .filter = command.options.filter,
+                     .rescale = command.options.motion.rescale,
+                     .keep_edges = command.options.keep_edges};
     try {
         return run(command, record);
     } catch (...) {

@@ -101,10 +101,10 @@ Rescaling::Extent Rescaling::measure(const Points& positions) const
     return {area, size, origin + centroid};
 }
 
-void Rescaling::apply(Points& positions) const
+Similarity Rescaling::apply(Points& positions) const
 {
     if (kind_ == Rescale::None || mesh_->n_faces() == 0)
-        return;
+        return {};
     const Extent now = measure(positions);
     const double ratio = first_.size / now.size;
     // A surface that has fewer digits left would come out as what rounding has made of it.
@@ -115,11 +115,13 @@ void Rescaling::apply(Points& positions) const
     if (!sound || !(std::sqrt(now.area) > digits_wanted * rounding))
         throw ComputationError("there is too little left of the surface to scale it back to its size: use a smaller "
                                "time step or fewer steps");
-    const double scale = kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio);
+    const Similarity similarity{now.centroid, kind_ == Rescale::Area ? std::sqrt(ratio) : std::cbrt(ratio),
+                                first_.centroid};
     for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
         if (topology_->kind[v] != VertexKind::Isolated)
-            positions.row(v) = first_.centroid + scale * (positions.row(v) - now.centroid);
+            positions.row(v) = similarity(positions.row(v));
     });
+    return similarity;
 }
 
 }  // namespace seamflow

@@ -7,6 +7,20 @@
 
 namespace seamflow {
 
+/// A map of space that scales and translates: x goes to `to` + `scale` (x - `from`). Differences of positions and
+/// lengths are multiplied by `scale`.
+struct Similarity {
+    Point from = Point::Zero();
+    double scale = 1.0;
+    Point to = Point::Zero();
+
+    template <class Position>
+    [[nodiscard]] Point operator()(const Position& x) const
+    {
+        return to + scale * (x - from);
+    }
+};
+
 /// Brings a surface back to the area or volume that it began with, and to the centroid of its area (see Rescale). The
 /// area of a face is the length of its vector area; volume is measured under the triangles that join every face's edges
 /// to the mean of its corners.
@@ -18,8 +32,9 @@ class Rescaling {
     Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale kind);
 
     /// Positions as the flow has them, #V by 3, scaled; vertices without faces stay. Without Rescale the same.
+    /// @returns what was done to those that do not stay.
     /// @throws ComputationError if there is too little left of the surface.
-    void apply(Points& positions) const;
+    Similarity apply(Points& positions) const;
 
   private:
     /// A surface as a whole.

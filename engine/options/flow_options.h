@@ -220,7 +220,8 @@ struct MotionOptions {
     /// there are none.
     std::vector<double> attachment_weights = {};
     /// Scales the result of each step. The flow itself goes on unscaled, and distances to the undecomposed flow are
-    /// unscaled, too. Every vertex that has faces moves: none of them may be fixed.
+    /// unscaled, too; the conformalized flow goes on from the scaled result, so that it does not vanish on its way to a
+    /// sphere. Every vertex that has faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
 };
 

@@ -69,7 +69,7 @@ struct FlowState {
     std::optional<StepMemory> reference = {};
 
     [[nodiscard]] int n_steps() const { return static_cast<int>(steps.size()); }
-    /// #V by 3, as the flow itself goes on with them: without MotionOptions::rescale.
+    /// #V by 3, as the flow itself goes on with them: unscaled where MotionOptions::rescale scales results alone.
     [[nodiscard]] const Points& positions() const { return flow.positions; }
 };
 

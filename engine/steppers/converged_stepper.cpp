@@ -83,6 +83,11 @@ const Points& ConvergedStepper::localised(std::span<const Index> local_to_global
     return workspace.positions;
 }
 
+void ConvergedStepper::go_on_from(const Points& image, const Similarity&)
+{
+    copy(run_in_parallel, image, positions_);
+}
+
 void ConvergedStepper::save(StepMemory& memory) const
 {
     memory.positions = positions_;

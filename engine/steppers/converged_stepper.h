@@ -20,6 +20,7 @@ class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }
+    void go_on_from(const Points& image, const Similarity&) final;
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
     void add_seconds(PhaseSeconds& seconds) const final { add_up(seconds_, seconds); }

@@ -26,6 +26,7 @@ class ExplicitStepper final : public Stepper {
     ///         result is not finite.
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
+    void go_on_from(const Points& image, const Similarity&) override { positions_ = image; }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     /// There are no tasks.

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/measure/rescaling.h"
 #include "engine/options/flow_options.h"
 #include "engine/options/flow_report.h"
 #include "engine/state/flow_state.h"
@@ -33,6 +34,12 @@ class Stepper {
     /// The sub-meshes after the last step (see FlowReport::separated); null where they have no copies of their own of
     /// Γ, and without ReportOptions::keep_gaps.
     [[nodiscard]] virtual const PolygonMesh* separated() const { return nullptr; }
+
+    /// Goes on from an image of positions(), which is that of all positions that the next step needs. positions() are
+    /// then the image, to rounding. What is known of updates and errors stays: a step makes earlier errors smaller by
+    /// about as much as its result is scaled back.
+    /// @param image #V by 3: what the similarity makes of positions(); vertices without faces stay.
+    virtual void go_on_from(const Points& image, const Similarity& similarity) = 0;
 
     /// Gives what the next step needs.
     virtual void save(StepMemory& memory) const = 0;

@@ -205,6 +205,28 @@ void SweepStepper::join()
         copies_->join(states_, positions_);
 }
 
+/// Takes the positions of the whole mesh for those of a sub-mesh.
+void SweepStepper::fetch_positions(SubMeshState& state)
+{
+    for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
+        state.position.row(v) = positions_.row(state.sub_mesh->local_to_global[v]);
+}
+
+/// Copies that differ are mapped each; their means are then those of the image to rounding.
+void SweepStepper::go_on_from(const Points& image, const Similarity& similarity)
+{
+    copy(run_in_parallel, image, positions_);
+    for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
+        SubMeshState& state = states_[s];
+        if (!has_copies())
+            return fetch_positions(state);
+        for (Index v = 0; v < state.sub_mesh->n_vertices; ++v)
+            state.position.row(v) = similarity(state.position.row(v));
+    });
+    if (has_copies())
+        join();
+}
+
 /// Sub-meshes that do not differ have no more than the whole mesh has.
 void SweepStepper::save(StepMemory& memory) const
 {
@@ -223,12 +245,11 @@ void SweepStepper::restore(const StepMemory& memory)
     positions_ = memory.positions;
     steps_done_ = reader.count();
     for (SubMeshState& state : states_) {
-        const SubMesh& sub_mesh = *state.sub_mesh;
+        const Index n_vertices = state.sub_mesh->n_vertices;
         if (has_copies())
-            state.position.topRows(sub_mesh.n_vertices) = reader.array(sub_mesh.n_vertices);
+            state.position.topRows(n_vertices) = reader.array(n_vertices);
         else
-            for (Index v = 0; v < sub_mesh.n_vertices; ++v)
-                state.position.row(v) = positions_.row(sub_mesh.local_to_global[v]);
+            fetch_positions(state);
     }
     if (error_)
         error_->restore(reader);

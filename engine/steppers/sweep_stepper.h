@@ -36,6 +36,7 @@ class SweepStepper final : public Stepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
+    void go_on_from(const Points& image, const Similarity& similarity) override;
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
@@ -47,6 +48,7 @@ class SweepStepper final : public Stepper {
     void limit_factors(const FlowOptions& options);
     SweepTasks tasks_of(const SweepPlan& plan, const FlowOptions& options);
     void set_solution(SubMeshState::Solution solution);
+    void fetch_positions(SubMeshState& state);
     void join();
     /// Whether sub-meshes differ on what they share: with copies of Γ, and where they overlap.
     [[nodiscard]] bool has_copies() const { return copies_ || !error_; }

@@ -164,11 +164,15 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     if (run.attachment)
         json["attachment"] = number(*run.attachment);
     json["attachment_weights"] = run.has_attachment_weights;
+    json["rescale"] = option_name(run.rescale);
+    if (run.keep_edges)
+        json["keep_edges"] = number(*run.keep_edges);
     json["time_step"] = number(report.time_step);
     json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
     json["radius"] =
         number(smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1))));
-    json["approach"] = option_name(report.convergence.approach);
+    if (!run.keep_edges)
+        json["approach"] = option_name(report.convergence.approach);
     if (report.convergence.tolerance) {
         json["tolerance"] = number(*report.convergence.tolerance);
         json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;

@@ -157,7 +157,8 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
 
 void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report)
 {
-    out << "flow       " << run.laplacian;
+    out << "flow       "
+        << (run.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *run.keep_edges) : run.laplacian);
     if (run.flow != FlowEquation::MeanCurvature)
         out << ", " << option_name(run.flow);
     if (run.filter != Filter::Diffusion)
@@ -166,6 +167,8 @@ void print_details(std::ostream& out, const RunRecord& run, const FlowReport& re
         out << ", attached with " << digits(*run.attachment, 4) << " / length²";
     if (run.has_attachment_weights)
         out << ", attached by weights";
+    if (run.rescale != Rescale::None)
+        out << ", " << option_name(run.rescale) << " kept";
     out << ", time step " << digits(report.time_step, 10) << '\n';
     print_cut(out, report);
     print_factors(out, report);

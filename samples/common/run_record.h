@@ -25,6 +25,9 @@ struct RunRecord {
     std::optional<double> attachment = {};
     /// Whether each vertex has one of its own.
     bool has_attachment_weights = false;
+    /// MotionOptions::rescale, and FlowOptions::keep_edges: in degrees.
+    Rescale rescale = Rescale::None;
+    std::optional<double> keep_edges = {};
     /// The preset that chose options; empty: none.
     std::string preset = {};
     /// Of the input.

@@ -1,5 +1,5 @@
-// One mesh, four flows: plain, with a low-pass filter, attached to where it was, conformalized; and how far each moves
-// it.
+// One mesh, five flows: plain, with a low-pass filter, attached to where it was, conformalized, with sharp edges kept;
+// and how far each moves it.
 //
 //     further_flows INPUT
 
@@ -33,6 +33,8 @@ try {
     flow("low-pass", [](Options& options) { options.filter = seamflow::Filter::LowPass; });
     flow("attached", [&](Options& options) { options.motion.attachment = 1.0 / (9.0 * edge * edge); });
     flow("conformalized", [](Options& options) { options.flow = seamflow::FlowEquation::Conformalized; });
+    // It needs no Laplacian; the angle is in degrees.
+    flow("edges kept", [](Options& options) { options.keep_edges = 30.0; });
 } catch (const std::exception& error) {
     std::cerr << "further_flows: " << error.what() << '\n';
     return 1;

@@ -41,6 +41,8 @@ before(async () => {
     program("smooth", sphere, join(out, "sphere.ply"), ...sweeps, "--subdomains", 6, "--reference", "--html", page("sphere"), "--parts", join(out, "parts.ply"));
     program("smooth", join(out, "mixed.obj"), join(out, "mixed-smooth.obj"), ...sweeps, "--subdomains", 5, "--html", page("mixed"));
     program("smooth", join(out, "mixed.obj"), join(out, "none.obj"), "--time-step", 1, "--steps", 0, "--html", page("none"));
+    program("smooth", join(out, "mixed.obj"), join(out, "edges.obj"), "--keep-edges", 30, "--time-step-edges", 4, "--html", page("edges"));
+    program("smooth", sphere, join(out, "round.ply"), "--flow", "conformalized", "--laplacian", "virtual-refinement", "--attach", 2, "--rescale", "area", "--time-step-edges", 4, "--html", page("round"));
     program("figures", "--out", join(out, "figures"), "--html", "texture");
     browser = await launch();
     reader = await browser.newPage();
@@ -240,6 +242,12 @@ test("legends tell what is seen, its range and its unit", async () => {
     await opened.selectOption("#colour", "curvature");
     assert.match(await legend(), /^Mean curvature.*in 1\/length/);
     await opened.close();
+});
+
+test("a page says which flow was taken", async () => {
+    const summary = async (name) => (await open(page(name))).locator("#summary").textContent();
+    assert.match(await summary("edges"), /faces · edges sharper than 30° kept · 1 step of [^·]*$/);
+    assert.match(await summary("round"), /Laplacian Virtual refinement · conformalized · attached, 0.25 \/ length² · area kept · 1 step/);
 });
 
 test("without the undecomposed flow a page shows displacements", async () => {

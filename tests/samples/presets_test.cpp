@@ -63,3 +63,21 @@ TEST_CASE("options that are given go before those of a preset")
     REQUIRE(w.smooth("mesh.obj out.obj --time-step 1e-3") == 0);
     CHECK(w.said().find("preset ") == std::string::npos);
 }
+
+TEST_CASE("reports name the flow that was taken")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere sphere.obj --vertices 1000") == 0);
+    REQUIRE(w.smooth("sphere.obj out.obj --keep-edges 25 --time-step-edges 8 --report report.json") == 0);
+    CHECK(w.said().find("flow       edges sharper than 25 degrees kept, time step") != std::string::npos);
+    CHECK(w.json("report.json")["keep_edges"] == 25.0);
+    CHECK(!w.json("report.json").contains("approach"));
+    CHECK(w.json("report.json")["rescale"] == "none");
+    REQUIRE(w.smooth("sphere.obj out.obj --flow conformalized --filter low-pass --laplacian virtual-refinement "
+                     "--attach 0.5 --rescale volume --time-step-edges 8 --report report.json") == 0);
+    CHECK(w.said().find("virtual-refinement, conformalized, low-pass, attached with 4 / length², volume kept, time") !=
+          std::string::npos);
+    CHECK(w.json("report.json")["rescale"] == "volume");
+    CHECK(w.json("report.json")["attachment"] == 4.0);
+    CHECK(!w.json("report.json").contains("keep_edges"));
+}

@@ -152,9 +152,21 @@ PolygonMesh taubin_smoothed(PolygonMesh mesh, int iterations)
             const Points before = mesh.vertices;
             for (Index v = 0; v < mesh.n_vertices(); ++v) {
                 Point sum = Point::Zero();
-                for (const Index corner : topology.corners_at(v))
-                    sum += before.row(mesh.face_vertices[topology.next(mesh, corner)]) - before.row(v);
-                mesh.vertices.row(v) += factor * sum / static_cast<double>(topology.corners_at(v).size());
+                int n = 0;
+                const auto add = [&](Index neighbour) {
+                    sum += before.row(neighbour) - before.row(v);
+                    ++n;
+                };
+                const bool is_inside = topology.kind[v] != VertexKind::Boundary;
+                for (const Index corner : topology.corners_at(v)) {
+                    if (is_inside || topology.twin[corner] < 0)
+                        add(mesh.face_vertices[topology.next(mesh, corner)]);
+                    const Index previous = topology.previous(mesh, corner);
+                    if (!is_inside && topology.twin[previous] < 0)
+                        add(mesh.face_vertices[previous]);
+                }
+                if (n > 0)
+                    mesh.vertices.row(v) += factor * sum / n;
             }
         }
     return mesh;

@@ -28,7 +28,7 @@ Denoised compare_with_truth(const PolygonMesh& truth, const PolygonMesh& result)
 double angle_to_truth(const PolygonMesh& truth, const PolygonMesh& result);
 
 /// Taubin, A signal processing approach to fair surface design, 1995: λ = 0.5 and μ = -0.53 in turn, with the mean of
-/// the neighbours.
+/// the neighbours, on the boundary of those along it, as MeshLab has it.
 PolygonMesh taubin_smoothed(PolygonMesh mesh, int iterations);
 
 /// Parameters of the bilateral normal filtering of Zheng et al., Bilateral normal filtering for mesh denoising, 2011,

@@ -74,6 +74,10 @@ inline std::vector<FlowKind> flow_kinds(double edge)
     add("rescaled", [](FlowOptions& o) {
         o.accuracy.tolerance = 1e-2, o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
     });
+    add("rescaled and conformalized", [](FlowOptions& o) {
+        o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3, o.report.reference = true;
+        o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
+    });
     add("held", [](FlowOptions& o) { o.motion.fixed_vertices = {3, 100, 101, 102, 250}; });
     add("edges kept",
         [](FlowOptions& o) { o.keep_edges = 40.0, o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });

@@ -24,17 +24,21 @@ const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 
 const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "virtual-refinement": "Virtual refinement", "ptackova-velho": "Ptáčková–Velho" };
 
+/** Whether a run smoothed between edges, on the whole mesh and without a Laplacian. */
+export const keepsEdges = (report) => report.keep_edges !== undefined;
+
 /** One line about a flow. */
 export function summary(mesh, report) {
     return [
         `${counted(mesh.vertices, "vertex", "vertices")}, ${counted(mesh.faces, "face", "faces")}`,
-        `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
+        keepsEdges(report) ? `edges sharper than ${digits(report.keep_edges)}° kept` : `Laplacian ${laplacians[report.laplacian] ?? report.laplacian}`,
         ...(report.flow === "conformalized" ? ["conformalized"] : []),
         ...(report.filter === "low-pass" ? ["low-pass"] : []),
         ...(report.attachment ? [`attached, ${digits(report.attachment)} / length²`] : []),
         ...(report.attachment_weights ? ["attached by weights"] : []),
+        ...(report.rescale && report.rescale !== "none" ? [`${report.rescale} kept`] : []),
         `${counted(report.steps.length, "step", "steps")} of ${digits(report.time_step)} length²`,
-        report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colours > 1 ? ` in ${report.colours} colours` : ""}` : "undecomposed",
+        ...(keepsEdges(report) ? [] : [report.subdomains > 1 ? `${digits(report.subdomains)} sub-meshes${report.colours > 1 ? ` in ${report.colours} colours` : ""}` : "undecomposed"]),
     ].join(" · ");
 }
 
@@ -45,8 +49,9 @@ function rows(report) {
         ["Output", report.output],
         ["Mean edge", `${digits(report.mean_edge)} (length)`],
         ["Time step", `${digits(report.time_step)} length² = ${digits(report.time_step / report.mean_edge ** 2)} squared mean edges`],
-        ["Sub-meshes", `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`],
     ];
+    if (!keepsEdges(report))
+        list.push(["Sub-meshes", `${digits(report.subdomains)}${report.colours > 1 ? ` in ${report.colours} colours` : ""}, ${counted(report.interface_vertices, "vertex", "vertices")} on Γ`]);
     if (report.tolerance !== undefined)
         list.push(["Steps", `converged to ${digits(report.tolerance)}; iterations ${report.steps.map((step) => step.iterations ?? "–").join(", ")}`]);
     if (last)

@@ -153,12 +153,12 @@ const kinds = {
             { name: "largest", values: column(steps, "tangential_max"), colour: 2, dash: [5, 4] },
         ],
     }),
-    times: (steps, { subdomains }) => ({
+    times: (steps, { subdomains, keep_edges: angle }) => ({
         title: "Time of each step",
         unit: "wall clock",
         format: seconds,
         curves: [
-            { name: subdomains > 1 ? "decomposed" : "undecomposed", values: column(steps, "seconds"), colour: 1 },
+            { name: angle !== undefined ? "whole mesh" : subdomains > 1 ? "decomposed" : "undecomposed", values: column(steps, "seconds"), colour: 1 },
             { name: "undecomposed, to compare", values: column(steps, "reference_seconds"), colour: 4 },
         ],
     }),

@@ -47,6 +47,31 @@ FlowOptions rescaled_options(Rescale rescale)
     return options;
 }
 
+PolygonMesh oblong()
+{
+    PolygonMesh mesh = make_noisy_sphere(1000, {.amplitude = 0.3});
+    mesh.vertices.col(2) *= 2.0;
+    return mesh;
+}
+
+/// The standard deviation of the distances to the mean position, relative to their mean.
+double spread_of_radii(const Points& points)
+{
+    const Eigen::ArrayXd radii = (points.rowwise() - points.colwise().mean()).rowwise().norm();
+    return std::sqrt((radii - radii.mean()).square().mean()) / radii.mean();
+}
+
+FlowOptions rescaled_conformalized(double time_step, int steps)
+{
+    FlowOptions options;
+    options.laplacian = Laplacian::VirtualRefinement;
+    options.flow = FlowEquation::Conformalized;
+    options.motion.rescale = Rescale::Area;
+    options.time_step = time_step;
+    options.steps = steps;
+    return options;
+}
+
 }  // namespace
 
 TEST_CASE("area or volume, and the centroid, are those of the input after every step; the shape is that of the flow")
@@ -161,4 +186,43 @@ TEST_CASE("vertices without faces stay, and without rescaling no bit changes")
     Points same = mesh.vertices;
     Rescaling(mesh, topology, Rescale::None).apply(same);
     CHECK(same == mesh.vertices);
+}
+
+TEST_CASE("rescaled, the conformalized flow comes to a sphere, whatever the cut")
+{
+    const PolygonMesh mesh = oblong();
+    FlowOptions options = rescaled_conformalized(0.5, 40);
+    options.accuracy.approach = Approach::Undecomposed;
+    const Points whole = flowed(mesh, options);
+    CHECK(spread_of_radii(mesh.vertices) > 0.2);
+    CHECK(spread_of_radii(whole) < 0.01);
+    options.accuracy = {.tolerance = 1e-10, .approach = Approach::Converged};
+    options.cut.subdomains = 8;
+    options.report.reference = true;
+    PolygonMesh moved = mesh;
+    const FlowReport report = mean_curvature_flow(moved, options);
+    CHECK(largest_difference(moved.vertices, whole) < 1e-8);
+    for (const StepReport& step : report.steps)
+        CHECK(step.distance.value().max < 1e-8);
+}
+
+TEST_CASE("sweeps of the rescaled conformalized flow stay near the undecomposed one, and keep the area")
+{
+    const PolygonMesh mesh = oblong();
+    for (const Conditions conditions :
+         {Conditions::AdaptedRobin, Conditions::AdaptedVentcell, Conditions::Schwarz, Conditions::Robin}) {
+        FlowOptions options = rescaled_conformalized(0.01, 10);
+        options.accuracy.approach = Approach::Sweep;
+        options.interface.conditions = conditions;
+        if (conditions == Conditions::AdaptedVentcell)
+            options.interface.q = 0.1;
+        options.cut.subdomains = 3;
+        options.report.reference = true;
+        PolygonMesh moved = mesh;
+        const FlowReport report = mean_curvature_flow(moved, options);
+        CHECK(report.cut.sub_meshes.size() == 3);
+        CHECK(report.steps.back().distance.value().mean < 0.05);
+        CHECK(report.steps.back().distance.value().max < 0.4);
+        CHECK(measure(mesh, moved.vertices).area == doctest::Approx(measure(mesh, mesh.vertices).area).epsilon(1e-10));
+    }
 }

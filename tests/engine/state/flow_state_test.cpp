@@ -62,39 +62,61 @@ void check_same(const StepReport& a, const StepReport& b)
         CHECK(a.distance->max == b.distance->max);
 }
 
+/// Going on after each step gives the same bits and the same report.
+void check_resumed(const PolygonMesh& mesh, const FlowOptions& options)
+{
+    const Outcome whole = run(mesh, options);
+    for (int step = 1; step <= options.steps; ++step) {
+        CAPTURE(step);
+        FlowOptions other_threads = options;
+        other_threads.resources.threads = 3;
+        const auto state = state_after(step, mesh, other_threads);
+        CHECK(state->n_steps() == step);
+        const Outcome resumed = run(mesh, options, state);
+        CHECK(test::same_bits(resumed.positions, whole.positions));
+        REQUIRE(resumed.report.steps.size() == whole.report.steps.size());
+        for (std::size_t i = 0; i < whole.report.steps.size(); ++i)
+            check_same(resumed.report.steps[i], whole.report.steps[i]);
+        check_same(resumed.report.displacement.path.tangential, whole.report.displacement.path.tangential);
+        check_same(resumed.report.displacement.drift, whole.report.displacement.drift);
+        CHECK(resumed.report.choices == whole.report.choices);
+        CHECK(resumed.report.remarks == whole.report.remarks);
+        CHECK(resumed.report.convergence.steps_short_of_tolerance == whole.report.convergence.steps_short_of_tolerance);
+        CHECK(resumed.report.seconds.step >= state->seconds.step);
+        CHECK(resumed.report.seconds.factorise >= state->seconds.factorise);
+        REQUIRE(resumed.report.separated.has_value() == options.report.keep_gaps);
+        if (options.report.keep_gaps)
+            CHECK(test::same_bits(resumed.report.separated->vertices, whole.report.separated->vertices));
+    }
+}
+
 }  // namespace
 
 TEST_CASE("a flow that goes on after any step ends with the same bits and the same report")
 {
     for (const PolygonMesh& mesh : {make_mixed_polygons(600), make_noisy_sphere(500)})
         for (const test::FlowKind& kind : test::flow_kinds(mean_edge_length(mesh))) {
-            const FlowOptions& options = kind.options;
             CAPTURE(kind.name);
-            const Outcome whole = run(mesh, options);
-            for (int step = 1; step <= options.steps; ++step) {
-                CAPTURE(step);
-                FlowOptions other_threads = options;
-                other_threads.resources.threads = 3;
-                const auto state = state_after(step, mesh, other_threads);
-                CHECK(state->n_steps() == step);
-                const Outcome resumed = run(mesh, options, state);
-                CHECK(test::same_bits(resumed.positions, whole.positions));
-                REQUIRE(resumed.report.steps.size() == whole.report.steps.size());
-                for (std::size_t i = 0; i < whole.report.steps.size(); ++i)
-                    check_same(resumed.report.steps[i], whole.report.steps[i]);
-                check_same(resumed.report.displacement.path.tangential, whole.report.displacement.path.tangential);
-                check_same(resumed.report.displacement.drift, whole.report.displacement.drift);
-                CHECK(resumed.report.choices == whole.report.choices);
-                CHECK(resumed.report.remarks == whole.report.remarks);
-                CHECK(resumed.report.convergence.steps_short_of_tolerance ==
-                      whole.report.convergence.steps_short_of_tolerance);
-                CHECK(resumed.report.seconds.step >= state->seconds.step);
-                CHECK(resumed.report.seconds.factorise >= state->seconds.factorise);
-                REQUIRE(resumed.report.separated.has_value() == options.report.keep_gaps);
-                if (options.report.keep_gaps)
-                    CHECK(test::same_bits(resumed.report.separated->vertices, whole.report.separated->vertices));
-            }
+            check_resumed(mesh, kind.options);
         }
+}
+
+TEST_CASE("sweeps that begin with rescaled surfaces go on with the same bits, with copies of the interface, too")
+{
+    PolygonMesh mesh = make_noisy_sphere(500);
+    mesh.vertices.rowwise() += Point(0.1, 2.0, -0.7);
+    for (const Conditions conditions : {Conditions::AdaptedRobin, Conditions::Robin, Conditions::Schwarz}) {
+        FlowOptions options;
+        options.time_step = 0.02;
+        options.steps = 4;
+        options.cut.subdomains = 3;
+        options.flow = FlowEquation::Conformalized;
+        options.motion.rescale = Rescale::Volume;
+        options.accuracy.approach = Approach::Sweep;
+        options.interface.conditions = conditions;
+        options.report.reference = true;
+        check_resumed(mesh, options);
+    }
 }
 
 TEST_CASE("a state goes on from a state")
