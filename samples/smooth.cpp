@@ -27,6 +27,7 @@
 #include "partition/io/input_file.h"
 #include "partition/metrics/noise.h"
 #include "samples/common/interruption.h"
+#include "samples/common/launched_processes.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
@@ -160,6 +161,8 @@ ExitStatus require_converged(const SmoothCommand& command, const FlowReport& rep
 
 ExitStatus smooth(int argc, char** argv)
 {
+    if (const auto end = refuse_several_processes("smooth"))
+        return *end;
     SmoothCommand command;
     if (const auto end = parse_smooth_command(argc, argv, command))
         return *end;
