@@ -85,7 +85,7 @@ void require_success(const std::vector<WorkOutcome>& outcomes)
                    : fmt::format("rank {} on {}: {}", first - outcomes.begin(), first->host, first->message));
 }
 
-Bytes packed(const WorkOutcome& outcome)
+Bytes packed_outcome(const WorkOutcome& outcome)
 {
     Packer packer;
     packer.put(outcome.kind);
@@ -206,7 +206,7 @@ std::optional<Message> Conversation::next_arrival(std::chrono::microseconds pati
 /// next work, which others may have begun.
 std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
 {
-    const Bytes bytes = packed(own);
+    const Bytes bytes = packed_outcome(own);
     for (int r = 0; r < size(); ++r)
         if (r != rank())
             communicator_->send(r, EndTag, bytes);

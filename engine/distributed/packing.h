@@ -28,6 +28,9 @@ class Packer {
         put_bytes(values.data(), values.size_bytes());
     }
 
+    /// Three coordinates.
+    void put_row(const double* coordinates) { put_bytes(coordinates, 3 * sizeof(double)); }
+
     /// What was put, which this no longer has.
     [[nodiscard]] Bytes take() { return std::move(bytes_); }
 
