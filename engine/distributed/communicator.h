@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstddef>
 #include <deque>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,11 +52,12 @@ class Communicator {
         return message;
     }
 
-    /// Puts messages that came too early before all that come from now on.
-    void put_back(std::vector<Message> messages)
+    /// Puts messages that came too early before all that come from now on; all, or none where it throws.
+    void put_back(const std::vector<Message>& messages)
     {
-        put_back_.insert(put_back_.begin(), std::make_move_iterator(messages.begin()),
-                         std::make_move_iterator(messages.end()));
+        std::deque<Message> all(messages.begin(), messages.end());
+        all.insert(all.end(), put_back_.begin(), put_back_.end());
+        put_back_.swap(all);
     }
 
   private:

@@ -26,7 +26,8 @@ constexpr std::chrono::milliseconds patience_of_wait{100};
 
 using Kind = WorkOutcome::Kind;
 
-WorkOutcome outcome_of(const std::function<void()>& work)
+template <class Work>
+WorkOutcome outcome_of(Work&& work)
 {
     try {
         work();
@@ -44,7 +45,7 @@ WorkOutcome outcome_of(const std::function<void()>& work)
     } catch (const Cancelled& error) {
         return {Kind::Cancelled, error.what()};
     } catch (const std::bad_alloc&) {
-        return {Kind::OutOfMemory, "there is not enough memory: use more ranks, on more machines"};
+        return {Kind::OutOfMemory};
     } catch (const std::exception& error) {
         return {Kind::Failure, error.what()};
     } catch (...) {
@@ -80,6 +81,10 @@ void require_success(const std::vector<WorkOutcome>& outcomes)
     const bool alike = std::ranges::all_of(outcomes, [&](const WorkOutcome& outcome) {
         return outcome.kind == first->kind && outcome.message == first->message;
     });
+    if (first->kind == Kind::OutOfMemory)
+        throw ComputationError(
+            fmt::format("rank {} on {}: there is not enough memory: use more ranks, on more machines",
+                        first - outcomes.begin(), first->host));
     throw_as(first->kind,
              alike ? first->message
                    : fmt::format("rank {} on {}: {}", first - outcomes.begin(), first->host, first->message));
@@ -206,32 +211,36 @@ std::optional<Message> Conversation::next_arrival(std::chrono::microseconds pati
 /// next work, which others may have begun.
 std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
 {
-    const Bytes bytes = packed_outcome(own);
     for (int r = 0; r < size(); ++r)
         if (r != rank())
-            communicator_->send(r, EndTag, bytes);
-    ended_[rank()] = own;
+            insist([&] { communicator_->send(r, EndTag, packed_outcome(own)); });
+    insist([&] { ended_[rank()] = own; });
     std::vector<Message> of_next_work;
     while (!std::ranges::all_of(ended_, [](const auto& outcome) { return outcome.has_value(); })) {
-        std::optional<Message> message = communicator_->receive(patience_of_wait);
+        std::optional<Message> message;
+        insist([&] { message = communicator_->receive(patience_of_wait); });
         if (message && ended_[message->from])
-            of_next_work.push_back(std::move(*message));
-        else if (message)
-            sort_in(std::move(*message));
+            insist([&] { of_next_work.push_back(std::move(*message)); });
+        else if (message && message->tag == EndTag)
+            insist([&] { ended_[message->from] = unpacked_outcome(message->bytes); });
     }
-    communicator_->put_back(std::move(of_next_work));
+    insist([&] { communicator_->put_back(of_next_work); });
     std::vector<WorkOutcome> outcomes;
-    for (auto& outcome : ended_)
-        outcomes.push_back(std::move(*outcome));
+    insist([&] {
+        outcomes.clear();
+        for (const auto& outcome : ended_)
+            outcomes.push_back(*outcome);
+    });
     return outcomes;
 }
 
-void run_together(Communicator& communicator, const std::function<void(Conversation&)>& work)
+void run_work_together(Communicator& communicator, const std::function<void(Conversation&)>& work)
 {
-    Conversation conversation(communicator);
-    WorkOutcome own = outcome_of([&] { work(conversation); });
-    own.host = communicator.host();
-    require_success(conversation.part(own));
+    std::optional<Conversation> conversation;
+    insist([&] { conversation.emplace(communicator); });
+    WorkOutcome own = outcome_of([&] { work(*conversation); });
+    insist([&] { own.host = communicator.host(); });
+    require_success(conversation->part(own));
 }
 
 }  // namespace seamflow

@@ -6,8 +6,10 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <new>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "engine/distributed/communicator.h"
@@ -36,6 +38,25 @@ struct WorkOutcome {
     /// The machine.
     std::string host = {};
 };
+
+/// Does what other ranks wait for, again and again where memory lacks for it: what a rank that fails has had is free by
+/// then.
+/// @throws what the action throws, std::bad_alloc after some seconds.
+template <class Action>
+void insist(Action&& action)
+{
+    constexpr int most_attempts = 500;
+    constexpr std::chrono::milliseconds pause{10};
+    for (int attempt = 1;; ++attempt) {
+        try {
+            return action();
+        } catch (const std::bad_alloc&) {
+            if (attempt == most_attempts)
+                throw;
+            std::this_thread::sleep_for(pause);
+        }
+    }
+}
 
 /// What the ranks say to each other while they work together (see run_together): each rank calls the collective
 /// functions in the same order as the others. All of them, and next_arrival, throw if another rank fails in the
@@ -79,7 +100,7 @@ class Conversation {
     [[nodiscard]] std::uint64_t n_bytes() const { return n_bytes_; }
 
   private:
-    friend void run_together(Communicator& communicator, const std::function<void(Conversation&)>& work);
+    friend void run_work_together(Communicator& communicator, const std::function<void(Conversation&)>& work);
 
     /// Tells all ranks how the work has ended here, and waits until all have said so.
     std::vector<WorkOutcome> part(const WorkOutcome& own);
@@ -98,11 +119,20 @@ class Conversation {
     std::atomic<std::uint64_t> n_bytes_ = 0;
 };
 
+/// See run_together.
+void run_work_together(Communicator& communicator, const std::function<void(Conversation&)>& work);
+
 /// Runs `work` on this rank, as every rank does, and waits until all ranks are at its end. If it throws on one rank, it
 /// ends on all of them, as soon as each waits for another: then all throw the same, what the lowest rank has thrown of
 /// those that have failed by themselves, with the number and the machine of this rank before it, but where all have
 /// failed alike. What may fail on one rank alone belongs into `work`.
 /// @throws the errors of errors.h as what they are; std::bad_alloc and all others as ComputationError.
-void run_together(Communicator& communicator, const std::function<void(Conversation&)>& work);
+/// @param work called with the Conversation of this rank.
+template <class Work>
+void run_together(Communicator& communicator, Work&& work)
+{
+    // By reference, which takes no memory: where that lacked others would wait for this rank.
+    run_work_together(communicator, std::ref(work));
+}
 
 }  // namespace seamflow

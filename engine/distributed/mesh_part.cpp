@@ -57,11 +57,12 @@ class VertexDirectory {
     std::vector<std::vector<Number>> asked_of_this_rank(std::span<const Number> wanted)
     {
         std::vector<std::vector<VertexAtRank>> to_owners(talk_->size());
-        for (const VertexAtRank& question : sent_home(wanted))
-            for (const auto& [vertex, owner] :
-                 std::ranges::equal_range(owners_, question.vertex, {}, &VertexAtRank::vertex))
-                if (owner != question.rank)
-                    to_owners[owner].push_back({vertex, question.rank});
+        for (const VertexAtRank& question : sent_home(wanted)) {
+            auto owner = std::ranges::lower_bound(owners_, question.vertex, {}, &VertexAtRank::vertex);
+            for (; owner != owners_.end() && owner->vertex == question.vertex; ++owner)
+                if (owner->rank != question.rank)
+                    to_owners[owner->rank].push_back(question);
+        }
         std::vector<std::vector<Number>> of_ranks(talk_->size());
         for (const auto& questions : exchange_lists(*talk_, to_owners))
             for (const auto& [vertex, rank] : questions)
@@ -165,8 +166,8 @@ std::vector<Place> merged(std::span<const MeshPart> parts, std::vector<Number> M
         for (std::size_t i = 0; i < (parts[p].*numbers).size(); ++i)
             places.push_back({(parts[p].*numbers)[i], p, static_cast<Index>(i)});
     std::ranges::stable_sort(places, {}, &Place::number);
-    const auto repeated = std::ranges::unique(places, {}, &Place::number);
-    places.erase(repeated.begin(), repeated.end());
+    const auto are_same = [](const Place& one, const Place& other) { return one.number == other.number; };
+    places.erase(std::unique(places.begin(), places.end(), are_same), places.end());
     return places;
 }
 

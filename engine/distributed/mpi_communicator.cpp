@@ -116,20 +116,20 @@ class MpiCommunicator final : public Communicator {
             return is_complete != 0;
         });
         for (;;) {
-            int is_there = 0;
-            MPI_Message piece = MPI_MESSAGE_NULL;
-            MPI_Status status{};
-            ::MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, world_, &is_there, &piece, &status);
+            int is_there = piece_ != MPI_MESSAGE_NULL ? 1 : 0;
+            if (is_there == 0)
+                ::MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, world_, &is_there, &piece_, &status_);
             if (is_there == 0)
                 return std::nullopt;
             int size = 0;
-            ::MPI_Get_count(&status, MPI_BYTE, &size);
-            Bytes& bytes = incomplete_[status.MPI_SOURCE];
+            ::MPI_Get_count(&status_, MPI_BYTE, &size);
+            Bytes& bytes = incomplete_[status_.MPI_SOURCE];
             const std::size_t begin = bytes.size();
+            // The piece waits where memory lacks.
             bytes.resize(begin + static_cast<std::size_t>(size));
-            ::MPI_Mrecv(bytes.data() + begin, size, MPI_BYTE, &piece, MPI_STATUS_IGNORE);
-            if (status.MPI_TAG < more_follows)
-                return Message{status.MPI_SOURCE, status.MPI_TAG, std::exchange(bytes, Bytes())};
+            ::MPI_Mrecv(bytes.data() + begin, size, MPI_BYTE, &piece_, MPI_STATUS_IGNORE);
+            if (status_.MPI_TAG < more_follows)
+                return Message{status_.MPI_SOURCE, status_.MPI_TAG, std::exchange(bytes, Bytes())};
         }
     }
 
@@ -141,6 +141,9 @@ class MpiCommunicator final : public Communicator {
     /// MPI is called by one thread at a time.
     std::mutex mutex_;
     std::vector<Outgoing> outgoing_;
+    /// What has been found and not been taken yet.
+    MPI_Message piece_ = MPI_MESSAGE_NULL;
+    MPI_Status status_{};
     /// Per rank, the pieces of its message that have come.
     std::vector<Bytes> incomplete_;
 };

@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <future>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -68,19 +69,31 @@ class ThreadCommunicator final : public Communicator {
 void run_on_threads(int n, const std::function<void(Communicator&)>& body)
 {
     std::vector<Inbox> inboxes(n);
+    std::deque<ThreadCommunicator> communicators;
+    for (int rank = 0; rank < n; ++rank)
+        communicators.emplace_back(rank, inboxes);
     std::vector<std::exception_ptr> failures(n);
-    {
-        std::vector<std::jthread> threads;
+    // No rank begins before all are there: it might wait for one that does not come.
+    std::promise<bool> all_begin;
+    const std::shared_future<bool> begin = all_begin.get_future().share();
+    std::vector<std::jthread> threads;
+    try {
         for (int rank = 0; rank < n; ++rank)
             threads.emplace_back([&, rank] {
-                ThreadCommunicator communicator(rank, inboxes);
+                if (!begin.get())
+                    return;
                 try {
-                    body(communicator);
+                    body(communicators[rank]);
                 } catch (...) {
                     failures[rank] = std::current_exception();
                 }
             });
+    } catch (...) {
+        all_begin.set_value(false);
+        throw;
     }
+    all_begin.set_value(true);
+    threads.clear();
     for (const std::exception_ptr& failure : failures)
         if (failure)
             std::rethrow_exception(failure);
