@@ -29,6 +29,7 @@
 #include "partition/io/input_file.h"
 #include "partition/metrics/noise.h"
 #include "samples/common/interruption.h"
+#include "samples/common/launched_processes.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
 #include "samples/common/noise_removal.h"
@@ -267,6 +268,8 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
 
 ExitStatus smooth(int argc, char** argv)
 {
+    if (const auto end = refuse_several_processes("smooth"))
+        return *end;
     SmoothCommand command;
     if (const auto end = parse_smooth_command(argc, argv, command))
         return *end;

@@ -59,32 +59,45 @@ UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonals)
     largest_ = diagonals * diagonal_;
 }
 
-void UpdateLimit::require(const Points& before, const Points& after, std::span<const Index> labels) const
+UpdateLimit::UpdateLimit(const PolygonMesh& mesh, double diagonal, double diagonals)
+    : mesh_(mesh)
+    , diagonal_(diagonal)
+    , largest_(diagonals * diagonal)
 {
-    if (after.rows() == 0)
-        return;
-    const Index vertex = farthest_mover(before, after, diagonal_);
-    if (!after.row(vertex).allFinite())
-        refuse(vertex, "would go to a position that is not finite", labels);
-    const double update = (after.row(vertex) - before.row(vertex)).stableNorm();
-    if (update > largest_)
-        refuse(vertex,
-               fmt::format(fmt::runtime(largest_ == diagonal_
-                                            ? "would move by {:.3g}, but the mesh is {:.3g} across"
-                                            : "would move by {:.3g}, but largest_update allows {:.3g} at most"),
-                           update, largest_),
-               labels);
 }
 
-void UpdateLimit::refuse(Index vertex, const std::string& what, std::span<const Index> labels) const
+std::optional<UpdateLimit::Excess> UpdateLimit::find(const Points& before, const Points& after) const
 {
+    if (after.rows() == 0)
+        return std::nullopt;
+    const Index vertex = farthest_mover(before, after, diagonal_);
+    if (!after.row(vertex).allFinite())
+        return Excess{vertex, "would go to a position that is not finite"};
+    const double update = (after.row(vertex) - before.row(vertex)).stableNorm();
+    if (!(update > largest_))
+        return std::nullopt;
+    return Excess{vertex,
+                  fmt::format(fmt::runtime(largest_ == diagonal_
+                                               ? "would move by {:.3g}, but the mesh is {:.3g} across"
+                                               : "would move by {:.3g}, but largest_update allows {:.3g} at most"),
+                              update, largest_)};
+}
+
+void UpdateLimit::require(const Points& before, const Points& after, std::span<const Index> labels) const
+{
+    const std::optional<Excess> excess = find(before, after);
+    if (!excess)
+        return;
     Index face = 0;
-    while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), vertex) == mesh_.face(face).end())
+    while (face < mesh_.n_faces() && std::ranges::find(mesh_.face(face), excess->vertex) == mesh_.face(face).end())
         ++face;
     const std::string where = face < mesh_.n_faces() ? fmt::format("sub-mesh {}, ", labels[face]) : "";
-    throw ComputationError(fmt::format("{}vertex {} {}: use a smaller time step, another Laplacian, or repair the mesh "
-                                       "there",
-                                       where, vertex, what));
+    throw ComputationError(too_far(fmt::format("{}vertex {}", where, excess->vertex), excess->what));
+}
+
+std::string too_far(const std::string& where, const std::string& what)
+{
+    return fmt::format("{} {}: use a smaller time step, another Laplacian, or repair the mesh there", where, what);
 }
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,6 +17,18 @@ class UpdateLimit {
     ///        faces have now (see AccuracyOptions::largest_update).
     UpdateLimit(const PolygonMesh& mesh, double diagonals);
 
+    /// @param mesh a part of the mesh. @param diagonal of the whole mesh's bounding box, in units of length.
+    UpdateLimit(const PolygonMesh& mesh, double diagonal, double diagonals);
+
+    /// A vertex that goes too far, and what it would do, in words.
+    struct Excess {
+        Index vertex = 0;
+        std::string what;
+    };
+
+    /// The vertex that goes furthest, if that is too far.
+    [[nodiscard]] std::optional<Excess> find(const Points& before, const Points& after) const;
+
     /// Checks one step.
     /// @param before, after #V by 3.
     /// @param labels #F, the sub-mesh of every face, for the message.
@@ -23,12 +36,14 @@ class UpdateLimit {
     void require(const Points& before, const Points& after, std::span<const Index> labels) const;
 
   private:
-    [[noreturn]] void refuse(Index vertex, const std::string& what, std::span<const Index> labels) const;
-
     const PolygonMesh& mesh_;
     double diagonal_ = 0.0;
     /// Units of length.
     double largest_ = 0.0;
 };
+
+/// The words for what is too far.
+/// @param where the vertex and its sub-mesh, in words.
+std::string too_far(const std::string& where, const std::string& what);
 
 }  // namespace seamflow

@@ -1,5 +1,7 @@
 #include "engine/memory/workspaces.h"
 
+#include <algorithm>
+
 #include <oneapi/tbb/task_arena.h>
 
 namespace seamflow {
@@ -7,7 +9,9 @@ namespace seamflow {
 namespace arena = oneapi::tbb::this_task_arena;
 
 Workspaces::Workspaces()
-    : workspaces_(static_cast<std::size_t>(arena::max_concurrency()))
+    : n_threads_(static_cast<Index>(arena::max_concurrency()))
+    // An arena of one thread gets a second one for what is put into it from outside (see TaskGraph::signal).
+    , workspaces_(std::max(at(n_threads_), std::size_t{2}))
 {
 }
 

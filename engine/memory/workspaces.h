@@ -14,9 +14,11 @@ class Workspaces {
     /// That of the calling thread.
     SolverWorkspace& local();
 
-    [[nodiscard]] Index size() const { return static_cast<Index>(workspaces_.size()); }
+    /// How many threads the arena has.
+    [[nodiscard]] Index size() const { return n_threads_; }
 
   private:
+    Index n_threads_;
     std::vector<SolverWorkspace> workspaces_;
 };
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/measure/surface_measures.h"
-
 namespace seamflow {
 
 namespace {
@@ -46,7 +44,12 @@ Point origin_offset(const PolygonMesh& mesh)
 {
     if (!may_lie_far(mesh) || !has_sound_corners(mesh) || !mesh.vertices.allFinite())
         return Point::Zero();
-    const auto [low, high] = box_of_faces(mesh);
+    return origin_offset(box_of_faces(mesh));
+}
+
+Point origin_offset(const BoundingBox& box)
+{
+    const auto& [low, high] = box;
     const double extent = (high - low).maxCoeff();
     if (!std::isnormal(extent))
         return Point::Zero();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/measure/surface_measures.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -10,5 +11,8 @@ namespace seamflow {
 /// difference is exact. Vertices without faces are ignored. It is zero if the surface is not far away, if there is
 /// none, if a position is not finite, or if a face names a vertex that does not exist.
 Point origin_offset(const PolygonMesh& mesh);
+
+/// The same from the box around all vertices that have faces, which are finite.
+Point origin_offset(const BoundingBox& box);
 
 }  // namespace seamflow

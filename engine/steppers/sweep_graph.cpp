@@ -20,9 +20,10 @@ using Node = StepGraph::Node;
 /// Adds the tasks of one kind after the other, each with what it waits for.
 class SweepBuilder {
   public:
-    SweepBuilder(StepGraph& graph, const SweepPlan& plan, const std::vector<std::vector<Index>>& adjacency,
-                 SweepTasks tasks)
+    SweepBuilder(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
+                 const std::vector<std::vector<Index>>& adjacency, SweepTasks tasks)
         : graph_(graph)
+        , sweep_(sweep)
         , plan_(plan)
         , adjacency_(adjacency)
         , tasks_(std::make_shared<const SweepTasks>(std::move(tasks)))
@@ -33,6 +34,8 @@ class SweepBuilder {
     void build(const FactorWindow& window)
     {
         add_factorisations_and_solves();
+        if (tasks_->foreign != nullptr)
+            wait_for_positions();
         wait_for_room(window);
         wait_for_traces();
         if (tasks_->predict)
@@ -46,17 +49,48 @@ class SweepBuilder {
         return graph_.add_task({phase, s, priority}, [tasks = tasks_, task, s] { (*tasks.*task)(s); });
     }
 
+    [[nodiscard]] bool is_foreign(Index s) const
+    {
+        return tasks_->foreign != nullptr && tasks_->foreign->is_foreign(s);
+    }
+
+    /// The arrival of something that a foreign sub-mesh finds; -1 if nobody waits for it.
+    Node add_arrival(News news, TaskKind kind, Index s)
+    {
+        if (!tasks_->foreign->awaits(news, sweep_, s))
+            return -1;
+        const Node event =
+            graph_.add_event({kind, s, TaskPriority::High}, [tasks = tasks_, news, s] { tasks->receive(news, s); });
+        graph_.add_dependency(root_, event);
+        tasks_->foreign->set_event(news, sweep_, s, event);
+        return event;
+    }
+
     [[nodiscard]] Index n_sub_meshes() const { return static_cast<Index>(adjacency_.size()); }
 
     void add_factorisations_and_solves()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
+            if (is_foreign(s)) {
+                factorised_.push_back(add_arrival(News::Position, TaskKind::AssembleAndFactorise, s));
+                solved_.push_back(add_arrival(News::Solution, TaskKind::Solve, s));
+                continue;
+            }
             factorised_.push_back(
                 add(TaskKind::AssembleAndFactorise, s, TaskPriority::Normal, &SweepTasks::assemble_and_factorise));
             solved_.push_back(add(TaskKind::Solve, s, TaskPriority::High, &SweepTasks::solve));
             graph_.add_dependency(root_, factorised_.back());
             graph_.add_dependency(factorised_.back(), solved_.back());
         }
+    }
+
+    /// A sub-mesh is assembled when its halo has come.
+    void wait_for_positions()
+    {
+        for (Index s = 0; s < n_sub_meshes(); ++s)
+            for (const Index neighbour : adjacency_[s])
+                if (is_foreign(neighbour) && factorised_[neighbour] >= 0)
+                    graph_.add_dependency(factorised_[neighbour], factorised_[s]);
     }
 
     /// Factorisation waits until a factor before it is gone.
@@ -84,7 +118,9 @@ class SweepBuilder {
     {
         std::vector<Node> predicted(solved_.size(), -1);
         for (Index s = 0; s < n_sub_meshes(); ++s) {
-            if (plan_.traces[s].empty())
+            if (is_foreign(s))
+                predicted[s] = add_arrival(News::Prediction, TaskKind::Predict, s);
+            if (is_foreign(s) || plan_.traces[s].empty())
                 continue;
             predicted[s] = add(TaskKind::Predict, s, TaskPriority::High, &SweepTasks::predict);
             graph_.add_dependency(factorised_[s], predicted[s]);
@@ -100,8 +136,11 @@ class SweepBuilder {
                 graph_.add_dependency(predicted[s], used);
             for (const Transfer& prediction : plan_.predictions[s]) {
                 // A sub-mesh that predicts follows here, and its solution waits: see SubMeshState::solved.
-                assert(follows(plan_, prediction.from, s));
                 graph_.add_dependency(predicted[prediction.from], used);
+                if (is_foreign(prediction.from))
+                    graph_.add_dependency(used, solved_[prediction.from]);
+                else
+                    assert(follows(plan_, prediction.from, s));
             }
         }
     }
@@ -109,14 +148,18 @@ class SweepBuilder {
     void add_acceptances()
     {
         for (Index s = 0; s < n_sub_meshes(); ++s) {
+            if (is_foreign(s))
+                continue;
             const Node accepted = add(TaskKind::Accept, s, TaskPriority::High, &SweepTasks::accept);
             graph_.add_dependency(solved_[s], accepted);
             for (const Index neighbour : adjacency_[s])
-                graph_.add_dependency(solved_[neighbour], accepted);
+                if (solved_[neighbour] >= 0)
+                    graph_.add_dependency(solved_[neighbour], accepted);
         }
     }
 
     StepGraph& graph_;
+    std::size_t sweep_;
     const SweepPlan& plan_;
     const std::vector<std::vector<Index>>& adjacency_;
     std::shared_ptr<const SweepTasks> tasks_;
@@ -127,10 +170,10 @@ class SweepBuilder {
 
 }  // namespace
 
-void add_sweep(StepGraph& graph, const SweepPlan& plan, const std::vector<std::vector<Index>>& adjacency,
-               const FactorWindow& window, SweepTasks tasks)
+void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
+               const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, SweepTasks tasks)
 {
-    SweepBuilder(graph, plan, adjacency, std::move(tasks)).build(window);
+    SweepBuilder(graph, sweep, plan, adjacency, std::move(tasks)).build(window);
 }
 
 }  // namespace seamflow

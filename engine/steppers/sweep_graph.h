@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
+#include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/step_graph.h"
 #include "partition/decomposition/sweep_plan.h"
@@ -18,6 +20,10 @@ struct SweepTasks {
     Task use_predictions;
     Task solve;
     Task accept;
+    /// None where the sweep has all sub-meshes of the mesh.
+    ForeignSubMeshes* foreign = nullptr;
+    /// With foreign sub-meshes: takes over what has arrived of one.
+    std::function<void(News, Index s)> receive = {};
 };
 
 /// Adds one sweep over all sub-meshes to a graph, with a root of its own. Without predictions it has three tasks for
@@ -33,9 +39,13 @@ struct SweepTasks {
 /// use predictions before the solve of each sub-mesh that leads. With the classical conditions nobody leads,
 /// and solve waits for the adjacent sub-meshes of lower colour. So that few factors live at once, assemble and
 /// factorise also waits for a solve some places before it (see FactorWindow). No barrier stands between colours.
+///
+/// Of foreign sub-meshes, the arrival of what they predict and solve stands in the place of these tasks. Assemble and
+/// factorise waits for the positions of those around.
+/// @param sweep the number of the plan, from 0.
 /// @param plan is not looked at after the call.
 /// @param adjacency per sub-mesh: those with which it shares vertices.
-void add_sweep(StepGraph& graph, const SweepPlan& plan, const std::vector<std::vector<Index>>& adjacency,
-               const FactorWindow& window, SweepTasks tasks);
+void add_sweep(StepGraph& graph, std::size_t sweep, const SweepPlan& plan,
+               const std::vector<std::vector<Index>>& adjacency, const FactorWindow& window, SweepTasks tasks);
 
 }  // namespace seamflow

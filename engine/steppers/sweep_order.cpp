@@ -46,19 +46,32 @@ std::vector<Index> inverse(const std::vector<Index>& order)
 std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Colouring colouring,
                                    const std::vector<double>& curvature)
 {
-    std::vector<Index> rank = ascending(decomposition.sub_meshes.size());
+    if (colouring == Colouring::Label)
+        return ascending(decomposition.sub_meshes.size());
+    return rank_sub_meshes(decomposition.adjacency, colouring, total_curvatures(decomposition, curvature));
+}
+
+std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature)
+{
+    std::vector<double> totals(decomposition.sub_meshes.size());
+    for_each(run_in_parallel, static_cast<Index>(totals.size()),
+             [&](Index s) { totals[s] = total_curvature(decomposition.sub_meshes[s], curvature); });
+    return totals;
+}
+
+std::vector<Index> rank_sub_meshes(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
+                                   const std::vector<double>& totals)
+{
+    std::vector<Index> rank = ascending(adjacency.size());
     if (colouring == Colouring::Label)
         return rank;
 
-    const std::vector<Index> colours = colour(decomposition.adjacency);
-    std::vector<double> total(n_colours(colours), 0.0);
-    std::vector<double> of_sub_mesh(colours.size());
-    for_each(run_in_parallel, static_cast<Index>(colours.size()),
-             [&](Index s) { of_sub_mesh[s] = total_curvature(decomposition.sub_meshes[s], curvature); });
+    const std::vector<Index> colours = colour(adjacency);
+    std::vector<double> of_colour(n_colours(colours), 0.0);
     for (std::size_t s = 0; s < colours.size(); ++s)
-        total[colours[s]] += of_sub_mesh[s];
-    std::vector<Index> order = ascending(total.size());
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return total[a] > total[b]; });
+        of_colour[colours[s]] += totals[s];
+    std::vector<Index> order = ascending(of_colour.size());
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return of_colour[a] > of_colour[b]; });
     const std::vector<Index> rank_of_colour = inverse(order);
     std::transform(colours.begin(), colours.end(), rank.begin(), [&](Index c) { return rank_of_colour[c]; });
     return rank;

@@ -15,6 +15,14 @@ namespace seamflow {
 std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Colouring colouring,
                                    const std::vector<double>& curvature);
 
+/// Σ‖ΔV‖ of each sub-mesh, as above; #sub-meshes.
+std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature);
+
+/// The same ranks from what is left of the sub-meshes then.
+/// @param adjacency #sub-meshes: with which others they share a vertex of Γ. @param totals #sub-meshes: their Σ‖ΔV‖.
+std::vector<Index> rank_sub_meshes(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
+                                   const std::vector<double>& totals);
+
 /// The ranks of the sweep in the opposite direction.
 std::vector<Index> reversed(const std::vector<Index>& rank);
 

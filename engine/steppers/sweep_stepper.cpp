@@ -65,32 +65,69 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
             if (options.interface.conditions != Conditions::Schwarz)
                 error_.emplace(decomposition_, mesh, topology, options);
         },
-        [&] {
-            plans_.push_back(make_plan(decomposition_, options, rank));
-            if (alternates(options, states_.size()))
-                plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
-        });
-    limit_factors(options);
-    for (const SweepPlan& plan : plans_)
-        add_sweep(graph_, plan, decomposition_.adjacency, window_, tasks_of(plan, options));
+        [&] { make_plans(rank, states_.size(), options); });
+    order_factors(options);
+    add_sweeps(options);
 }
 
-/// Without a limit, each thread has work enough within the window.
-void SweepStepper::limit_factors(const FlowOptions& options)
+SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options,
+                           Progress& progress)
+    : decomposition_(std::move(sub_meshes.decomposition))
+    , foreign_(sub_meshes.foreign)
+    , graph_(options.report.record_schedule, progress)
+    , positions_(copied(mesh.vertices))
+    , is_low_pass_(options.filter == Filter::LowPass)
+    , factorisation_(options.resources.factorisation)
 {
-    constexpr Index places_per_thread = 4;
-    std::size_t largest = 1;
-    for (const SubMeshState& state : states_)
-        largest = std::max(largest, state.system->factor_bytes());
-    factors_.emplace(largest);
+    make_states(mesh, options, progress);
+    make_plans(sub_meshes.rank, sub_meshes.n_of_all_ranks, options);
+    window_.order = std::move(sub_meshes.factor_order);
+    limit_factors(sub_meshes.least_window, options);
+    foreign_->connect(decomposition_, plans_);
+    add_sweeps(options);
+}
 
+/// @param n_sub_meshes in the whole mesh.
+void SweepStepper::make_plans(const std::vector<Index>& rank, std::size_t n_sub_meshes, const FlowOptions& options)
+{
+    plans_.push_back(make_plan(decomposition_, options, rank));
+    if (alternates(options, n_sub_meshes))
+        plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
+}
+
+void SweepStepper::add_sweeps(const FlowOptions& options)
+{
+    for (std::size_t sweep = 0; sweep < plans_.size(); ++sweep) {
+        SweepTasks tasks = tasks_of(plans_[sweep], options);
+        if (foreign_ != nullptr)
+            add_exchange(sweep, tasks);
+        add_sweep(graph_, sweep, plans_[sweep], decomposition_.adjacency, window_, std::move(tasks));
+    }
+}
+
+void SweepStepper::order_factors(const FlowOptions& options)
+{
     window_.order = reverse_cuthill_mckee(decomposition_.adjacency);
     Index least = 0;
     for (const SweepPlan& plan : plans_)
         least = std::max(least, least_window(plan, window_.order));
-    const auto n = static_cast<Index>(states_.size());
+    limit_factors(least, options);
+}
+
+/// Without a limit, each thread has work enough within the window.
+/// @param least the smallest window with which sweeps cannot deadlock.
+void SweepStepper::limit_factors(Index least, const FlowOptions& options)
+{
+    constexpr Index places_per_thread = 4;
+    std::size_t largest = 1;
+    for (const SubMeshState& state : states_)
+        if (state.system)
+            largest = std::max(largest, state.system->factor_bytes());
+    factors_.emplace(largest);
+
+    const auto n = static_cast<Index>(window_.order.size());
     // The second solution begins when the first is complete.
-    least = is_low_pass_ ? n : least;
+    least = is_low_pass_ ? n : std::min(least, n);
     window_.size = std::min(n, least + places_per_thread * workspaces_.size());
     if (!options.resources.memory_limit)
         return;
@@ -110,7 +147,11 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
     for_each(run_in_parallel, static_cast<Index>(made.size()), [&](Index s) {
         progress.require_going_on();
         SubMesh& sub_mesh = decomposition_.sub_meshes[s];
-        run_for_sub_mesh(sub_mesh, s, [&] {
+        if (!is_own(s)) {
+            made[s].emplace(sub_mesh, nullptr, mesh.vertices);
+            return;
+        }
+        run_for(s, [&] {
             auto equations = make_equations(sub_mesh, std::move(sub_mesh.twin), options, terms, workspaces_.local());
             SubMeshState& state = made[s].emplace(sub_mesh, std::move(equations), mesh.vertices);
             state.p = robin_parameter(sub_mesh, state.position, options);
@@ -122,12 +163,20 @@ void SweepStepper::make_states(const PolygonMesh& mesh, const FlowOptions& optio
         states_.push_back(std::move(*state));
 }
 
+/// Failures come out with the name of the sub-mesh.
+void SweepStepper::run_for(Index s, const std::function<void()>& body) const
+{
+    if (foreign_ != nullptr)
+        foreign_->run_for(s, body);
+    else
+        run_for_sub_mesh(decomposition_.sub_meshes[s], s, body);
+}
+
 SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& options)
 {
     const double time_step = options.time_step;
     const auto task = [this](auto body) {
-        return
-            [this, body](Index s) { run_for_sub_mesh(*states_[s].sub_mesh, s, [&] { body(s, workspaces_.local()); }); };
+        return [this, body](Index s) { run_for(s, [&] { body(s, workspaces_.local()); }); };
     };
     const auto resources = [this](SolverWorkspace& workspace) { return Resources{*factors_, workspace}; };
     SweepTasks tasks;
@@ -170,16 +219,49 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
     return tasks;
 }
 
+Points SubMeshState::*SweepStepper::array_of(News news) const
+{
+    return news == News::Position ? &SubMeshState::position : &SubMeshState::solved;
+}
+
+/// Other ranks are told what they wait for as soon as it is found.
+void SweepStepper::add_exchange(std::size_t sweep, SweepTasks& tasks)
+{
+    const auto telling = [&](SweepTasks::Task task, News news) {
+        return [this, sweep, news, run = std::move(task)](Index s) {
+            run(s);
+            foreign_->send(news, sweep, s, states_[s].*array_of(news));
+        };
+    };
+    if (tasks.predict)
+        tasks.predict = telling(std::move(tasks.predict), News::Prediction);
+    tasks.solve = telling(std::move(tasks.solve), News::Solution);
+    tasks.foreign = foreign_;
+    tasks.receive = [this](News news, Index s) { foreign_->receive(news, s, states_[s].*array_of(news)); };
+}
+
+void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& join)
+{
+    if (foreign_ == nullptr)
+        return graph_.run(sweep, 0.0, join);
+    const auto tell_positions = [&] {
+        for (Index s = 0; s < static_cast<Index>(states_.size()); ++s)
+            if (is_own(s))
+                foreign_->send(News::Position, sweep, s, states_[s].position);
+    };
+    foreign_->run(graph_, sweep, tell_positions, join);
+}
+
 /// The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
     const std::size_t root = static_cast<std::size_t>(steps_done_) % graph_.n_roots();
     if (is_low_pass_) {
         set_solution(SubMeshState::Solution::First);
-        graph_.run(root);
+        run_sweep(root);
         set_solution(SubMeshState::Solution::Second);
     }
-    graph_.run(root, 0.0, [&] {
+    run_sweep(root, [&] {
         ++steps_done_;
         if (error_)
             error_->add_step(before);
@@ -280,6 +362,8 @@ void SweepStepper::describe(FlowReport& report) const
     std::vector<Index> n_nearly_singular;
     std::vector<Factorisation> factorisations;
     for (std::size_t s = 0; s < states_.size(); ++s) {
+        if (!states_[s].system)
+            continue;
         describe_sub_mesh(*states_[s].sub_mesh, rank[s], states_[s].p, report);
         n_nearly_singular.push_back(states_[s].system->n_nearly_singular());
         factorisations.push_back(states_[s].system->factorisation());

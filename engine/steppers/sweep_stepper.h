@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/options/flow_report.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/error_estimate.h"
+#include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/steppers/interface_gaps.h"
 #include "engine/steppers/stepper.h"
 #include "engine/steppers/sub_mesh_state.h"
@@ -20,6 +22,22 @@
 #include "partition/topology.h"
 
 namespace seamflow {
+
+/// The sub-meshes of a rank, and where they stand in a sweep over those of all ranks.
+struct RankSubMeshes {
+    /// Those of this rank, and of the others around them what is known of them (see decompose_part).
+    Decomposition decomposition;
+    /// How many all ranks have together.
+    std::size_t n_of_all_ranks = 0;
+    /// #sub-meshes: the sweep's order.
+    std::vector<Index> rank;
+    /// Those of this rank, as they stand in one order of those of all ranks.
+    std::vector<Index> factor_order;
+    /// The smallest window with which sweeps along that order cannot deadlock.
+    Index least_window = 0;
+    /// Must outlive the stepper.
+    ForeignSubMeshes* foreign = nullptr;
+};
 
 /// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with what InterfaceOptions::conditions
 /// says on Γ. The result is near the undecomposed step, not the same.
@@ -33,6 +51,11 @@ class SweepStepper final : public Stepper {
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  const std::vector<double>& curvature, Progress& progress);
 
+    /// The same for the sub-meshes of one rank. There is no estimate of the error.
+    /// @param mesh the part of the mesh that the rank knows. @param options not the classical conditions, nor
+    /// Schwarz's.
+    SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
+
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
@@ -45,25 +68,35 @@ class SweepStepper final : public Stepper {
 
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
-    void limit_factors(const FlowOptions& options);
+    [[nodiscard]] bool is_own(Index s) const { return foreign_ == nullptr || !foreign_->is_foreign(s); }
+    void make_plans(const std::vector<Index>& rank, std::size_t n_sub_meshes, const FlowOptions& options);
+    void add_sweeps(const FlowOptions& options);
+    void order_factors(const FlowOptions& options);
+    void run_for(Index s, const std::function<void()>& body) const;
+    void limit_factors(Index least, const FlowOptions& options);
     SweepTasks tasks_of(const SweepPlan& plan, const FlowOptions& options);
+    void add_exchange(std::size_t sweep, SweepTasks& tasks);
+    void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
+    [[nodiscard]] Points SubMeshState::*array_of(News news) const;
     void set_solution(SubMeshState::Solution solution);
     void fetch_positions(SubMeshState& state);
     void join();
     /// Whether sub-meshes differ on what they share: with copies of Γ, and where they overlap.
-    [[nodiscard]] bool has_copies() const { return copies_ || !error_; }
+    [[nodiscard]] bool has_copies() const { return copies_ || (!error_ && foreign_ == nullptr); }
 
     /// Made when it is known what factors take.
     std::optional<SharedFactorPool> factors_;
     Workspaces workspaces_;
     Decomposition decomposition_;
+    /// Null where all sub-meshes are its own.
+    ForeignSubMeshes* foreign_ = nullptr;
     std::vector<SubMeshState> states_;
     /// Forward, and backward where the sweep alternates.
     std::vector<SweepPlan> plans_;
     FactorWindow window_;
     /// With the classical conditions.
     std::optional<InterfaceGaps> copies_;
-    /// But for overlapping sub-meshes.
+    /// But for overlapping sub-meshes, and those of a rank.
     std::optional<ErrorEstimate> error_;
     /// A root for each plan.
     StepGraph graph_;

@@ -18,16 +18,36 @@ StepGraph::Node StepGraph::add_root()
     return roots_.back();
 }
 
-StepGraph::Node StepGraph::add_task(const ScheduledTask& task, std::function<void()> body)
+/// The body, as it runs in the graph.
+std::function<void()> StepGraph::recorded(const ScheduledTask& task, std::function<void()> body)
 {
     if (!schedule_)
-        return graph_.add_task(std::move(body), task.priority);
+        return body;
     const auto number = static_cast<Index>(schedule_->tasks.size());
-    const Node node =
-        graph_.add_task([this, number, run = std::move(body)] { run_recorded(number, run); }, task.priority);
-    task_of_node_.resize(at(node) + 1, -1);
-    task_of_node_[node] = number;
     schedule_->tasks.push_back(task);
+    return [this, number, run = std::move(body)] { run_recorded(number, run); };
+}
+
+/// Notes at which node the latest task is.
+void StepGraph::note(Node node)
+{
+    if (!schedule_)
+        return;
+    task_of_node_.resize(at(node) + 1, -1);
+    task_of_node_[node] = static_cast<Index>(schedule_->tasks.size()) - 1;
+}
+
+StepGraph::Node StepGraph::add_task(const ScheduledTask& task, std::function<void()> body)
+{
+    const Node node = graph_.add_task(recorded(task, std::move(body)), task.priority);
+    note(node);
+    return node;
+}
+
+StepGraph::Node StepGraph::add_event(const ScheduledTask& task, std::function<void()> body)
+{
+    const Node node = graph_.add_event(recorded(task, std::move(body)), task.priority);
+    note(node);
     return node;
 }
 

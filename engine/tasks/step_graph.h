@@ -1,7 +1,9 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/options/schedule.h"
@@ -26,6 +28,14 @@ class StepGraph {
     /// A task that starts as soon as all tasks and the root before it are done.
     Node add_task(const ScheduledTask& task, std::function<void()> body);
 
+    /// A task that in every step also waits until it is signalled.
+    Node add_event(const ScheduledTask& task, std::function<void()> body);
+
+    /// See TaskGraph.
+    void signal(Node event) { graph_.signal(event); }
+    void fail(std::exception_ptr failure) { graph_.fail(std::move(failure)); }
+    [[nodiscard]] bool is_ending() const { return graph_.is_ending(); }
+
     /// Makes `after` wait for `before`.
     void add_dependency(Node before, Node after);
 
@@ -41,6 +51,8 @@ class StepGraph {
     [[nodiscard]] const std::optional<Schedule>& schedule() const { return schedule_; }
 
   private:
+    std::function<void()> recorded(const ScheduledTask& task, std::function<void()> body);
+    void note(Node node);
     void begin_record();
     void end_record();
     void run_recorded(Index task, const std::function<void()>& body);

@@ -6,8 +6,10 @@
 #include <mutex>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <oneapi/tbb/flow_graph.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "engine/tasks/progress.h"
 #include "engine/tasks/thread_sanitizer.h"
@@ -64,7 +66,19 @@ class TaskGraph::Nodes {
     /// wrong counts.
     void perform(const Task& task);
 
+    /// Starts an event, or lets it begin when the tasks before it are done. A thread outside would wait for a place in
+    /// the arena if it did so itself.
+    void start(Node event)
+    {
+        arena.enqueue([this, event] {
+            nodes[event].try_put(flow::continue_msg());
+            graph.release_wait();
+        });
+    }
+
     std::deque<Task> tasks;
+    /// The one in which all is constructed: signals come from threads that are not in it.
+    oneapi::tbb::task_arena arena{oneapi::tbb::task_arena::attach()};
     flow::graph graph;
     std::deque<flow::continue_node<flow::continue_msg>> nodes;
     TaskOrder order;
@@ -75,6 +89,12 @@ class TaskGraph::Nodes {
     std::atomic<bool> skipped{false};
     /// Of each root.
     std::unordered_map<Node, Index> n_tasks;
+    std::unordered_map<Node, Index> n_events;
+    /// Of what follows: signals come from any thread.
+    std::mutex mutex;
+    bool is_running = false;
+    /// What was signalled before the run.
+    std::vector<Node> early;
     Node latest_root = -1;
 };
 
@@ -123,14 +143,46 @@ TaskGraph::Node TaskGraph::add_root()
     return nodes_->latest_root = static_cast<Node>(nodes_->nodes.size()) - 1;
 }
 
-TaskGraph::Node TaskGraph::add_task(std::function<void()> body, TaskPriority priority)
+TaskGraph::Node TaskGraph::add(std::function<void()> body, TaskPriority priority, int n_signals)
 {
     const auto node = static_cast<Node>(nodes_->nodes.size());
     nodes_->tasks.push_back({node, std::move(body)});
-    nodes_->nodes.emplace_back(nodes_->graph, OrderedTask{nodes_.get(), &nodes_->tasks.back()},
+    nodes_->nodes.emplace_back(nodes_->graph, n_signals, OrderedTask{nodes_.get(), &nodes_->tasks.back()},
                                priority == TaskPriority::High ? flow::node_priority_t{1} : flow::no_priority);
     ++nodes_->n_tasks[nodes_->latest_root];
     return node;
+}
+
+TaskGraph::Node TaskGraph::add_task(std::function<void()> body, TaskPriority priority)
+{
+    return add(std::move(body), priority, 0);
+}
+
+TaskGraph::Node TaskGraph::add_event(std::function<void()> body, TaskPriority priority)
+{
+    const Node node = add(std::move(body), priority, 1);
+    ++nodes_->n_events[nodes_->latest_root];
+    return node;
+}
+
+void TaskGraph::signal(Node event)
+{
+    nodes_->order.come(at(event));
+    const std::scoped_lock lock(nodes_->mutex);
+    if (nodes_->is_running)
+        nodes_->start(event);
+    else
+        nodes_->early.push_back(event);
+}
+
+void TaskGraph::fail(std::exception_ptr failure)
+{
+    nodes_->failure.record(-1, std::move(failure));
+}
+
+bool TaskGraph::is_ending() const
+{
+    return nodes_->failure.failed() || (nodes_->progress != nullptr && nodes_->progress->is_stopped());
 }
 
 void TaskGraph::add_dependency(Node before, Node after)
@@ -144,8 +196,20 @@ void TaskGraph::run(Node root, double further_parts)
     if (nodes_->progress != nullptr)
         nodes_->progress->expect(nodes_->n_tasks[root] + further_parts);
     nodes_->order.end(at(root));
+    for (Index i = 0; i < nodes_->n_events[root]; ++i)
+        nodes_->graph.reserve_wait();
+    {
+        const std::scoped_lock lock(nodes_->mutex);
+        nodes_->is_running = true;
+        for (const Node event : std::exchange(nodes_->early, {}))
+            nodes_->start(event);
+    }
     nodes_->nodes[root].try_put(flow::continue_msg());
     nodes_->graph.wait_for_all();
+    {
+        const std::scoped_lock lock(nodes_->mutex);
+        nodes_->is_running = false;
+    }
     nodes_->order.end_run();
     const bool skipped = nodes_->skipped.exchange(false, std::memory_order_relaxed);
     nodes_->failure.rethrow();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 
@@ -33,6 +34,19 @@ class TaskGraph {
     /// A task that starts as soon as all tasks and the root before it are done.
     Node add_task(std::function<void()> body, TaskPriority priority);
 
+    /// A task that in every run also waits for something from outside: until `signal` is called for it.
+    Node add_event(std::function<void()> body, TaskPriority priority);
+
+    /// What the event waits for has come: to be called once in each run for each event behind its root, before the run
+    /// or while it goes on, by any thread. Does not wait for the task.
+    void signal(Node event);
+
+    /// Lets the present run fail as if a task had thrown this; by any thread. Events have to be signalled all the same.
+    void fail(std::exception_ptr failure);
+
+    /// Whether the present run leaves out the tasks that have not begun; by any thread.
+    [[nodiscard]] bool is_ending() const;
+
     /// Makes `after` wait for `before`.
     void add_dependency(Node before, Node after);
 
@@ -42,6 +56,8 @@ class TaskGraph {
     void run(Node root, double further_parts = 0.0);
 
   private:
+    Node add(std::function<void()> body, TaskPriority priority, int n_signals);
+
     class Nodes;
     struct OrderedTask;
     std::unique_ptr<Nodes> nodes_;

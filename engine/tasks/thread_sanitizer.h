@@ -89,6 +89,14 @@ class TaskOrder {
         hand_over(this);
     }
 
+    /// Called in the thread that lets a task begin which waits for something from outside, too.
+    void come(std::size_t task) const
+    {
+        if constexpr (under_thread_sanitizer)
+            if (task < waiting_.size())
+                hand_over(&waiting_[task]);
+    }
+
     /// Called in the thread that has waited for the run.
     void end_run() const { take_over(this); }
 

@@ -111,11 +111,12 @@ LuFactor real_lu(const LuSolver* solver, Values values, FactorMemory& memory,
 
 namespace {
 
-/// The number of the task that was added at a node, from 1. In a new graph nodes begin anew.
+/// The number of the task that was added at a node, from 1. In a new graph nodes begin anew. Ranks that are threads
+/// build theirs at the same time.
 int number_at(TaskGraph::Node node)
 {
-    static TaskGraph::Node latest = 0;
-    static int n = 0;
+    thread_local TaskGraph::Node latest = 0;
+    thread_local int n = 0;
     n = node > latest ? n + 1 : 1;
     latest = node;
     return n;

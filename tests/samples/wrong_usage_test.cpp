@@ -116,3 +116,23 @@ TEST_CASE("wrong usage ends with 2 and writes nothing")
     CHECK(w.run(GENERATE " quads out.obj --vertices many") == 2);
     CHECK(w.run(GENERATE " quads out.xyz") == 2);
 }
+
+TEST_CASE("smooth is refused as one of several processes of a launcher, which one of them says")
+{
+    const Workshop w;
+    const std::string command = SMOOTH " mesh.obj out.obj --time-step 0.01";
+    for (const std::string launcher : {"OMPI_COMM_WORLD", "PMI", "MV2_COMM_WORLD"}) {
+        CAPTURE(launcher);
+        const auto as_process = [&](const std::string& rank, const std::string& size) {
+            return launcher + "_SIZE=" + size + " " + launcher + "_RANK=" + rank + " " + command;
+        };
+        CHECK(w.run(as_process("0", "4")) == 2);
+        CHECK(w.said().find("4 processes were started") != std::string::npos);
+        CHECK(w.said().find("without mpirun") != std::string::npos);
+        CHECK(w.run(as_process("3", "4")) == 2);
+        CHECK(w.said().empty());
+        CHECK_FALSE(w.has("out.obj"));
+        CHECK(w.run(as_process("0", "1")) == 0);
+        CHECK(w.run("rm out.obj") == 0);
+    }
+}

@@ -23,7 +23,7 @@ asan() {
 }
 
 tsan() {
-    build tsan engine_tests seamflow_race
+    build tsan engine_tests distributed_tests seamflow_race
     ctest --preset tsan --parallel "$(nproc)"
 }
 

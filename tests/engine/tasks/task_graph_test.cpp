@@ -170,3 +170,78 @@ TEST_CASE("of two failures at once the one of the task that was added first come
         }
     });
 }
+
+TEST_CASE("events wait for their signal and for tasks before them, whichever comes first, in every run")
+{
+    for (int threads = 1; threads <= 4; ++threads) {
+        CAPTURE(threads);
+        Workers workers(threads);
+        workers.execute([&] {
+            TaskGraph graph;
+            std::atomic<int> n_before{0};
+            std::atomic<int> n_signalled{0};
+            std::atomic<int> n_events{0};
+            std::atomic<int> n_after{0};
+            std::atomic<int> too_early{0};
+            const auto root = graph.add_root();
+            const auto before = graph.add_task([&] { ++n_before; }, Priority::Normal);
+            graph.add_dependency(root, before);
+            std::vector<TaskGraph::Node> events;
+            const auto after = graph.add_task(
+                [&] {
+                    ++n_after;
+                    too_early += n_events == 10 * n_after ? 0 : 1;
+                },
+                Priority::Normal);
+            for (int i = 0; i < 10; ++i) {
+                events.push_back(graph.add_event(
+                    [&, i] {
+                        ++n_events;
+                        // Half of them wait for the task, too.
+                        too_early += (i % 2 == 0 && n_before != n_after + 1) || n_signalled < n_events ? 1 : 0;
+                    },
+                    Priority::High));
+                graph.add_dependency(i % 2 == 0 ? before : root, events.back());
+                graph.add_dependency(events.back(), after);
+            }
+            for (int run = 0; run < 20; ++run) {
+                const std::jthread outside([&] {
+                    for (const auto event : events) {
+                        if (run % 3 == 0)
+                            std::this_thread::sleep_for(std::chrono::microseconds(300));
+                        ++n_signalled;
+                        graph.signal(event);
+                    }
+                });
+                graph.run(root);
+                CHECK(n_after == run + 1);
+                CHECK(n_events == 10 * (run + 1));
+            }
+            CHECK(too_early == 0);
+        });
+    }
+}
+
+TEST_CASE("a run fails from outside, and the next one does not")
+{
+    Workers workers(2);
+    workers.execute([&] {
+        TaskGraph graph;
+        std::atomic<int> n_run{0};
+        const auto root = graph.add_root();
+        const auto event = graph.add_event([&] { ++n_run; }, Priority::Normal);
+        graph.add_dependency(root, event);
+        const auto run = [&](bool fails) {
+            const std::jthread outside([&] {
+                if (fails)
+                    graph.fail(std::make_exception_ptr(std::runtime_error("from outside")));
+                graph.signal(event);
+            });
+            graph.run(root);
+        };
+        CHECK_THROWS_WITH(run(true), "from outside");
+        CHECK(n_run == 0);
+        run(false);
+        CHECK(n_run == 1);
+    });
+}

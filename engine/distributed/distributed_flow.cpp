@@ -1,0 +1,167 @@
+#include "engine/distributed/distributed_flow.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/distributed/conversation.h"
+#include "engine/distributed/rank_exchange.h"
+#include "engine/distributed/rank_setup.h"
+#include "engine/measure/update_limit.h"
+#include "engine/options/flow_control.h"
+#include "engine/setup/origin_offset.h"
+#include "engine/steppers/sweep_stepper.h"
+#include "engine/tasks/progress.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// @throws OptionError for what a distributed flow does not know.
+void require_for_ranks(const FlowOptions& options)
+{
+    const InterfaceOptions& interface = options.interface;
+    const char* unknown = nullptr;
+    if (options.accuracy.approach != Approach::Sweep || options.accuracy.tolerance)
+        unknown = "approaches but sweeps (approach has to be sweep, without a tolerance)";
+    else if (options.scheme != Scheme::BackwardEuler || options.keep_edges)
+        unknown = "explicit steps, nor steps that keep edges";
+    else if (interface.conditions != Conditions::AdaptedRobin && interface.conditions != Conditions::AdaptedVentcell)
+        unknown = "conditions but the adapted ones";
+    else if (options.motion.boundary != Boundary::Fixed || options.motion.rescale != Rescale::None ||
+             options.motion.strict)
+        unknown = "a free boundary, rescaled results, nor strict";
+    else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
+             !options.motion.attachment_weights.empty())
+        unknown = "options for single faces and vertices: labels and fixed vertices are those of the parts";
+    else if (options.report.reference || options.report.record_schedule || options.report.keep_gaps)
+        unknown = "an undecomposed flow to compare with, a schedule, nor gaps";
+    if (unknown != nullptr)
+        throw OptionError(
+            fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));
+}
+
+/// The vertices of own faces, which alone have moved.
+void require_within_limit(const UpdateLimit& limit, const RankMesh& mesh, const Points& after)
+{
+    const auto excess = limit.find(mesh.part.mesh.vertices, after);
+    if (!excess)
+        return;
+    const auto corners = mesh.topology.corners_at(excess->vertex);
+    const Index label = mesh.part.labels[mesh.topology.face_of[corners.front()]];
+    throw ComputationError(too_far(
+        fmt::format("sub-mesh {}, vertex {}", mesh.known[label].number, mesh.part.vertex_numbers[excess->vertex]),
+        excess->what));
+}
+
+template <class Body>
+void in_step(int step, Body&& body)
+{
+    try {
+        body();
+    } catch (const ComputationError& error) {
+        throw ComputationError(fmt::format("step {}, {}", step, error.what()));
+    }
+}
+
+/// A distributed flow on one rank.
+class RankFlow {
+  public:
+    RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options)
+        : talk_(talk)
+        , part_(part)
+        , options_(options)
+        , progress_(control_)
+    {
+    }
+
+    /// @returns #V by 3: the positions of the part after all steps.
+    Points run(RankReport& report)
+    {
+        const Stopwatch watch;
+        const auto all = gather_sub_meshes(talk_, part_);
+        const BoundingBox box = gather_box(talk_, part_.mesh);
+        const Point offset = origin_offset(box);
+        RankMesh mesh = make_rank_mesh(talk_, part_, all, offset, options_);
+        RankExchange exchange(talk_, mesh.part, mesh.known);
+        std::vector<Index> rank_of_all;
+        auto sub_meshes = make_rank_sub_meshes(talk_, mesh, all, options_, exchange, rank_of_all);
+        const std::int64_t n_interface_vertices = sub_meshes.decomposition.n_interface_vertices;
+        SweepStepper stepper(mesh.part.mesh, std::move(sub_meshes), options_, progress_);
+        const UpdateLimit limit(mesh.part.mesh, (box.high - box.low).stableNorm(), options_.accuracy.largest_update);
+        describe(mesh, rank_of_all, n_interface_vertices, report);
+        report.setup_seconds = watch.seconds();
+        for (int step = 1; step <= options_.steps; ++step)
+            report.steps.push_back(take_step(step, mesh, limit, stepper));
+        return positions_of_part(mesh, offset);
+    }
+
+  private:
+    RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, SweepStepper& stepper)
+    {
+        const Stopwatch watch;
+        const std::uint64_t messages = talk_.n_messages();
+        const std::uint64_t bytes = talk_.n_bytes();
+        in_step(step, [&] {
+            stepper.step(mesh.part.mesh.vertices);
+            require_within_limit(limit, mesh, stepper.positions());
+        });
+        mesh.part.mesh.vertices = stepper.positions();
+        return {watch.seconds(), talk_.n_messages() - messages, talk_.n_bytes() - bytes};
+    }
+
+    void describe(const RankMesh& mesh, const std::vector<Index>& rank_of_all, std::int64_t n_interface_vertices,
+                  RankReport& report)
+    {
+        report.sub_meshes = static_cast<Index>(rank_of_all.size());
+        for (const Index rank : rank_of_all)
+            report.colours = std::max(report.colours, rank + 1);
+        for (const std::int64_t n : talk_.gather_all(std::vector<std::int64_t>{n_interface_vertices}))
+            report.interface_vertices += n;
+        report.vertices = part_.mesh.n_vertices();
+        report.foreign_vertices = mesh.part.mesh.n_vertices() - report.vertices;
+    }
+
+    [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Point& offset) const
+    {
+        Points positions = part_.mesh.vertices;
+        for (const Index v : part_.mesh.face_vertices) {
+            const auto found = std::ranges::lower_bound(mesh.part.vertex_numbers, part_.vertex_numbers[v]);
+            positions.row(v) = mesh.part.mesh.vertices.row(found - mesh.part.vertex_numbers.begin());
+            // Not by nothing, which would make 0 of -0.
+            if (!offset.isZero(0.0))
+                positions.row(v) += offset;
+        }
+        return positions;
+    }
+
+    Conversation& talk_;
+    const MeshPart& part_;
+    const FlowOptions& options_;
+    FlowControl control_;
+    Progress progress_;
+};
+
+}  // namespace
+
+RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options)
+{
+    RankReport report;
+    Points positions;
+    run_together(communicator, [&](Conversation& talk) {
+        require_valid(options);
+        require_for_ranks(options);
+        require_valid(part);
+        Workers workers(options.resources.threads);
+        workers.execute([&] { positions = RankFlow(talk, part, options).run(report); });
+    });
+    part.mesh.vertices = std::move(positions);
+    return report;
+}
+
+}  // namespace seamflow

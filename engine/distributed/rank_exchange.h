@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/distributed/conversation.h"
+#include "engine/distributed/mesh_part.h"
+#include "engine/steppers/foreign_sub_meshes.h"
+#include "engine/tasks/step_graph.h"
+#include "partition/decomposition/decomposition.h"
+#include "partition/decomposition/sweep_plan.h"
+
+namespace seamflow {
+
+/// A sub-mesh that a rank knows, whole or in part.
+struct KnownSubMesh {
+    /// Its number in the whole mesh.
+    Index number = 0;
+    /// Whose it is.
+    int rank = 0;
+    Index n_vertices = 0;
+    /// One of its faces, as numbered in the whole mesh.
+    std::array<std::int64_t, 1> faces{};
+};
+
+/// Carries what ranks tell each other of their sub-meshes while a sweep runs: one message for each sub-mesh, kind of
+/// news and rank that waits for it. A thread of its own receives them, and lets the tasks begin that waited.
+class RankExchange final : public ForeignSubMeshes {
+  public:
+    /// @param talk, part must outlive this. @param part what the rank knows of the mesh, which is decomposed into
+    /// @param known all sub-meshes that the rank knows, ascending.
+    RankExchange(Conversation& talk, const MeshPart& part, std::vector<KnownSubMesh> known);
+
+    [[nodiscard]] bool is_foreign(Index s) const override { return known_[s].rank != talk_->rank(); }
+    void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps) override;
+    [[nodiscard]] bool awaits(News news, std::size_t sweep, Index s) const override;
+    void set_event(News news, std::size_t sweep, Index s, StepGraph::Node event) override;
+    void receive(News news, Index s, Points& rows) override;
+    void send(News news, std::size_t sweep, Index s, const Points& rows) override;
+    void run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+             const std::function<void()>& join) override;
+    void run_for(Index s, const std::function<void()>& body) const override;
+
+  private:
+    static constexpr std::size_t n_kinds = 3;
+    static std::size_t kind(News news) { return static_cast<std::size_t>(news); }
+
+    /// What somebody wants to know of a sub-mesh: the rows for each kind of news, local, and whether it makes
+    /// predictions for him in each sweep.
+    struct Interest {
+        int rank = -1;
+        std::array<std::vector<Index>, n_kinds> rows;
+        std::vector<std::uint8_t> predicts;
+
+        [[nodiscard]] bool includes(News news, std::size_t sweep) const
+        {
+            return !rows[kind(news)].empty() && (news != News::Prediction || predicts[sweep] != 0);
+        }
+    };
+    /// Something that is to arrive in a sweep.
+    struct Arrival {
+        News news;
+        Index sub_mesh;
+        StepGraph::Node event;
+        bool has_come;
+    };
+
+    void find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps);
+    void receive_all(StepGraph& graph, std::vector<Arrival>& arrivals);
+    void deliver(Message message, StepGraph& graph, std::vector<Arrival>& arrivals);
+    [[nodiscard]] Index known_index(Index number) const;
+
+    Conversation* talk_;
+    const MeshPart* part_;
+    std::vector<KnownSubMesh> known_;
+    /// Per foreign sub-mesh, what this rank wants to know; per own one, what others want.
+    std::vector<Interest> own_interest_;
+    std::vector<std::vector<Interest>> listeners_;
+    /// Per sweep.
+    std::vector<std::vector<Arrival>> arrivals_;
+    /// Per kind of news and foreign sub-mesh: what has arrived in this run.
+    std::array<std::vector<Bytes>, n_kinds> mail_;
+    /// Which run it is; and what has arrived for later ones.
+    std::uint64_t run_ = 0;
+    std::vector<Message> early_;
+};
+
+}  // namespace seamflow

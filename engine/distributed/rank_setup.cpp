@@ -1,0 +1,247 @@
+#include "engine/distributed/rank_setup.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/steppers/sweep_order.h"
+#include "engine/tasks/parallel_loop.h"
+#include "partition/connected_components.h"
+#include "partition/decomposition/part_of_mesh.h"
+#include "partition/decomposition/reverse_cuthill_mckee.h"
+#include "partition/errors.h"
+#include "partition/index_lists.h"
+#include "partition/inspection/mesh_inspection.h"
+#include "partition/repair/pinches.h"
+#include "solvers/laplacian/degenerate.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The sub-meshes that a rank knows, whole or in part, and which of all they are.
+std::vector<Index> known_sub_meshes(const std::vector<Index>& labels, const std::vector<OwnedSubMesh>& all)
+{
+    std::vector<Index> numbers = labels;
+    sort_unique(numbers);
+    std::vector<Index> places;
+    for (const Index number : numbers)
+        places.push_back(
+            static_cast<Index>(std::ranges::lower_bound(all, number, {}, &OwnedSubMesh::number) - all.begin()));
+    return places;
+}
+
+/// Lets labels be places among what is known.
+void localise_labels(const std::vector<KnownSubMesh>& known, std::vector<Index>& labels)
+{
+    for (Index& label : labels)
+        label = static_cast<Index>(std::ranges::lower_bound(known, label, {}, &KnownSubMesh::number) - known.begin());
+}
+
+std::vector<KnownSubMesh> describe_known(const std::vector<Index>& places, const std::vector<OwnedSubMesh>& all,
+                                         const MeshPart& part)
+{
+    std::vector<KnownSubMesh> known;
+    for (const Index place : places)
+        known.push_back({.number = all[place].number, .rank = all[place].rank});
+    for (std::size_t f = part.labels.size(); f-- > 0;) {
+        KnownSubMesh& sub_mesh = *std::ranges::lower_bound(known, part.labels[f], {}, &KnownSubMesh::number);
+        sub_mesh.faces = {part.face_numbers[f]};
+    }
+    return known;
+}
+
+/// @throws InputError where faces of this rank repeat others.
+void require_no_repeated_faces(const RankMesh& mesh)
+{
+    const PolygonMesh& faces = mesh.part.mesh;
+    const auto is_suspicious = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
+    const auto candidates = select(run_in_parallel, faces.n_faces(),
+                                   [&](Index f) { return std::ranges::any_of(faces.face(f), is_suspicious); });
+    const auto is_own_face = [&](Index f) { return mesh.is_own[mesh.part.labels[f]] != 0; };
+    for (const RepeatedFace& repeated : find_repeated_faces(faces, candidates))
+        if (is_own_face(repeated.face) || is_own_face(repeated.first))
+            throw InputError(fmt::format("face {} has the same vertices as face {} (numbered from 0): leave one of "
+                                         "them out",
+                                         mesh.part.face_numbers[repeated.face],
+                                         mesh.part.face_numbers[repeated.first]));
+}
+
+[[noreturn]] void refuse_cut(const std::string& what)
+{
+    throw InputError(what + ": take the labels that a flow of the same mesh reports, which are mended");
+}
+
+/// @throws InputError for a sub-mesh of this rank whose faces would have to be moved (see repair).
+void require_sound_cut(const RankMesh& mesh)
+{
+    const PolygonMesh& faces = mesh.part.mesh;
+    std::vector<Index> labels = mesh.part.labels;
+    const auto is_own_face = [&](Index f) { return mesh.is_own[labels[f]] != 0; };
+    const Components components = connected_components(faces.n_faces(), [&](Index f, auto&& visit) {
+        for_each_neighbour(faces, mesh.topology, f, [&](Index, Index g) {
+            if (labels[f] == labels[g])
+                visit(g);
+        });
+    });
+    std::vector<Index> n_components(mesh.known.size(), 0);
+    for (Index c = 0; c < components.count(); ++c)
+        if (const Index f = components.nodes[c].front(); is_own_face(f) && ++n_components[labels[f]] > 1)
+            refuse_cut(fmt::format("sub-mesh {}, with face {}, is not connected through edges",
+                                   mesh.known[labels[f]].number, mesh.part.face_numbers[f]));
+
+    PinchMender pinches(faces, mesh.topology, labels, static_cast<Index>(mesh.known.size()));
+    for (Index f = 0; f < faces.n_faces(); ++f)
+        for (const Index v : faces.face(f))
+            if (is_own_face(f) && may_be_pinched(faces, mesh.topology, labels, v) && pinches.pinches_at(v) > 0)
+                refuse_cut(
+                    fmt::format("a sub-mesh has several fans of faces at vertex {}", mesh.part.vertex_numbers[v]));
+}
+
+/// For each sub-mesh of all ranks, those with which it shares a vertex of Γ; places among all.
+std::vector<std::vector<Index>> gather_adjacency(Conversation& talk, const RankMesh& mesh,
+                                                 const std::vector<Index>& places, const Decomposition& decomposition,
+                                                 std::size_t n_of_all)
+{
+    struct Pair {
+        Index from;
+        Index to;
+    };
+    std::vector<Pair> own;
+    for (std::size_t s = 0; s < places.size(); ++s)
+        if (mesh.is_own[s] != 0)
+            for (const Index neighbour : decomposition.adjacency[s])
+                own.push_back({places[s], places[neighbour]});
+    std::vector<std::vector<Index>> adjacency(n_of_all);
+    for (const auto& [from, to] : talk.gather_all(own))
+        adjacency[from].push_back(to);
+    return adjacency;
+}
+
+/// Σ‖ΔV⁰‖ of each sub-mesh of all ranks.
+std::vector<double> gather_curvatures(Conversation& talk, const RankMesh& mesh, const std::vector<Index>& places,
+                                      const Decomposition& decomposition, const FlowOptions& options,
+                                      std::size_t n_of_all)
+{
+    struct Total {
+        Index place;
+        double curvature;
+    };
+    const PolygonMesh& faces = mesh.part.mesh;
+    const auto totals =
+        total_curvatures(decomposition, measure_curvature(faces, mesh.topology, faces.vertices, options.laplacian));
+    std::vector<Total> own;
+    for (std::size_t s = 0; s < places.size(); ++s)
+        if (mesh.is_own[s] != 0)
+            own.push_back({places[s], totals[s]});
+    std::vector<double> of_all(n_of_all, 0.0);
+    for (const auto& [place, curvature] : talk.gather_all(own))
+        of_all[place] = curvature;
+    return of_all;
+}
+
+/// A window that is large enough for both directions, whatever crosses Γ: as if every sub-mesh needed what all around
+/// it find. Ranks whose sub-meshes stand in this order, each with a window of at least this size, do not wait for each
+/// other in a circle: who is solved waits for factorisations of lower places than those that wait for it.
+Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const std::vector<Index>& rank,
+                        const std::vector<Index>& order)
+{
+    Index window = 1;
+    for (const auto& direction : {rank, reversed(rank)}) {
+        SweepPlan plan = empty_plan(direction);
+        for (std::size_t s = 0; s < adjacency.size(); ++s)
+            for (const Index neighbour : adjacency[s])
+                (direction[neighbour] < direction[s] ? plan.traces : plan.predictions)[s].push_back(
+                    {.from = neighbour, .to = static_cast<Index>(s), .source = {}, .target = {}});
+        window = std::max(window, least_window(plan, order));
+    }
+    return window;
+}
+
+}  // namespace
+
+std::vector<OwnedSubMesh> gather_sub_meshes(Conversation& talk, const MeshPart& part)
+{
+    std::vector<Index> numbers = part.labels;
+    sort_unique(numbers);
+    std::vector<OwnedSubMesh> own;
+    for (const Index number : numbers)
+        own.push_back({number, talk.rank()});
+    std::vector<OwnedSubMesh> all = talk.gather_all(own);
+    std::ranges::stable_sort(all, {}, &OwnedSubMesh::number);
+    const auto shared = std::ranges::adjacent_find(all, {}, &OwnedSubMesh::number);
+    if (shared != all.end())
+        throw InputError(fmt::format("sub-mesh {} has faces of rank {} and of rank {}: give all to one", shared->number,
+                                     shared->rank, std::next(shared)->rank));
+    return all;
+}
+
+BoundingBox gather_box(Conversation& talk, const PolygonMesh& mesh)
+{
+    std::vector<std::array<double, 6>> own;
+    if (mesh.n_faces() > 0) {
+        const auto [low, high] = box_of_faces(mesh);
+        own.push_back({low[0], low[1], low[2], high[0], high[1], high[2]});
+    }
+    const auto boxes = talk.gather_all(own);
+    BoundingBox all;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            all.low[c] = i == 0 ? boxes[i][c] : std::min(all.low[c], boxes[i][c]);
+            all.high[c] = i == 0 ? boxes[i][c + 3] : std::max(all.high[c], boxes[i][c + 3]);
+        }
+    return all;
+}
+
+RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const std::vector<OwnedSubMesh>& all,
+                        const Point& offset, const FlowOptions& options)
+{
+    // With two layers, all that have the vertices around those of its sub-meshes are known.
+    constexpr int layers = 2;
+    RankMesh mesh;
+    mesh.part = grown_by_layers(talk, own, layers);
+    mesh.part.mesh.vertices.rowwise() -= offset;
+    mesh.known = describe_known(known_sub_meshes(mesh.part.labels, all), all, mesh.part);
+    localise_labels(mesh.known, mesh.part.labels);
+    for (const KnownSubMesh& sub_mesh : mesh.known)
+        mesh.is_own.push_back(sub_mesh.rank == talk.rank() ? 1 : 0);
+
+    mesh.topology = make_topology(mesh.part.mesh, run_in_parallel);
+    require_no_repeated_faces(mesh);
+    require_sound_cut(mesh);
+    hold(mesh.topology,
+         select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
+    hold(mesh.topology, vertices_without_row(mesh.part.mesh, mesh.topology, options.laplacian, run_in_parallel));
+    return mesh;
+}
+
+RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, const std::vector<OwnedSubMesh>& all,
+                                   const FlowOptions& options, ForeignSubMeshes& foreign,
+                                   std::vector<Index>& rank_of_all)
+{
+    std::vector<Index> places;
+    for (const KnownSubMesh& sub_mesh : mesh.known)
+        places.push_back(static_cast<Index>(std::ranges::lower_bound(all, sub_mesh.number, {}, &OwnedSubMesh::number) -
+                                            all.begin()));
+    RankSubMeshes result;
+    result.decomposition =
+        decompose_part(mesh.part.mesh, mesh.topology, mesh.part.labels, mesh.is_own, run_in_parallel);
+    result.n_of_all_ranks = all.size();
+    result.foreign = &foreign;
+    const auto adjacency = gather_adjacency(talk, mesh, places, result.decomposition, all.size());
+    const auto curvatures = gather_curvatures(talk, mesh, places, result.decomposition, options, all.size());
+    rank_of_all = rank_sub_meshes(adjacency, options.interface.colouring, curvatures);
+    for (const Index place : places)
+        result.rank.push_back(rank_of_all[place]);
+    const std::vector<Index> order = reverse_cuthill_mckee(adjacency);
+    for (const Index place : order)
+        if (const auto found = std::ranges::lower_bound(places, place);
+            found != places.end() && *found == place &&
+            mesh.is_own[static_cast<std::size_t>(found - places.begin())] != 0)
+            result.factor_order.push_back(static_cast<Index>(found - places.begin()));
+    result.least_window = sufficient_window(adjacency, rank_of_all, order);
+    return result;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "engine/tasks/step_graph.h"
+#include "partition/decomposition/decomposition.h"
+#include "partition/decomposition/sweep_plan.h"
+#include "partition/index.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// What ranks tell each other of a sub-mesh in a sweep, each once.
+enum class News : std::uint8_t {
+    /// Vᵏ.
+    Position,
+    /// What the sub-mesh would do with Γ held.
+    Prediction,
+    /// Vᵏ⁺¹ as solved.
+    Solution,
+};
+
+/// The sub-meshes around a sweep's own that another rank looks after. Their tasks are events here: what they find
+/// arrives while the sweep runs. For all of this they have a state of their own, with the vertices that this rank knows
+/// of them.
+class ForeignSubMeshes {
+  public:
+    ForeignSubMeshes() = default;
+    ForeignSubMeshes(const ForeignSubMeshes&) = delete;
+    ForeignSubMeshes& operator=(const ForeignSubMeshes&) = delete;
+    virtual ~ForeignSubMeshes() = default;
+
+    [[nodiscard]] virtual bool is_foreign(Index s) const = 0;
+
+    /// Agrees with the other ranks on what is told; all do so together, once.
+    /// @param sweeps their plans.
+    virtual void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps) = 0;
+
+    /// Whether anything of this kind is to arrive of a foreign sub-mesh.
+    /// @param sweep the number of the plan: 0 forward, 1 backward.
+    [[nodiscard]] virtual bool awaits(News news, std::size_t sweep, Index s) const = 0;
+
+    /// Takes note of the event for which it arrives.
+    virtual void set_event(News news, std::size_t sweep, Index s, StepGraph::Node event) = 0;
+
+    /// Copies what has arrived; called by the event.
+    /// @param rows #local by 3, of the foreign sub-mesh.
+    virtual void receive(News news, Index s, Points& rows) = 0;
+
+    /// Sends the rows of an own sub-mesh that other ranks want to know. Any thread may call it, during a run.
+    virtual void send(News news, std::size_t sweep, Index s, const Points& rows) = 0;
+
+    /// Runs one sweep.
+    /// @param begin called first, when messages of this run may be sent.
+    virtual void run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,
+                     const std::function<void()>& join) = 0;
+
+    /// Runs what is done for an own sub-mesh; failures come out with its name in the whole mesh.
+    virtual void run_for(Index s, const std::function<void()>& body) const = 0;
+};
+
+}  // namespace seamflow

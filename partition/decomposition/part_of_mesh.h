@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "partition/decomposition/decomposition.h"
+
+namespace seamflow {
+
+/// Cuts a part of a mesh into those of its sub-meshes that it has as a whole. Of the others, the fragments, there are
+/// the faces that the part has, and their vertices; fragments have no Γ, own nothing and receive nothing. Everything
+/// else is as in the decomposition of the whole mesh, numbers apart, if those of the part are in the same order. Only,
+/// where a fragment would own a vertex, the lowest of the whole sub-meshes that have it does.
+/// @param labels #F, each in 0 to #sub-meshes - 1, every value used.
+/// @param is_whole #sub-meshes: 1 where the part has all faces, all faces around their vertices, and all faces around
+///        the vertices of these.
+Decomposition decompose_part(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
+                             std::span<const std::uint8_t> is_whole, const Loop& loop = run_serially);
+
+}  // namespace seamflow

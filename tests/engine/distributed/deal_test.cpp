@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/distributed/deal.h"
+#include "engine/distributed/thread_communicator.h"
+#include "partition/errors.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+/// What rank of n reads, if each reads as many faces and vertices.
+RankSlice slice_of(const PolygonMesh& mesh, const std::vector<Index>& labels, int rank, int n)
+{
+    RankSlice slice;
+    const auto bound = [n](Index all, int r) { return static_cast<Index>(std::int64_t{all} * r / n); };
+    const Index first = bound(mesh.n_vertices(), rank);
+    slice.vertices = mesh.vertices.middleRows(first, bound(mesh.n_vertices(), rank + 1) - first);
+    for (Index f = bound(mesh.n_faces(), rank); f < bound(mesh.n_faces(), rank + 1); ++f) {
+        slice.corners.insert(slice.corners.end(), mesh.face(f).begin(), mesh.face(f).end());
+        slice.face_offsets.push_back(static_cast<Index>(slice.corners.size()));
+        slice.labels.push_back(labels[f]);
+    }
+    return slice;
+}
+
+}  // namespace
+
+TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as much")
+{
+    PolygonMesh mesh = make_mixed_polygons(2000);
+    // Two vertices without faces.
+    mesh.vertices.conservativeResize(mesh.n_vertices() + 2, 3);
+    mesh.vertices.bottomRows(2).setConstant(7.0);
+    constexpr Index n_labels = 40;
+    const std::vector<Index> labels = test::random_labels(mesh.n_faces(), n_labels, 3);
+    for (const int n : {1, 2, 3, 5, 8}) {
+        CAPTURE(n);
+        std::mutex mutex;
+        std::vector<int> seen(mesh.n_faces(), 0);
+        std::map<Index, int> rank_of;
+        run_on_threads(n, [&](Communicator& communicator) {
+            run_together(communicator, [&](Conversation& talk) {
+                RankSlice slice = slice_of(mesh, labels, talk.rank(), n);
+                MeshPart part = deal(talk, slice);
+                require_valid(part);
+                const std::scoped_lock lock(mutex);
+                CHECK(part.mesh.n_corners() < 1.6 * mesh.n_corners() / n);
+                CHECK(part.mesh.n_corners() > 0.5 * mesh.n_corners() / n);
+                for (Index f = 0; f < part.mesh.n_faces(); ++f) {
+                    const auto number = static_cast<Index>(part.face_numbers[f]);
+                    ++seen[number];
+                    CHECK(part.labels[f] == labels[number]);
+                    CHECK(rank_of.emplace(labels[number], talk.rank()).first->second == talk.rank());
+                    const auto expected = mesh.face(number);
+                    const auto corners = part.mesh.face(f);
+                    REQUIRE(corners.size() == expected.size());
+                    for (std::size_t k = 0; k < corners.size(); ++k) {
+                        CHECK(part.vertex_numbers[corners[k]] == expected[k]);
+                        CHECK(Point(part.mesh.vertices.row(corners[k])) == Point(mesh.vertices.row(expected[k])));
+                    }
+                }
+            });
+        });
+        CHECK(std::ranges::all_of(seen, [](int times) { return times == 1; }));
+        CHECK(std::ranges::is_sorted(rank_of, {}, [](const auto& label_and_rank) { return label_and_rank.second; }));
+    }
+}
+
+TEST_CASE("positions come back to where they were read")
+{
+    PolygonMesh mesh = make_triangles(1000);
+    mesh.vertices.conservativeResize(mesh.n_vertices() + 1, 3);
+    mesh.vertices.bottomRows(1).setConstant(7.0);
+    const std::vector<Index> labels = test::random_labels(mesh.n_faces(), 20, 5);
+    for (const int n : {1, 3, 5})
+        run_on_threads(n, [&](Communicator& communicator) {
+            run_together(communicator, [&](Conversation& talk) {
+                RankSlice slice = slice_of(mesh, labels, talk.rank(), n);
+                MeshPart part = deal(talk, slice);
+                part.mesh.vertices *= 2.0;
+                collect_positions(talk, part, slice);
+                PolygonMesh moved = mesh;
+                moved.vertices.topRows(mesh.n_vertices() - 1) *= 2.0;
+                CHECK(test::same_bits(slice.vertices, slice_of(moved, labels, talk.rank(), n).vertices));
+            });
+        });
+}
+
+TEST_CASE("a corner that is none of the mesh's vertices is named on all ranks")
+{
+    const PolygonMesh mesh = make_triangles(300);
+    const std::vector<Index> labels(mesh.n_faces(), 0);
+    run_on_threads(3, [&](Communicator& communicator) {
+        std::string message;
+        try {
+            run_together(communicator, [&](Conversation& talk) {
+                RankSlice slice = slice_of(mesh, labels, talk.rank(), 3);
+                if (talk.rank() == 1)
+                    slice.corners[4] = mesh.n_vertices();
+                deal(talk, slice);
+            });
+        } catch (const InputError& error) {
+            message = error.what();
+        }
+        const std::string face = std::to_string(mesh.n_faces() / 3 + 1);
+        CHECK(message.starts_with("rank 1 on this process: face " + face + " (numbered from 0) names vertex "));
+    });
+}

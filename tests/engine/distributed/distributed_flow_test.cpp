@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/thread_communicator.h"
+#include "partition/errors.h"
+#include "tests/engine/distributed/parts.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+/// A mesh and the cut of a flow on one machine, whose result it has.
+struct Example {
+    std::string name;
+    PolygonMesh mesh;
+    FlowOptions options;
+    std::vector<Index> fixed = {};
+};
+
+struct Result {
+    Points positions;
+    std::vector<RankReport> reports;
+};
+
+/// The mesh after a flow on n ranks with these labels. Vertices that several ranks have are the same at all of them.
+Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels, Index n_sub_meshes, int n)
+{
+    Result result{example.mesh.vertices, std::vector<RankReport>(n)};
+    std::vector<std::uint8_t> is_written(example.mesh.n_vertices(), 0);
+    std::mutex mutex;
+    run_on_threads(n, [&](Communicator& communicator) {
+        MeshPart part = test::part_of(example.mesh, labels, n_sub_meshes, communicator.rank(), n, example.fixed);
+        result.reports[communicator.rank()] = distributed_mean_curvature_flow(communicator, part, example.options);
+        const std::scoped_lock lock(mutex);
+        for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
+            const auto number = static_cast<Index>(part.vertex_numbers[v]);
+            const Point position = part.mesh.vertices.row(static_cast<Index>(v));
+            if (is_written[number] != 0)
+                CHECK(Point(result.positions.row(number)) == position);
+            result.positions.row(number) = position;
+            is_written[number] = 1;
+        }
+    });
+    return result;
+}
+
+/// Compares with the flow on one machine, for each of these numbers of ranks.
+void check_bits(const Example& example, int subdomains, const std::vector<int>& n_ranks)
+{
+    CAPTURE(example.name);
+    PolygonMesh mesh = example.mesh;
+    FlowOptions options = example.options;
+    options.cut.subdomains = subdomains;
+    options.motion.fixed_vertices = example.fixed;
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    const Index n_sub_meshes = report.cut.n_sub_meshes();
+    REQUIRE(n_sub_meshes > 1);
+    for (const int n : n_ranks) {
+        CAPTURE(n);
+        const Result result = flowed_on_ranks(example, report.cut.labels, n_sub_meshes, n);
+        CHECK(test::same_bits(result.positions, mesh.vertices));
+        for (const RankReport& rank : result.reports) {
+            CHECK(rank.sub_meshes == n_sub_meshes);
+            CHECK(rank.colours == report.cut.n_colours());
+            CHECK(rank.interface_vertices == report.cut.interface_vertices);
+            CHECK(rank.steps.size() == report.steps.size());
+        }
+    }
+}
+
+FlowOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 3)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = time_step;
+    options.steps = steps;
+    options.accuracy.approach = Approach::Sweep;
+    options.resources.threads = 1;
+    return options;
+}
+
+const std::vector<int> some_numbers_of_ranks{1, 2, 3, 5, 8};
+
+/// What every rank throws.
+template <class Error>
+void check_refusal(const std::function<void(Communicator&)>& body, int n, const std::string& expected)
+{
+    CAPTURE(expected);
+    run_on_threads(n, [&](Communicator& communicator) {
+        std::string message;
+        try {
+            body(communicator);
+        } catch (const Error& error) {
+            message = error.what();
+        }
+        CAPTURE(message);
+        CHECK(message.find(expected) != std::string::npos);
+    });
+}
+
+}  // namespace
+
+TEST_CASE("ranks find the bits of one machine: open surfaces of any polygons, every Laplacian")
+{
+    for (const PolygonMesh& mesh : test::height_fields(900))
+        for (const Laplacian laplacian : test::all_laplacians)
+            check_bits({std::string(name_of(laplacian)), mesh, by_sweeps(laplacian, 2e-3)}, 12, {1, 3, 8});
+}
+
+TEST_CASE("ranks find the bits of one machine: closed, not orientable, of several components, with any number of ranks")
+{
+    const FlowOptions options = by_sweeps(Laplacian::Fujiwara, 3e-2);
+    check_bits({"torus", test::triangle_torus(30, 24), options}, 9, some_numbers_of_ranks);
+    check_bits({"quads", test::quad_torus(24, 24), options}, 8, some_numbers_of_ranks);
+    check_bits({"band", test::moebius_band(60, 8), options}, 7, some_numbers_of_ranks);
+    check_bits({"sphere", make_noisy_sphere(1500), by_sweeps(Laplacian::AlexaWardetzky, 1e-3)}, 16,
+               some_numbers_of_ranks);
+    check_bits({"three", test::side_by_side({test::triangle_torus(16, 12), make_hexagons(500), test::cylinder(12, 20)}),
+                options},
+               10, some_numbers_of_ranks);
+    // Fewer sub-meshes than ranks: some have nothing.
+    check_bits({"two", make_triangles(600), options}, 2, some_numbers_of_ranks);
+}
+
+TEST_CASE("ranks find the bits of one machine: vertices held, not manifold, far from the origin")
+{
+    const FlowOptions options = by_sweeps(Laplacian::Fujiwara, 1e-2);
+    PolygonMesh far = make_mixed_polygons(700);
+    far.vertices.rowwise() += Point(1e6, -3e5, 1e7);
+    check_bits({"far", far, options}, 8, {1, 3, 5});
+    Example held{"held", make_triangles(700), options};
+    for (Index v = 0; v < held.mesh.n_vertices(); v += 13)
+        held.fixed.push_back(v);
+    check_bits(held, 8, {1, 3, 5});
+    // Two sheets with a seam of four faces at each edge.
+    PolygonMesh crossed = make_triangles(400);
+    const Index n = crossed.n_vertices();
+    PolygonMesh other = crossed;
+    crossed.vertices.conservativeResize(2 * n, 3);
+    for (Index v = 0; v < n; ++v)
+        crossed.vertices.row(n + v) = crossed.vertices.row(v) + Eigen::RowVector3d(0.0, 0.0, 1.0);
+    for (Index f = 0; f < other.n_faces(); ++f) {
+        std::vector<Index> corners;
+        for (const Index v : other.face(f))
+            corners.push_back(v % 20 == 0 ? v : v + n);
+        crossed.add_face(corners);
+    }
+    check_bits({"crossed", crossed, options}, 8, {1, 3, 5});
+}
+
+TEST_CASE("ranks find the bits of one machine: other conditions, terms and orders of the sweep, any number of threads")
+{
+    const PolygonMesh mesh = make_mixed_polygons(900);
+    const FlowOptions defaults = by_sweeps(Laplacian::VirtualRefinement, 2e-3);
+    FlowOptions options = defaults;
+    options.interface.transmission = Transmission::Derivative;
+    check_bits({"derivative", mesh, options}, 10, {1, 3, 5});
+    options = defaults;
+    options.interface.conditions = Conditions::AdaptedVentcell;
+    options.interface.q = 0.1;
+    options.interface.sweep = Sweep::Fixed;
+    check_bits({"Ventcell", mesh, options}, 10, {1, 3, 5});
+    options = defaults;
+    options.filter = Filter::LowPass;
+    options.motion.attachment = 0.3;
+    check_bits({"low-pass", mesh, options}, 10, {1, 3, 5});
+    options = defaults;
+    options.flow = FlowEquation::Conformalized;
+    options.interface.colouring = Colouring::Label;
+    options.interface.correction = Correction::None;
+    check_bits({"conformalized", mesh, options}, 10, {1, 3, 5});
+    for (const int threads : {2, 3}) {
+        options = defaults;
+        options.resources.threads = threads;
+        check_bits({"threads", mesh, options}, 20, {1, 3, 5});
+    }
+}
+
+TEST_CASE("ranks do not wait for each other in a circle where memory is scarce")
+{
+    Example example{"scarce", make_triangles(2500), by_sweeps(Laplacian::Fujiwara, 1e-3, 4)};
+    std::size_t limit = 20'000;
+    for (bool is_refused = true; is_refused; limit += limit / 5) {
+        REQUIRE(limit < 100'000'000);
+        example.options.resources.memory_limit = limit;
+        try {
+            check_bits(example, 40, {3});
+            is_refused = false;
+        } catch (const OptionError&) {
+            continue;
+        }
+    }
+    check_bits(example, 40, {1, 2, 5, 8});
+}
+
+TEST_CASE("a failure on one rank ends all with one message")
+{
+    const PolygonMesh mesh = make_triangles(600);
+    PolygonMesh cut = mesh;
+    FlowOptions options = by_sweeps(Laplacian::Fujiwara, 1e-3);
+    options.cut.subdomains = 6;
+    const std::vector<Index> labels = mean_curvature_flow(cut, options).cut.labels;
+    options.cut.subdomains = 0;
+    const auto flow = [&](const FlowOptions& with, const std::vector<Index>& from,
+                          const std::function<void(MeshPart&, int)>& change = {}) {
+        return [&mesh, with, from, change](Communicator& communicator) {
+            MeshPart part = test::part_of(mesh, from, 6, communicator.rank(), 3);
+            if (change)
+                change(part, communicator.rank());
+            const Points before = part.mesh.vertices;
+            const auto check_unmoved = [&] { CHECK(test::same_bits(part.mesh.vertices, before)); };
+            try {
+                distributed_mean_curvature_flow(communicator, part, with);
+            } catch (...) {
+                check_unmoved();
+                throw;
+            }
+        };
+    };
+    // A step that throws vertices too far, which single ranks find.
+    FlowOptions tight = options;
+    tight.accuracy.largest_update = 1e-9;
+    check_refusal<ComputationError>(flow(tight, labels), 3, "step 1, sub-mesh ");
+    // Options.
+    FlowOptions converged = options;
+    converged.accuracy.approach = Approach::Converged;
+    check_refusal<OptionError>(flow(converged, labels), 3, "approach has to be sweep");
+    // What one rank alone has wrong.
+    const auto spoil = [](MeshPart& part, int rank) {
+        if (rank == 1)
+            part.mesh.vertices(0, 0) = std::numeric_limits<double>::quiet_NaN();
+    };
+    check_refusal<InputError>(flow(options, labels, spoil), 3, "rank 1 on this process: ");
+    const auto shuffle = [](MeshPart& part, int rank) {
+        if (rank == 2)
+            std::swap(part.face_numbers[3], part.face_numbers[4]);
+    };
+    check_refusal<InputError>(flow(options, labels, shuffle), 3, "rank 2 on this process: the numbers of a part");
+    const auto share = [](MeshPart& part, int rank) {
+        if (rank == 2)
+            part.labels[0] = 0;
+    };
+    check_refusal<InputError>(flow(options, labels, share), 3, "sub-mesh 0 has faces of rank 0 and of rank 2");
+    // Two faces that belong elsewhere, which leaves sub-meshes in pieces or pinched.
+    std::vector<Index> torn = labels;
+    const auto first = std::ranges::find(torn, 2);
+    const auto last = std::find(torn.rbegin(), torn.rend(), 3);
+    *first = 3;
+    *last = 2;
+    check_refusal<InputError>(flow(options, torn), 3, "take the labels that a flow of the same mesh reports");
+    // The same face twice, at different ranks.
+    PolygonMesh repeated = mesh;
+    std::vector<Index> of_repeated = labels;
+    const auto again = mesh.face(static_cast<Index>(std::ranges::find(labels, 0) - labels.begin()));
+    repeated.add_face(std::vector<Index>(again.begin(), again.end()));
+    of_repeated.push_back(5);
+    check_refusal<InputError>(
+        [&](Communicator& communicator) {
+            MeshPart part = test::part_of(repeated, of_repeated, 6, communicator.rank(), 3);
+            distributed_mean_curvature_flow(communicator, part, options);
+        },
+        3, "has the same vertices as face");
+}

@@ -1,0 +1,57 @@
+// Checks ranks that are processes of MPI; each of them runs this program (mpirun -n R mpi_ranks).
+
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/mpi_communicator.h"
+#include "tests/engine/distributed/parts.h"
+#include "tests/engine/distributed/rank_checks.h"
+#include "tests/support/flows.h"
+
+namespace {
+
+seamflow::Communicator* communicator = nullptr;
+
+}  // namespace
+
+TEST_CASE("ranks of MPI hear each other")
+{
+    seamflow::test::check_collectives(*communicator);
+    seamflow::test::check_arrivals(*communicator);
+    seamflow::test::check_failures(*communicator);
+}
+
+TEST_CASE("ranks of MPI find the bits of one machine")
+{
+    using namespace seamflow;
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    FlowOptions options;
+    options.time_step = 1e-3;
+    options.steps = 4;
+    options.accuracy.approach = Approach::Sweep;
+    options.resources.threads = 2;
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::VirtualRefinement}) {
+        options.laplacian = laplacian;
+        options.cut.subdomains = 24;
+        PolygonMesh expected = mesh;
+        const FlowReport report = mean_curvature_flow(expected, options);
+        options.cut.subdomains = 0;
+        MeshPart part = test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), communicator->rank(),
+                                      communicator->size());
+        const RankReport own = distributed_mean_curvature_flow(*communicator, part, options);
+        CHECK(own.colours == report.cut.n_colours());
+        for (const RankStepReport& step : own.steps)
+            CHECK((step.messages > 0) == (communicator->size() > 1));
+        const std::vector<Index> numbers(part.vertex_numbers.begin(), part.vertex_numbers.end());
+        CHECK(test::same_bits(part.mesh.vertices, expected.vertices(numbers, Eigen::all)));
+    }
+}
+
+int main(int argc, char** argv)
+{
+    // Longer messages go in pieces.
+    const auto world = seamflow::make_mpi_communicator(10'000);
+    communicator = world.get();
+    return doctest::Context(argc, argv).run();
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/distributed/mesh_part.h"
+#include "partition/index_lists.h"
+
+namespace seamflow::test {
+
+/// The part of a mesh that a rank of n has when sub-meshes are dealt contiguously: some of them with all their faces.
+/// @param labels #F, from 0 to n_sub_meshes - 1.
+/// @param fixed vertices that stay.
+inline MeshPart part_of(const PolygonMesh& mesh, const std::vector<Index>& labels, Index n_sub_meshes, int rank, int n,
+                        const std::vector<Index>& fixed = {})
+{
+    const auto is_own = [&](Index label) { return static_cast<std::int64_t>(label) * n / n_sub_meshes == rank; };
+    std::vector<Index> vertices;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (is_own(labels[f]))
+            vertices.insert(vertices.end(), mesh.face(f).begin(), mesh.face(f).end());
+    sort_unique(vertices);
+    MeshPart part;
+    part.mesh.vertices = mesh.vertices(vertices, Eigen::all);
+    part.vertex_numbers.assign(vertices.begin(), vertices.end());
+    for (const Index v : vertices)
+        part.fixed.push_back(std::ranges::find(fixed, v) != fixed.end() ? 1 : 0);
+    std::vector<Index> corners;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        if (!is_own(labels[f]))
+            continue;
+        corners.clear();
+        for (const Index v : mesh.face(f))
+            corners.push_back(static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin()));
+        part.mesh.add_face(corners);
+        part.face_numbers.push_back(f);
+        part.labels.push_back(labels[f]);
+    }
+    return part;
+}
+
+}  // namespace seamflow::test

@@ -1,0 +1,124 @@
+// Flows that ranks share, as threads, with a failure at one of them: all end, with the same message, and nothing moves.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/thread_communicator.h"
+#include "engine/mean_curvature_flow.h"
+#include "tests/engine/distributed/parts.h"
+#include "tests/faults/every_allocation.h"
+#include "tests/faults/failing_work.h"
+#include "tests/faults/small_runs.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+/// A small mesh that two ranks share.
+struct SharedFlow {
+    FlowOptions options;
+    std::vector<MeshPart> before;
+    std::vector<MeshPart> parts;
+
+    SharedFlow()
+    {
+        options.time_step = 1e-3;
+        options.steps = 3;
+        options.accuracy.approach = Approach::Sweep;
+        options.resources.threads = 1;
+        const PolygonMesh mesh = test::small_mesh();
+        PolygonMesh cut = mesh;
+        options.cut.subdomains = 3;
+        const FlowReport report = mean_curvature_flow(cut, options);
+        options.cut.subdomains = 0;
+        for (int rank = 0; rank < 2; ++rank)
+            before.push_back(test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), rank, 2));
+        parts = before;
+    }
+
+    void run()
+    {
+        for (std::size_t r = 0; r < parts.size(); ++r)
+            parts[r].mesh.vertices = before[r].mesh.vertices;
+        run_on_threads(2, [&](Communicator& communicator) {
+            distributed_mean_curvature_flow(communicator, parts[communicator.rank()], options);
+        });
+    }
+
+    /// @returns what both ranks throw, which is the same; empty: nothing.
+    std::string failure()
+    {
+        std::vector<std::string> thrown(2);
+        for (std::size_t r = 0; r < parts.size(); ++r)
+            parts[r].mesh.vertices = before[r].mesh.vertices;
+        run_on_threads(2, [&](Communicator& communicator) {
+            try {
+                distributed_mean_curvature_flow(communicator, parts[communicator.rank()], options);
+            } catch (const ComputationError& error) {
+                thrown[communicator.rank()] = error.what();
+            }
+        });
+        CHECK(thrown[0] == thrown[1]);
+        return thrown[0];
+    }
+
+    void check_unmoved() const
+    {
+        for (std::size_t r = 0; r < parts.size(); ++r)
+            CHECK(test::same_bits(parts[r].mesh.vertices, before[r].mesh.vertices));
+    }
+
+    [[nodiscard]] std::string result() const
+    {
+        std::string bytes;
+        for (const MeshPart& part : parts)
+            bytes.append(reinterpret_cast<const char*>(part.mesh.vertices.data()),
+                         static_cast<std::size_t>(part.mesh.vertices.size()) * sizeof(double));
+        return bytes;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("every allocation of a flow that ranks share")
+{
+    SharedFlow flow;
+    test::fail_every_allocation({.run = [&] { flow.run(); },
+                                 .result = [&] { return flow.result(); },
+                                 .check_failed = [&] { flow.check_unmoved(); },
+                                 .most_lost = 100,
+                                 .ways = {test::Failing::Once}});
+}
+
+TEST_CASE("every task of ranks, in its first run and in its second")
+{
+    SharedFlow flow;
+    for (const int run : {1, 2}) {
+        int task = 1;
+        for (bool has_failed = true; has_failed; ++task) {
+            CAPTURE(task);
+            const test::FailingTask failing(task, run);
+            const std::string thrown = flow.failure();
+            has_failed = failing.has_failed();
+            CHECK(thrown.empty() != has_failed);
+            if (has_failed)
+                flow.check_unmoved();
+        }
+        CHECK(task > 6);
+    }
+}
+
+TEST_CASE("factorisations of ranks, each with all after it")
+{
+    SharedFlow flow;
+    for (int n = 1; n <= 6; ++n) {
+        CAPTURE(n);
+        const test::FailingFactorisation failing(n, test::FailingFactorisation::After::Fails);
+        const std::string thrown = flow.failure();
+        CHECK(thrown.find(n <= 3 ? "step 1, sub-mesh " : "step 2, sub-mesh ") != std::string::npos);
+        flow.check_unmoved();
+    }
+}
