@@ -150,10 +150,11 @@ void require_valid_flow(const FlowOptions& options)
                                       name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.scheme == Scheme::ExplicitEuler)
         throw OptionError(asked + ", which is for backward Euler steps: leave out the explicit scheme");
-    if (options.accuracy.approach == Approach::ConjugateGradients)
+    const bool is_only_attached = options.flow == FlowEquation::MeanCurvature && options.filter == Filter::Diffusion;
+    if (options.accuracy.approach == Approach::ConjugateGradients && !is_only_attached)
         throw OptionError(asked +
-                          ", but approach is by conjugate gradients, which take plain mean curvature flow alone: "
-                          "leave the approach automatic");
+                          ", but approach is by conjugate gradients, which take mean curvature flow, attached or not, "
+                          "alone: leave the approach automatic");
     if (options.filter == Filter::LowPass && !predicts(options))
         throw OptionError("filter is low-pass, which sweeps take with adapted Robin conditions and predicted "
                           "transmission alone: leave out other conditions, the derivatives, and p");

@@ -305,7 +305,7 @@ struct FlowOptions {
 bool is_classical(Conditions conditions);
 
 /// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ. Conjugate
-/// gradients on the whole mesh are for such flows alone.
+/// gradients on the whole mesh are for such flows, with an attachment where they are asked for.
 bool is_plain_flow(const FlowOptions& options);
 
 /// Whether sub-meshes tell each other in a sweep what they would do.

@@ -108,7 +108,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         mesh.n_faces() == 0)
         return {};
     if (options.accuracy.approach == Approach::Automatic && !is_plain_flow(options) && !speaks_of_sub_meshes(options))
-        return {loose_tolerance, "single sweeps would leave more, and conjugate gradients do not know this flow"};
+        return {loose_tolerance, "single sweeps would leave more"};
     if (is_long(options, size))
         return {loose_tolerance, "steps as long as these would stray in single sweeps"};
     if (options.cut.subdomains > 0 &&

@@ -1,12 +1,14 @@
 #include "engine/steppers/conjugate_gradient_stepper.h"
 
+#include "engine/setup/sub_mesh_options.h"
+
 namespace seamflow {
 
 ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, const Topology& topology,
                                                    const FlowOptions& options, Progress& progress)
     : ConvergedStepper(mesh, 0, options, 1.0, progress)
     , mesh_(&mesh)
-    , system_(mesh, topology, options.laplacian, progress.loop())
+    , system_(mesh, topology, options.laplacian, terms_of(options, mesh.vertices), progress.loop())
 {
 }
 

@@ -238,7 +238,7 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
 }  // namespace
 
 WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                                 const Loop& loop)
+                                 const FlowTerms& terms, const Loop& loop)
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
@@ -249,6 +249,14 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     , before_(mesh.n_vertices(), 3)
 {
     for_each(loop, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
+    if (!terms.attaches())
+        return;
+    attachments_.resize(moves_.size());
+    first_.resize(mesh.n_vertices(), 3);
+    for_each(loop, matrix_.n_rows(), [&](Index i) {
+        attachments_[i] = terms.weight(blocks_.values[i]);
+        first_.row(i) = terms.first->row(blocks_.values[i]);
+    });
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
@@ -277,7 +285,12 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
-            diagonal += units_.mass * mass;
+            diagonal += units_.mass * mass * (1.0 + attachment(i));
+            if (attachment(i) > 0.0) {
+                const Point pull = units_.mass * mass * attachment(i) * (first_.row(i) - here);
+                residual += pull;
+                size.head<3>() += pull.array().abs().transpose();
+            }
             matrix_.set_diagonal(i, static_cast<float>(diagonal));
             matrix_.residual(i) = to_row(units_.length * residual);
             Sums result;
@@ -290,7 +303,8 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
     return {.rounding = unit * unit * sums.head<4>(), .residual = sums.tail<4>()};
 }
 
-/// residual = -dt K V' - M (V' - V) of the positions V' after the step so far, the weights being those of V.
+/// residual = -dt K V' - M (V' - V), and dt M w (V⁰ - V') if it is attached, of the positions V' after the step so far,
+/// the weights being those of V.
 /// @returns the sum of its squares, each over the diagonal.
 double WholeMeshSystem::measure(const Points& before, const Loop& loop)
 {
@@ -306,7 +320,10 @@ double WholeMeshSystem::measure(const Points& before, const Loop& loop)
             Point residual = Point::Zero();
             const double mass = visit(
                 place, [&](auto&&, Index j, double k) { residual -= units_.stiffness * k * (after_.row(j) - there); });
-            residual = units_.length * (residual - units_.mass * mass * (there - before_.row(i)));
+            residual -= units_.mass * mass * (there - before_.row(i));
+            if (attachment(i) > 0.0)
+                residual += units_.mass * mass * attachment(i) * (first_.row(i) - there);
+            residual *= units_.length;
             matrix_.residual(i) = to_row(residual);
             return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
         });
@@ -335,6 +352,7 @@ double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
 WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
                                               Points& after, const Loop& loop)
 {
+    time_step_ = time_step;
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};

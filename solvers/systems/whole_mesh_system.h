@@ -10,6 +10,7 @@
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/krylov/stopping_criterion.h"
+#include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
 #include "solvers/systems/block_row_matrix.h"
 
@@ -18,12 +19,15 @@ namespace seamflow {
 /// The backward Euler step of a whole mesh, (M + dt K)(Vᵏ⁺¹ - Vᵏ) = -dt K Vᵏ, by conjugate gradients: no sub-meshes, no
 /// factorisation. The matrix and the vectors of an iteration are in single precision; the residual is measured anew in
 /// double precision, from the geometry, so that rounding limits no tolerance. Three columns are iterated at once. Sums
-/// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians.
+/// are taken in a fixed order: the bits do not depend on how loops are run. For symmetric Laplacians. With an
+/// attachment to V⁰ there is dt M w more on the diagonal, and dt M w (V⁰ - Vᵏ) on the right-hand side.
 class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
+    /// @param terms of which K must follow the surface.
     /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for a Laplacian without symmetry.
-    WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop);
+    WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const FlowTerms& terms,
+                    const Loop& loop);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
     WholeMeshSystem& operator=(const WholeMeshSystem&) = delete;
 
@@ -64,20 +68,26 @@ class WholeMeshSystem {
 
     Sizes assemble(const Points& before, const Loop& loop);
     double measure(const Points& before, const Loop& loop);
+    /// dt w of a row.
+    [[nodiscard]] double attachment(Index i) const { return attachments_.empty() ? 0.0 : time_step_ * attachments_[i]; }
     PassStart start_pass(double squared, const Loop& loop);
     static double distance_after(const BlockRowMatrix::Result& pass);
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
     Laplacian laplacian_;
-    /// That of this step.
+    /// Those of this step.
     Units units_;
+    double time_step_ = 0.0;
     /// The vertices of rows, by blocks; and the rows of vertices.
     IndexLists blocks_;
     std::vector<Index> row_of_;
     BlockRowMatrix matrix_;
     /// By rows: whether they move, where they are before the step, and after it so far if the residual is renewed.
     std::vector<std::uint8_t> moves_;
+    /// With an attachment, by rows: w, and V⁰.
+    std::vector<double> attachments_;
+    Points first_ = Points(0, 3);
     Points before_;
     Points after_;
 };

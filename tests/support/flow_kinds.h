@@ -50,6 +50,10 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         add(std::string(name_of(laplacian)) + " by conjugate gradients", [&](FlowOptions& o) {
             o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
         });
+    add("attached, by conjugate gradients", [&](FlowOptions& o) {
+        o.motion.attachment = 0.1 / (edge * edge);
+        o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
+    });
     for (const bool is_converged : {false, true}) {
         const auto add_further = [&](const std::string& name, auto change) {
             add(name + (is_converged ? ", converged" : ", by sweeps"), [&](FlowOptions& o) {

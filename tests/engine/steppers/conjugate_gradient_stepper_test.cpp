@@ -62,6 +62,29 @@ TEST_CASE("conjugate gradients take the undecomposed step, in double precision, 
             }
 }
 
+TEST_CASE("attached flows by conjugate gradients are the undecomposed ones, with a weight for each vertex, too")
+{
+    for (const PolygonMesh& mesh : meshes())
+        for (const Laplacian laplacian : test::symmetric_laplacians)
+            for (const bool has_weights : {false, true}) {
+                CAPTURE(name_of(laplacian));
+                FlowOptions options = by_conjugate_gradients(laplacian, 1e-10);
+                options.motion.fixed_vertices = {7, 31};
+                const Points unattached = flowed(mesh, options);
+                if (has_weights)
+                    for (Index v = 0; v < mesh.n_vertices(); ++v)
+                        options.motion.attachment_weights.push_back(v % 3 == 0 ? 0.0 : 1000.0 * (v % 5));
+                else
+                    options.motion.attachment = 300.0;
+                const Points expected = flowed(mesh, undecomposed(options));
+                const Points result = flowed(mesh, options);
+                CHECK(test::largest_difference(result, expected) < 1e-9);
+                CHECK(test::largest_difference(result, unattached) > 1e-3);
+                options.resources.threads = 3;
+                CHECK(test::same_bits(flowed(mesh, options), result));
+            }
+}
+
 TEST_CASE("without a tolerance conjugate gradients leave less than sub-meshes do by their own choice")
 {
     for (const PolygonMesh& mesh : {make_triangles(9000), make_hexagons(9000), make_mixed_polygons(9000)})
