@@ -30,7 +30,7 @@ struct KnownSubMesh {
 /// news and rank that waits for it. A thread of its own receives them, and lets the tasks begin that waited.
 class RankExchange final : public ForeignSubMeshes {
   public:
-    /// @param talk, part must outlive this. @param part what the rank knows of the mesh, which is decomposed into
+    /// @param talk, part what the rank knows of the mesh; both must outlive this.
     /// @param known all sub-meshes that the rank knows, ascending.
     RankExchange(Conversation& talk, const MeshPart& part, std::vector<KnownSubMesh> known);
 

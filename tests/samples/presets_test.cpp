@@ -68,13 +68,13 @@ TEST_CASE("reports name the flow that was taken")
 {
     const Workshop w;
     REQUIRE(w.run(GENERATE " noisy-sphere sphere.obj --vertices 1000") == 0);
-    REQUIRE(w.smooth("sphere.obj out.obj --keep-edges 25 --time-step-edges 8 --report report.json") == 0);
+    REQUIRE(w.smooth("sphere.obj out.obj --verbose --keep-edges 25 --time-step-edges 8 --report report.json") == 0);
     CHECK(w.said().find("flow       edges sharper than 25 degrees kept, time step") != std::string::npos);
     CHECK(w.json("report.json")["keep_edges"] == 25.0);
     CHECK(!w.json("report.json").contains("approach"));
     CHECK(w.json("report.json")["rescale"] == "none");
     REQUIRE(w.smooth("sphere.obj out.obj --flow conformalized --filter low-pass --laplacian virtual-refinement "
-                     "--attach 0.5 --rescale volume --time-step-edges 8 --report report.json") == 0);
+                     "--attach 0.5 --rescale volume --time-step-edges 8 --verbose --report report.json") == 0);
     CHECK(w.said().find("virtual-refinement, conformalized, low-pass, attached with 4 / length², volume kept, time") !=
           std::string::npos);
     CHECK(w.json("report.json")["rescale"] == "volume");
