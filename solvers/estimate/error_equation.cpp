@@ -13,18 +13,20 @@ namespace seamflow {
 namespace {
 
 /// How many vertices of Γ are taken together, whatever the loop.
-constexpr Index block = 1024;
+constexpr Index vertices_per_block = 1024;
 
 Index n_blocks(Index n)
 {
-    return n / block + (n % block > 0 ? 1 : 0);
+    return n / vertices_per_block + (n % vertices_per_block > 0 ? 1 : 0);
 }
 
 /// Runs body(number, begin, end) for each block.
 template <class Body>
 void for_each_part(const Loop& loop, Index n, Body&& body)
 {
-    for_each(loop, n_blocks(n), [&](Index number) { body(number, number * block, std::min(n, (number + 1) * block)); });
+    for_each(loop, n_blocks(n), [&](Index number) {
+        body(number, number * vertices_per_block, std::min(n, (number + 1) * vertices_per_block));
+    });
 }
 
 /// Runs body(i).
