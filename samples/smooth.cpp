@@ -27,12 +27,11 @@
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
-#include "partition/metrics/noise.h"
+#include "samples/common/flow_run.h"
 #include "samples/common/interruption.h"
 #include "samples/common/launched_processes.h"
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
-#include "samples/common/noise_removal.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -45,51 +44,21 @@ using namespace seamflow;
 namespace {
 
 /// What the command line leaves to be taken from the input.
-void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const MeshScale& scale)
+void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
 {
     if (!command.labels.empty())
         command.options.cut.labels = read_labels(command.labels, mesh.n_faces());
-    if (!command.fix.empty())
-        command.options.motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
     MotionOptions& motion = command.options.motion;
+    if (!command.fix.empty())
+        motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
     if (!command.attach_weights.empty())
         motion.attachment_weights =
             read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
     try {
-        if (command.attach)
-            motion.attachment = attachment_of(*command.attach, scale);
-        command.options.time_step = time_step_of(command.amount, scale, command.options.steps);
+        resolve_amount(command, mesh, loop, run);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
     }
-}
-
-/// Turns an amount that depends on the noise of the mesh into one that does not.
-void resolve_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
-{
-    run.preset = command.preset;
-    if (!command.amount.slope_of_noise)
-        return;
-    run.noise =
-        run.scale.mean_edge > 0.0 ? estimate_noise(mesh, make_topology(mesh, loop), loop) / run.scale.mean_edge : 0.0;
-    const double edges =
-        time_step_edges_for_noise(*run.noise, *command.amount.slope_of_noise, command.options.filter == Filter::LowPass,
-                                  std::max(command.options.steps, 1));
-    command.amount = {.time_step_edges = edges};
-}
-
-/// Where the amount depends on the noise of the mesh, no more is taken off it.
-void stay_within_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, const RunRecord& run)
-{
-    if (!run.noise)
-        return;
-    const double within = time_step_within_noise(mesh, *run.noise * run.scale.mean_edge, command.options, loop) /
-                          command.options.time_step;
-    // What is printed of it is to be all of it.
-    const double edges = std::stod(fmt::format("{:.3g}", within * *command.amount.time_step_edges));
-    command.amount.time_step_edges = edges;
-    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
-    command.chosen += fmt::format("--time-step-edges {}", edges);
 }
 
 /// What --html shows, so far the input; empty without --html.
@@ -136,19 +105,6 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     return remarks;
 }
 
-/// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth.
-void remark_on_loss(const SmoothCommand& command, const SurfaceChange& change, std::vector<std::string>& remarks)
-{
-    constexpr double much = 0.2;
-    if (!change.before.volume || !change.after.volume || command.options.motion.rescale != Rescale::None)
-        return;
-    const double lost = 1.0 - *change.after.volume / *change.before.volume;
-    if (lost > much)
-        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: --filter low-pass loses less, "
-                                      "--rescale volume scales it back, and less smoothing is gentler.",
-                                      100.0 * lost));
-}
-
 /// What is written about the run: report, trace and page.
 void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
                    std::optional<PageFlow>& page)
@@ -181,11 +137,10 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
 /// Where steps have missed their tolerance, the results are not what was asked for.
 ExitStatus require_converged(const SmoothCommand& command, const FlowReport& report)
 {
-    const int missed = steps_failed(command, report);
-    if (missed == 0)
+    const std::string missed = missed_tolerance(command, report);
+    if (missed.empty())
         return ExitStatus::Success;
-    std::cerr << "smooth: the tolerance " << *command.options.accuracy.tolerance << " was missed in " << missed
-              << (missed == 1 ? " step; " : " steps; ") << command.output.string() << " has the last state\n";
+    std::cerr << "smooth: " << missed << "; " << command.output.string() << " has the last state\n";
     return ExitStatus::ComputationFailed;
 }
 
@@ -201,14 +156,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     Workers workers(command.options.resources.threads);
     const Loop loop = workers.loop();
     MeshFile file = read_mesh(command.input, loop);
-    run.scale = measure_scale(file.mesh, loop);
-    resolve_noise(command, file.mesh, loop, run);
-    complete_options(command, file.mesh, run.scale);
-    stay_within_noise(command, file.mesh, loop, run);
-    const MotionOptions& motion = command.options.motion;
-    if (motion.attachment > 0.0)
-        run.attachment = motion.attachment;
-    run.has_attachment_weights = !motion.attachment_weights.empty();
+    complete_options(command, file.mesh, loop, run);
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh);
     print_preset(out, run, command.chosen);
@@ -256,7 +204,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     run.write_seconds += writing.seconds();
     if (change) {
         run.surface = change->measure(file.mesh, loop);
-        remark_on_loss(command, run.surface, report.remarks);
+        remark_on_loss(command.options, run.surface, report.remarks);
     }
     run.seconds = whole.seconds();
     write_reports(command, run, report, page);
@@ -273,14 +221,7 @@ ExitStatus smooth(int argc, char** argv)
     SmoothCommand command;
     if (const auto end = parse_smooth_command(argc, argv, command))
         return *end;
-    RunRecord record{.input = command.input.string(),
-                     .output = command.output.string(),
-                     .arguments = command.arguments,
-                     .laplacian = std::string(name_of(command.options.laplacian)),
-                     .flow = command.options.flow,
-                     .filter = command.options.filter,
-                     .rescale = command.options.motion.rescale,
-                     .keep_edges = command.options.keep_edges};
+    RunRecord record = begin_record(command);
     try {
         return run(command, record);
     } catch (...) {

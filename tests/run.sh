@@ -52,6 +52,7 @@ done
 mapfile -t more < <(page_packages)
 case "$preset" in
 asan | tsan) more+=("${sanitizer_packages[@]}") ;;
+*) more+=("${python_packages[@]}") ;;
 esac
 install_packages doxygen patch "${more[@]}"
 build "$preset"

@@ -14,6 +14,10 @@ readonly packages=(
     doctest-dev libcli11-dev nlohmann-json3-dev
 )
 
+# For the Python module and its tests; all else does without.
+# shellcheck disable=SC2034
+readonly python_packages=(python3-dev python3-numpy pybind11-dev)
+
 # For the presets asan and tsan, and for tests/sanitizers/run.sh.
 # shellcheck disable=SC2034
 readonly sanitizer_packages=(clang llvm libclang-rt-dev valgrind)

@@ -223,7 +223,7 @@ void add_long_run(CLI::App& app, SmoothCommand& command)
 std::string first_given(const CLI::App& app, std::initializer_list<const char*> names)
 {
     for (const char* name : names)
-        if (app.count(name) > 0)
+        if (const CLI::Option* option = app.get_option_no_throw(name); option != nullptr && option->count() > 0)
             return name;
     return {};
 }
@@ -380,6 +380,11 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         throw OptionError("--factorisation is for backward Euler steps; --scheme explicit solves no equations");
     if (command.options.resources.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
         throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
+}
+
+/// Results in formats that there are.
+void require_usable_results(const SmoothCommand& command)
+{
     if (!command.html.empty())
         require_page();
     kind_for_writing(command.output, FileKind{});
@@ -425,6 +430,21 @@ void require_usable_files(const SmoothCommand& command)
         require_writable(path);
 }
 
+/// What follows from the options that were given, once they are parsed.
+void settle(const CLI::App& app, SmoothCommand& command)
+{
+    if (command.options.resources.threads == 0)
+        command.options.resources.threads = threads_within_quota();
+    apply_preset(app, command);
+    command.limits_iterations = app.count("--converge-iterations") > 0;
+    for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
+        if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)
+            command.options.accuracy.approach = Approach::Sweep;
+    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
+        command.options.accuracy.approach = Approach::Decomposed;
+    require_consistent(app, command);
+}
+
 }  // namespace
 
 std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command)
@@ -437,24 +457,52 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     command.arguments.assign(argv + 1, argv + argc);
-    if (command.options.resources.threads == 0)
-        command.options.resources.threads = threads_within_quota();
-    apply_preset(app, command);
-    command.limits_iterations = app.count("--converge-iterations") > 0;
-    for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
-        if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)
-            command.options.accuracy.approach = Approach::Sweep;
-    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
-        command.options.accuracy.approach = Approach::Decomposed;
+    settle(app, command);
     // Nobody would see it.
     command.options.report.measures =
         command.verbose || !command.report.empty() || !command.html.empty() || !command.checkpoint.empty();
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);
-    require_consistent(app, command);
+    require_usable_results(command);
     require_usable_files(command);
     return std::nullopt;
+}
+
+std::vector<FlowOptionText> flow_options()
+{
+    CLI::App app;
+    app.set_help_flag();
+    SmoothCommand command;
+    add_flow_options(app, command);
+    std::vector<CLI::App*> groups = app.get_subcommands({});
+    groups.insert(groups.begin(), &app);
+    std::vector<FlowOptionText> list;
+    for (const CLI::App* group : groups)
+        for (const CLI::Option* option : group->get_options({}))
+            list.push_back({.name = option->get_lnames().front(),
+                            .type = option->get_type_name(),
+                            .description = option->get_description(),
+                            .is_flag = option->get_items_expected_max() == 0});
+    return list;
+}
+
+SmoothCommand parse_flow_options(const std::vector<std::string>& words)
+{
+    CLI::App app;
+    app.set_help_flag();
+    SmoothCommand command;
+    add_flow_options(app, command);
+    // CLI11 takes them last first.
+    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    try {
+        app.parse(std::move(reversed));
+    } catch (const CLI::ParseError& error) {
+        throw OptionError(error.what());
+    }
+    command.arguments = words;
+    settle(app, command);
+    return command;
 }
 
 int steps_failed(const SmoothCommand& command, const FlowReport& report)

@@ -59,6 +59,26 @@ struct SmoothCommand {
 /// @throws OptionError, OutputError (see output_files.h).
 std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command);
 
+/// An option of `smooth` that is about the flow, and not about files or what is printed.
+struct FlowOptionText {
+    /// Without hyphens before it.
+    std::string name;
+    /// What stands for its value in --help.
+    std::string type;
+    std::string description;
+    /// Whether it takes no value.
+    bool is_flag = false;
+};
+
+/// All of them: in the order of --help, those of groups last.
+std::vector<FlowOptionText> flow_options();
+
+/// Parses these options alone, for a mesh that is in no file: `labels`, `fix` and `attach_weights` are what `words`
+/// say, and nothing is read.
+/// @param words as on a command line: "--radius=1%", "--plain".
+/// @throws OptionError, also for what parse_smooth_command says on standard error.
+SmoothCommand parse_flow_options(const std::vector<std::string>& words);
+
 /// How many steps have failed because they missed the tolerance: all that missed it, or, where the user has limited the
 /// iterations, those that stagnated. 0 where the user has asked for no tolerance.
 int steps_failed(const SmoothCommand& command, const FlowReport& report);

@@ -1,0 +1,238 @@
+// What the Python package calls: arrays in, arrays out. The package turns what users give it into these arrays.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "partition/errors.h"
+#include "partition/version.h"
+#include "samples/common/smooth_command.h"
+#include "samples/python/flow_call.h"
+
+namespace py = pybind11;
+
+namespace seamflow {
+
+namespace {
+
+template <class Value>
+using Array = py::array_t<Value, py::array::c_style>;
+
+const char* name_of(FlowPhase phase)
+{
+    switch (phase) {
+    case FlowPhase::Cut:
+        return "cut";
+    case FlowPhase::Analyse:
+        return "analyse";
+    case FlowPhase::Reference:
+        return "reference";
+    case FlowPhase::Step:
+        break;
+    }
+    return "step";
+}
+
+/// @param corners of all faces, one after the other. @param offsets see PolygonMesh::face_offsets.
+template <class Integer>
+PolygonMesh make_mesh(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets)
+{
+    constexpr std::int64_t most = std::numeric_limits<Index>::max();
+    if (positions.shape(0) > most || corners.size() > most)
+        throw InputError(fmt::format("the mesh has more than {} vertices or corners of faces", most));
+    PolygonMesh mesh;
+    mesh.vertices = Eigen::Map<const Points>(positions.data(), positions.shape(0), 3);
+    mesh.face_offsets.assign(offsets.data(), offsets.data() + offsets.size());
+    mesh.face_vertices.reserve(static_cast<std::size_t>(corners.size()));
+    const Integer* const begin = corners.data();
+    for (const Integer* corner = begin; corner != begin + corners.size(); ++corner) {
+        if (!std::in_range<Index>(*corner)) {
+            const auto after = std::upper_bound(mesh.face_offsets.begin(), mesh.face_offsets.end(), corner - begin);
+            throw InputError(
+                fmt::format("mesh: face {} (numbered from 0) names vertex {}, but the mesh has {} vertices",
+                            after - mesh.face_offsets.begin() - 1, *corner, positions.shape(0)));
+        }
+        mesh.face_vertices.push_back(static_cast<Index>(*corner));
+    }
+    return mesh;
+}
+
+/// A flow in a thread of its own, so that the one that Python runs in can look for signals, which reach no other.
+class FlowThread {
+  public:
+    FlowThread(SmoothCommand command, PolygonMesh mesh, bool tells_progress)
+    {
+        FlowControl control{.stop = stop_.get_token()};
+        if (tells_progress)
+            control.on_progress = [this](const FlowProgress& progress) {
+                const std::lock_guard lock(mutex_);
+                heard_.push_back(progress);
+                changed_.notify_one();
+            };
+        thread_ = std::jthread([this, command = std::move(command), mesh = std::move(mesh), control]() mutable {
+            try {
+                result_ = call_flow(std::move(command), std::move(mesh), control);
+            } catch (...) {
+                failure_ = std::current_exception();
+            }
+            const std::lock_guard lock(mutex_);
+            is_over_ = true;
+            changed_.notify_one();
+        });
+    }
+
+    void stop() { stop_.request_stop(); }
+
+    /// Waits until there is something to tell, a moment has passed, or the flow is over.
+    /// @returns whether it is over.
+    bool wait(std::vector<FlowProgress>& heard)
+    {
+        constexpr std::chrono::milliseconds moment(50);
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, moment, [this] { return is_over_ || !heard_.empty(); });
+        heard.clear();
+        heard.swap(heard_);
+        return is_over_;
+    }
+
+    /// To be called when it is over. @throws what it threw.
+    FlowResult take()
+    {
+        if (failure_)
+            std::rethrow_exception(failure_);
+        return std::move(result_);
+    }
+
+  private:
+    std::stop_source stop_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<FlowProgress> heard_;
+    bool is_over_ = false;
+    FlowResult result_;
+    std::exception_ptr failure_;
+    std::jthread thread_;
+};
+
+/// Runs the flow without the GIL. Signals, and what `progress` raises, stop it.
+FlowResult run_interruptibly(SmoothCommand command, PolygonMesh mesh, const py::object& progress)
+{
+    FlowThread flow(std::move(command), std::move(mesh), !progress.is_none());
+    std::exception_ptr raised;
+    std::vector<FlowProgress> heard;
+    for (bool is_over = false; !is_over;) {
+        {
+            const py::gil_scoped_release release;
+            is_over = flow.wait(heard);
+        }
+        try {
+            for (const FlowProgress& one : heard)
+                if (!raised)
+                    progress(name_of(one.phase), one.step, one.steps, one.fraction);
+            if (!raised && PyErr_CheckSignals() != 0)
+                throw py::error_already_set();
+        } catch (...) {
+            raised = std::current_exception();
+            flow.stop();
+        }
+    }
+    if (raised)
+        std::rethrow_exception(raised);
+    return flow.take();
+}
+
+/// An array that owns what it shows.
+py::array_t<double> to_array(Points points)
+{
+    auto owner = std::make_unique<Points>(std::move(points));
+    const py::capsule capsule(owner.get(), [](void* pointer) { delete static_cast<Points*>(pointer); });
+    const Points& kept = *owner.release();
+    return py::array_t<double>({kept.rows(), Points::Index{3}}, kept.data(), capsule);
+}
+
+template <class Value>
+std::vector<Value> to_vector(const Array<Value>& array)
+{
+    return {array.data(), array.data() + array.size()};
+}
+
+/// @param words see parse_flow_options. @param progress called with the phase, the step, the number of steps and the
+/// part that is done; or None.
+/// @returns positions, labels, report, and what was missed.
+template <class Integer>
+py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
+              const std::vector<std::string>& words, const Array<Index>& fixed, const Array<Index>& labels,
+              const Array<double>& weights, const py::object& progress)
+{
+    SmoothCommand command = parse_flow_options(words);
+    command.options.motion.fixed_vertices = to_vector(fixed);
+    command.options.cut.labels = to_vector(labels);
+    command.options.motion.attachment_weights = to_vector(weights);
+    FlowResult result = run_interruptibly(std::move(command), make_mesh(positions, corners, offsets), progress);
+    const py::array_t<Index> parts(static_cast<py::ssize_t>(result.labels.size()), result.labels.data());
+    return py::make_tuple(to_array(std::move(result.positions)), parts, result.report, result.missed);
+}
+
+template <class Integer>
+void define_run(py::module_& module)
+{
+    module.def("run", &run<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
+               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"),
+               py::arg("weights"), py::arg("progress"));
+}
+
+/// Those that are arrays here, or are about files.
+bool is_of_files(const FlowOptionText& option)
+{
+    constexpr std::array names{"fix", "fix-property", "labels", "attach-weights", "attach-property", "keep-gaps"};
+    return std::ranges::find(names, option.name) != names.end();
+}
+
+py::list options()
+{
+    py::list list;
+    for (const FlowOptionText& option : flow_options())
+        if (!is_of_files(option))
+            list.append(py::make_tuple(option.name, option.type, option.description, option.is_flag));
+    return list;
+}
+
+void translate(std::exception_ptr exception)
+{
+    try {
+        std::rethrow_exception(std::move(exception));
+    } catch (const InputError& error) {
+        PyErr_SetString(PyExc_ValueError, error.what());
+    }
+}
+
+}  // namespace
+
+}  // namespace seamflow
+
+PYBIND11_MODULE(_core, module)
+{
+    using namespace seamflow;
+    // OptionError is a std::invalid_argument, ComputationError a std::runtime_error: pybind11 knows these.
+    py::register_exception_translator(&translate);
+    define_run<std::int32_t>(module);
+    define_run<std::int64_t>(module);
+    module.def("options", &options, "Name, type, description and whether it is a flag, of each keyword of smooth().");
+    module.attr("version") = std::string(version);
+}

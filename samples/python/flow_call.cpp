@@ -1,0 +1,49 @@
+#include "samples/python/flow_call.h"
+
+#include <utility>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+#include "samples/common/flow_run.h"
+#include "samples/common/report_json.h"
+
+namespace seamflow {
+
+namespace {
+
+FlowReport run(SmoothCommand& command, PolygonMesh& mesh, const FlowControl& control, RunRecord& record)
+{
+    if (mesh.n_vertices() == 0)
+        throw InputError("has no vertices");
+    const Stopwatch whole;
+    Workers workers(command.options.resources.threads);
+    const Loop loop = workers.loop();
+    require_valid(mesh, loop);
+    resolve_amount(command, mesh, loop, record);
+    const SurfaceChangeMeter change(mesh, loop);
+    FlowReport report = mean_curvature_flow(mesh, command.options, {}, control);
+    record.surface = change.measure(mesh, loop);
+    remark_on_loss(command.options, record.surface, report.remarks);
+    record.seconds = whole.seconds();
+    return report;
+}
+
+}  // namespace
+
+FlowResult call_flow(SmoothCommand command, PolygonMesh mesh, const FlowControl& control)
+{
+    RunRecord record = begin_record(command);
+    try {
+        FlowReport report = run(command, mesh, control, record);
+        return {.positions = std::move(mesh.vertices),
+                .labels = std::move(report.cut.labels),
+                .report = smooth_report_json(record, report),
+                .missed = missed_tolerance(command, report)};
+    } catch (const InputError& error) {
+        throw InputError(std::string("mesh: ").append(error.what()));
+    }
+}
+
+}  // namespace seamflow

@@ -1,0 +1,56 @@
+"""Writes __init__.pyi into the folder of the built package: its keywords are the options that the module knows.
+
+    python3 make_stub.py FOLDER
+"""
+
+import importlib.machinery
+import importlib.util
+import pathlib
+import sys
+
+folder = pathlib.Path(sys.argv[1])
+HEAD = '''\
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+
+class Progress(NamedTuple):
+    phase: Literal["cut", "analyse", "step", "reference"]
+    step: int
+    steps: int
+    fraction: float
+
+'''
+
+
+def type_of(kind, is_flag):
+    if is_flag:
+        return "bool"
+    kind = kind.split(":")[0]
+    if kind in ("NUMBER", "INTEGER"):
+        return "float" if kind == "NUMBER" else "int"
+    if kind.lower() != kind:
+        return "float | str"
+    return "Literal[" + ", ".join(f'"{word}"' for word in kind.split("|")) + "]"
+
+
+def load_core():
+    """The module alone: the package imports NumPy, which need not be there where it is built."""
+    path = next(path for end in importlib.machinery.EXTENSION_SUFFIXES for path in folder.glob(f"_core{end}"))
+    spec = importlib.util.spec_from_file_location("_core", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+lines = ["def smooth(", "    V: npt.ArrayLike | Any,", "    F: npt.ArrayLike | Iterable[Sequence[int]] | None = None,",
+         "    *,", "    fixed: npt.ArrayLike | None = None,", "    labels: npt.ArrayLike | None = None,",
+         "    attach_weights: npt.ArrayLike | None = None,", "    progress: Callable[[Progress], Any] | None = None,"]
+for name, kind, _, is_flag in load_core().options():
+    lines.append(f"    {name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None,")
+lines.append(") -> tuple[npt.NDArray[np.floating[Any]], dict[str, Any]]: ...")
+(folder / "__init__.pyi").write_text(HEAD + "\n".join(lines) + "\n")

@@ -1,0 +1,190 @@
+"""Smooths polygonal surface meshes by mean curvature flow: seamflow.smooth(V, F, radius="1%")."""
+
+import json
+import numbers
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _core
+
+__all__ = ["Progress", "smooth"]
+__version__ = _core.version
+
+_OPTIONS = {name.replace("-", "_"): (name, kind.split(":")[0], *rest) for name, kind, *rest in _core.options()}
+
+
+class Progress(NamedTuple):
+    """How far a flow is."""
+
+    phase: str
+    """"cut", "analyse", "step", or "reference" in a step of the undecomposed flow that reference=True asks for."""
+    step: int
+    """The step that is being taken, from 1; 0 before the first one."""
+    steps: int
+    """How many there are to be."""
+    fraction: float
+    """The part of the whole that is done, from 0 to 1."""
+
+
+def smooth(V, F=None, *, fixed=None, labels=None, attach_weights=None, progress=None, **options):
+    """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
+    `smooth`. Without any it removes the noise that the mesh is found to have.
+
+    V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh that has .vertices and .faces (trimesh) or
+        .points and .cells (meshio).
+    F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
+    fixed: vertices that stay where they are, as a mask (#V, bool) or by their numbers.
+    labels: the sub-mesh of every face, (#F,), at least 0.
+    attach_weights: how strongly each vertex is pulled back to where it was, (#V,), in 1/length².
+    progress: called with a Progress a few times a second, in the calling thread; what it raises stops the flow.
+
+    Returns the positions, in the type of V (float32, or else float64), and a dict with what `smooth --report` writes,
+    and with "labels", the sub-mesh of every face.
+
+    Raises ValueError for a mesh or an option that cannot be used, TypeError for a keyword that there is not,
+    RuntimeError where the computation fails, MemoryError, and KeyboardInterrupt after Ctrl-C, which stops the flow.
+    Warns (RuntimeWarning) where steps have missed the tolerance that converge asks for.
+
+    The other keywords are the options of the program, with underscores for hyphens: a number or the text that the
+    program takes, True for those without a value.
+    """
+    if F is None:
+        V, F = _of_mesh(V)
+    V = np.asarray(V)
+    if V.ndim != 2 or V.shape[1] != 3 or V.dtype.kind not in "fiu":
+        raise ValueError(f"V has to be real numbers, (#V, 3), but is {V.dtype}, {V.shape}")
+    corners, offsets = _faces(F)
+    if "fix" in options:
+        if fixed is not None:
+            raise TypeError("fixed and fix are the same: leave one of them out")
+        fixed = options.pop("fix")
+    words = [word for name, value in options.items() for word in _words(name, value)]
+    arrays = []
+    for name, convert, kind, value, count in (
+        ("fix", _fixed, np.int32, fixed, len(V)),
+        ("labels", _labels, np.int32, labels, len(offsets) - 1),
+        ("attach-weights", _weights, np.float64, attach_weights, len(V)),
+    ):
+        array = [] if value is None else convert(value, count)
+        arrays.append(np.ascontiguousarray(array, dtype=kind))
+        if value is not None:
+            # So that the options are checked against each other; no such file is read.
+            words.append(f"--{name}=array")
+
+    def tell(*state):
+        progress(Progress(*state))
+
+    positions, parts, report, missed = _core.run(
+        np.ascontiguousarray(V, dtype=np.float64), corners, offsets, words, *arrays, progress and tell
+    )
+    if missed:
+        warnings.warn(missed, RuntimeWarning, stacklevel=2)
+    report = json.loads(report)
+    for of_files in ("input", "output"):
+        del report[of_files]
+    report["labels"] = parts
+    return positions.astype(np.float32 if V.dtype == np.float32 else np.float64, copy=False), report
+
+
+def _describe_options():
+    lines = []
+    for keyword, (_, kind, text, is_flag) in _OPTIONS.items():
+        lines.append(f"    {keyword}: {'bool' if is_flag else kind}\n        {text}")
+    return "\n".join(lines)
+
+
+if smooth.__doc__:
+    smooth.__doc__ += "\n" + _describe_options() + "\n"
+
+
+def _of_mesh(mesh):
+    """Positions and faces of an object that has them."""
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        return mesh.vertices, mesh.faces
+    if not hasattr(mesh, "points") or not hasattr(mesh, "cells"):
+        raise TypeError("smooth() takes V and F, or a mesh with .vertices and .faces, or with .points and .cells")
+    blocks = [(block.type, block.data) for block in mesh.cells if block.type not in ("vertex", "line")]
+    for kind, _ in blocks:
+        if kind not in ("triangle", "quad") and not kind.startswith("polygon"):
+            raise ValueError(f"the mesh has cells of type {kind}: only triangle, quad and polygon are faces")
+    if len(blocks) == 1:
+        return mesh.points, blocks[0][1]
+    return mesh.points, [face for _, data in blocks for face in data]
+
+
+def _faces(F):
+    """The corners of all faces one after the other, and where those of each begin, and the last ends."""
+    if not isinstance(F, np.ndarray) or F.ndim != 2:
+        polygons = [np.asarray(face) for face in F]
+        if not polygons:
+            return np.zeros(0, np.int32), np.zeros(1, np.int64)
+        for f, face in enumerate(polygons):
+            if face.ndim != 1 or (face.size > 0 and face.dtype.kind not in "iu"):
+                raise ValueError(f"face {f} (numbered from 0) has to be a list of whole numbers, its vertices")
+        offsets = np.zeros(len(polygons) + 1, np.int64)
+        np.cumsum([len(face) for face in polygons], out=offsets[1:])
+        F = np.concatenate(polygons)
+    else:
+        if F.dtype.kind not in "iu":
+            raise ValueError(f"F has to be whole numbers, but is {F.dtype}")
+        offsets = np.arange(len(F) + 1, dtype=np.int64) * F.shape[1]
+    kind = np.int32 if F.dtype == np.int32 else np.int64
+    return np.ascontiguousarray(F, dtype=kind).reshape(-1), offsets
+
+
+def _array_of(name, value, count, kinds, described):
+    array = np.asarray(value)
+    if array.dtype.kind not in kinds or array.shape != (count,):
+        raise ValueError(f"{name} has to be {described}, ({count},), but is {array.dtype}, {array.shape}")
+    return array
+
+
+def _fixed(value, count):
+    array = np.asarray(value)
+    if array.dtype.kind == "b":
+        return np.flatnonzero(_array_of("fixed", array, count, "b", "a mask or numbers of vertices"))
+    if array.size == 0:
+        return []
+    if array.ndim != 1 or array.dtype.kind not in "iu":
+        raise ValueError(f"fixed has to be a mask or numbers of vertices, but is {array.dtype}, {array.shape}")
+    wrong = array[(array < 0) | (array >= count)]
+    if wrong.size > 0:
+        raise ValueError(f"fixed names vertex {wrong[0]}, but the mesh has {count} vertices")
+    return np.unique(array)
+
+
+def _labels(value, count):
+    labels = _array_of("labels", value, count, "iu", "whole numbers")
+    wrong = np.flatnonzero((labels < 0) | (labels > np.iinfo(np.int32).max))
+    if wrong.size > 0:
+        raise ValueError(f"labels[{wrong[0]}] is {labels[wrong[0]]}, which is not from 0 to {np.iinfo(np.int32).max}")
+    return labels
+
+
+def _weights(value, count):
+    weights = _array_of("attach_weights", value, count, "fiu", "numbers")
+    wrong = np.flatnonzero(~np.isfinite(weights) | (weights < 0))
+    if wrong.size > 0:
+        raise ValueError(f"attach_weights[{wrong[0]}] is {weights[wrong[0]]}, which is not a finite number from 0")
+    return weights
+
+
+def _words(keyword, value):
+    """A keyword as on a command line; nothing where it is None or False."""
+    if keyword not in _OPTIONS:
+        raise TypeError(f"smooth() has no keyword {keyword}; there are {', '.join(sorted(_OPTIONS))}")
+    name, _, _, is_flag = _OPTIONS[keyword]
+    if is_flag:
+        if value is not None and not isinstance(value, (bool, np.bool_)):
+            raise TypeError(f"{keyword} is True or False, not {value!r}")
+        return [f"--{name}"] if value else []
+    if value is None:
+        return []
+    if isinstance(value, numbers.Number) and not isinstance(value, (bool, np.bool_)):
+        # NumPy's numbers as Python's, which are written with all their digits.
+        value = value.item() if isinstance(value, np.generic) else value
+    elif not isinstance(value, str):
+        raise TypeError(f"{keyword} is a number or a text, not {value!r}")
+    return [f"--{name}={value}"]

@@ -1,0 +1,69 @@
+"""Makes the wheel that `pip install .` installs (PEP 517, PEP 427): CMake builds the package and installs it into a
+folder, and what lies there is what the wheel has."""
+
+import base64
+import hashlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+METADATA = """\
+Metadata-Version: 2.1
+Name: seamflow
+Version: {version}
+Summary: Mean curvature flow of large polygonal meshes, cut into many sub-meshes
+Requires-Python: >=3.9
+Requires-Dist: numpy
+"""
+WHEEL = """\
+Wheel-Version: 1.0
+Generator: seamflow
+Root-Is-Purelib: false
+Tag: {tag}
+"""
+
+
+def run(*command):
+    subprocess.run([str(word) for word in command], check=True)
+
+
+def build_package(target):
+    """Builds in build-wheel-…/, so that the next time takes less."""
+    build = ROOT / f"build-wheel-{sys.implementation.cache_tag}"
+    generator = ["-G", "Ninja"] if not (build / "CMakeCache.txt").exists() else []
+    run("cmake", "-S", ROOT, "-B", build, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF",
+        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12", "-DSEAMFLOW_BUILD_TESTS=OFF",
+        "-DSEAMFLOW_PAGE=OFF", "-DSEAMFLOW_PYTHON=REQUIRED", "-DSEAMFLOW_PYTHON_DIR=.",
+        f"-DPython_EXECUTABLE={sys.executable}")
+    run("cmake", "--build", build, "--target", "seamflow_python")
+    run("cmake", "--install", build, "--component", "python", "--prefix", target)
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    version = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
+    tag = f"{python}-{python}-{platform}"
+    name = f"seamflow-{version}-{tag}.whl"
+    info = f"seamflow-{version}.dist-info"
+    with tempfile.TemporaryDirectory() as folder:
+        build_package(folder)
+        paths = sorted(path for path in pathlib.Path(folder).rglob("*") if path.is_file())
+        files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+    files[f"{info}/METADATA"] = METADATA.format(version=version).encode()
+    files[f"{info}/WHEEL"] = WHEEL.format(tag=tag).encode()
+    record = []
+    for path, content in files.items():
+        digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+        record.append(f"{path},sha256={digest},{len(content)}\n")
+    files[f"{info}/RECORD"] = ("".join(record) + f"{info}/RECORD,,\n").encode()
+    with zipfile.ZipFile(os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
+        for path, content in files.items():
+            wheel.writestr(path, content)
+    return name

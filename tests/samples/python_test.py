@@ -1,0 +1,228 @@
+"""The Python package, beside the programs: python3 python_test.py SMOOTH GENERATE, with the package on PYTHONPATH."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import warnings
+from types import SimpleNamespace
+
+import numpy as np
+
+import seamflow
+
+SMOOTH, GENERATE = sys.argv[1:3]
+CUBE = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+
+
+def read_obj(path):
+    vertices, faces = [], []
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            vertices.append([float(word) for word in words[1:4]])
+        elif words[:1] == ["f"]:
+            faces.append([int(word.split("/")[0]) - 1 for word in words[1:]])
+    return np.array(vertices), faces
+
+
+class WithFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def generate(self, *words):
+        path = self.folder / "input.obj"
+        subprocess.run([GENERATE, words[0], path, *words[1:]], check=True, stdout=subprocess.DEVNULL)
+        return read_obj(path)
+
+    def smooth_file(self, *words):
+        command = [SMOOTH, self.folder / "input.obj", self.folder / "output.obj", *words]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        return read_obj(self.folder / "output.obj")[0]
+
+
+class SameBits(WithFolder):
+    """Every number of the result is that of the program."""
+
+    def test_options(self):
+        V, F = self.generate("noisy-sphere", "--vertices", "2000", "--noise", "0.3")
+        for keywords, words in (
+            ({}, []),
+            ({"radius": "1%"}, ["--radius", "1%"]),
+            ({"time_step_edges": 3, "steps": np.int32(2)}, ["--time-step-edges", "3", "--steps", "2"]),
+            (
+                {"time_step": np.float64(0.1) / 30, "laplacian": "virtual-refinement", "subdomains": 5},
+                ["--time-step", repr(0.1 / 30), "--laplacian", "virtual-refinement", "--subdomains", "5"],
+            ),
+            (
+                {"plain": True, "no_correction": True, "strict": False, "q": None, "radius": 0.1, "subdomains": 3},
+                ["--plain", "--no-correction", "--radius", "0.1", "--subdomains", "3"],
+            ),
+            ({"preset": "fair", "converge": 1e-8}, ["--preset", "fair", "--converge", "1e-8"]),
+        ):
+            with self.subTest(keywords=keywords):
+                smoothed, report = seamflow.smooth(V, np.array(F), **keywords)
+                np.testing.assert_array_equal(smoothed, self.smooth_file(*words))
+                self.assertEqual(report["vertices"], len(V))
+                self.assertEqual(report["labels"].max() + 1, report["subdomains"])
+
+    def test_polygons_and_arrays(self):
+        V, F = self.generate("mixed", "--vertices", "1500")
+        self.assertGreater(len({len(face) for face in F}), 2)
+        numbers = [700, 3, 41, 3]
+        mask = np.zeros(len(V), bool)
+        mask[numbers] = True
+        labels = np.arange(len(F)) * 4 // len(F)
+        weights = np.linspace(0, 2, len(V))
+        for name, lines in (("fix", numbers), ("labels", labels), ("weights", [repr(w) for w in weights.tolist()])):
+            (self.folder / name).write_text("".join(f"{line}\n" for line in lines))
+        fixed = self.smooth_file("--radius", "3%", "--fix", self.folder / "fix")
+        for keyword, value in (("fixed", mask), ("fixed", numbers), ("fix", mask)):
+            smoothed, _ = seamflow.smooth(V, F, radius="3%", **{keyword: value})
+            np.testing.assert_array_equal(smoothed, fixed)
+        np.testing.assert_array_equal(fixed[mask], V[mask])
+        cut, report = seamflow.smooth(V, F, radius="3%", labels=labels.astype(np.uint8))
+        np.testing.assert_array_equal(cut, self.smooth_file("--radius", "3%", "--labels", self.folder / "labels"))
+        self.assertEqual(report["subdomains"], 4)
+        attached, _ = seamflow.smooth(V, F, radius="3%", attach_weights=weights)
+        words = ["--radius", "3%", "--attach-weights", self.folder / "weights"]
+        np.testing.assert_array_equal(attached, self.smooth_file(*words))
+
+    def test_types(self):
+        V, F = self.generate("noisy-sphere", "--vertices", "500")
+        F = np.array(F)
+        single = V.astype(np.float32)
+        expected, _ = seamflow.smooth(single.astype(np.float64), F, radius="2%")
+        smoothed, _ = seamflow.smooth(single, F.astype(np.int32), radius="2%")
+        self.assertEqual(smoothed.dtype, np.float32)
+        np.testing.assert_array_equal(smoothed, expected.astype(np.float32))
+        before = V.copy()
+        for vertices, faces in ((V, F.astype(np.int32)), (V.tolist(), F.tolist()), (np.asfortranarray(V), F[:, ::1])):
+            smoothed, _ = seamflow.smooth(vertices, faces, radius="2%")
+            self.assertEqual(smoothed.dtype, np.float64)
+            np.testing.assert_array_equal(smoothed, seamflow.smooth(V, F, radius="2%")[0])
+        np.testing.assert_array_equal(V, before)
+
+    def test_mesh_objects(self):
+        V, F = np.array(CUBE, float), SIDES
+        expected, _ = seamflow.smooth(V, F, radius=0.5)
+        self.assertLess(np.abs(expected - 0.5).max(), 0.5)
+        quads = SimpleNamespace(type="quad", data=np.array(F))
+        edges = SimpleNamespace(type="line", data=np.array([[0, 1]]))
+        for mesh in (
+            SimpleNamespace(vertices=V, faces=np.array(F)),
+            SimpleNamespace(points=V, cells=[edges, quads]),
+            SimpleNamespace(points=V, cells=[SimpleNamespace(type="quad", data=np.array([face])) for face in F]),
+        ):
+            np.testing.assert_array_equal(seamflow.smooth(mesh, radius=0.5)[0], expected)
+        with self.assertRaisesRegex(ValueError, "cells of type tetra"):
+            seamflow.smooth(SimpleNamespace(points=V, cells=[SimpleNamespace(type="tetra", data=np.array(F))]))
+
+
+class WrongInput(unittest.TestCase):
+    def test_sentences(self):
+        V = np.array(CUBE, float)
+        nan = V.copy()
+        nan[5, 1] = np.nan
+        for error, sentence, arguments, keywords in (
+            (ValueError, r'--radius: "wide" is neither a positive length', (V, SIDES), {"radius": "wide"}),
+            (ValueError, r'--steps: "-1" is not a whole number', (V, SIDES), {"steps": -1}),
+            (ValueError, r'"cubic" is none of fujiwara', (V, SIDES), {"laplacian": "cubic"}),
+            (ValueError, "--radius", (V, SIDES), {"radius": 1, "time_step": 1}),
+            (ValueError, "--overlap is for --conditions schwarz", (V, SIDES), {"overlap": 2, "radius": 1}),
+            (ValueError, "--fix holds some", (V, SIDES), {"fixed": [0], "rescale": "area", "radius": 1}),
+            (ValueError, "--labels", (V, SIDES), {"labels": [0] * 6, "subdomains": 2, "radius": 1}),
+            (TypeError, "no keyword radios; there are .*radius", (V, SIDES), {"radios": 1}),
+            (TypeError, "no keyword fix_property", (V, SIDES), {"fix_property": "a"}),
+            (TypeError, "plain is True or False", (V, SIDES), {"plain": 1}),
+            (TypeError, "radius is a number or a text", (V, SIDES), {"radius": [1]}),
+            (TypeError, "fixed and fix are the same", (V, SIDES), {"fixed": [0], "fix": [0]}),
+            (ValueError, "fixed names vertex 8, but the mesh has 8", (V, SIDES), {"fixed": [8]}),
+            (ValueError, r"fixed has to be a mask .*\(8,\), but is bool, \(7,\)", (V, SIDES), {"fixed": [True] * 7}),
+            (ValueError, r"labels has to be .*\(6,\)", (V, SIDES), {"labels": [0] * 5}),
+            (ValueError, r"labels\[1\] is -1", (V, SIDES), {"labels": [0, -1, 0, 0, 0, 0]}),
+            (ValueError, r"attach_weights\[2\] is nan", (V, SIDES), {"attach_weights": [0, 1, np.nan, 0, 0, 0, 0, 0]}),
+            (ValueError, r"V has to be real numbers, \(#V, 3\), but is float64, \(8, 2\)", (V[:, :2], SIDES), {}),
+            (ValueError, "mesh: vertex 5 .* not a finite number", (nan, SIDES), {}),
+            (ValueError, "mesh: has no vertices", (np.zeros((0, 3)), []), {}),
+            (ValueError, "F has to be whole numbers, but is float64", (V, np.array(SIDES, float)), {}),
+            (ValueError, "mesh: face 1 .* names vertex 8, but the mesh has 8", (V, [[0, 1, 2], [0, 8, 1]]), {}),
+            (ValueError, f"mesh: face 1 .* names vertex {2**40}", (V, np.array([[0, 1, 2], [0, 1, 2**40]])), {}),
+            (ValueError, "mesh: face 0 .* names vertex -1", (V, [[0, 1, -1]]), {}),
+            (ValueError, "mesh: face 0 .* has 2 corners", (V, [[0, 1]]), {}),
+            (ValueError, "face 1 .* list of whole numbers", (V, [[0, 1, 2], [0, 1, 2.5]]), {}),
+            (ValueError, "mesh: has no size to measure --radius by", (np.zeros((3, 3)), [[0, 1, 2]]), {"radius": "1%"}),
+            (TypeError, "takes V and F, or a mesh", (V,), {}),
+        ):
+            with self.subTest(sentence=sentence):
+                with self.assertRaisesRegex(error, sentence):
+                    seamflow.smooth(*arguments, **keywords)
+
+
+class Running(WithFolder):
+    def setUp(self):
+        super().setUp()
+        self.V, self.F = self.generate("noisy-sphere", "--vertices", "2000")
+
+    def test_progress(self):
+        heard = []
+        seamflow.smooth(self.V, self.F, radius="1%", steps=4, progress=heard.append)
+        self.assertEqual(heard[0], seamflow.Progress("cut", 0, 4, 0.0))
+        self.assertEqual((heard[-1].step, heard[-1].steps, heard[-1].fraction), (4, 4, 1.0))
+        self.assertEqual(heard, sorted(heard, key=lambda progress: progress.fraction))
+
+    def test_what_progress_raises(self):
+        class Enough(Exception):
+            pass
+
+        def stop(progress):
+            if progress.step == 2:
+                raise Enough(threading.current_thread() is threading.main_thread())
+
+        with self.assertRaisesRegex(Enough, "True"):
+            seamflow.smooth(self.V, self.F, time_step_edges=0.01, steps=1_000_000_000, progress=stop)
+
+    def test_a_computation_that_fails(self):
+        with self.assertRaisesRegex(RuntimeError, r"step \d+, sub-mesh \d+, vertex \d+ would move by"):
+            seamflow.smooth(self.V, self.F, time_step_edges=30, steps=60, subdomains=20, plain=True, no_correction=True)
+
+    def test_a_tolerance_that_is_missed(self):
+        with self.assertWarnsRegex(RuntimeWarning, "the tolerance 1e-100 was missed in 2 steps"):
+            seamflow.smooth(self.V, self.F, time_step_edges=2, steps=2, subdomains=12, converge=1e-100)
+
+    def test_keyboard_interrupt(self):
+        # Sent by a thread that runs only where the flow has let go of the GIL.
+        for keywords in ({}, {"subdomains": 4}):
+            timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                seamflow.smooth(self.V, self.F, time_step_edges=0.01, steps=1_000_000_000, **keywords)
+            timer.join()
+        seamflow.smooth(self.V, self.F, radius="1%")
+
+
+class Described(unittest.TestCase):
+    def test_every_option_of_the_program(self):
+        text = subprocess.run([SMOOTH, "--help"], check=True, capture_output=True, text=True).stdout
+        stub = (pathlib.Path(seamflow.__file__).parent / "__init__.pyi").read_text()
+        compile(stub, "__init__.pyi", "exec")
+        of_files = {"help", "version", "every-step", "parts", "report", "trace", "task-graph", "html", "checkpoint"}
+        of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
+        named = {line.split()[0][2:] for line in text.splitlines() if line.strip().startswith("--")} - of_files
+        self.assertGreater(len(named), 30)
+        for name in named:
+            keyword = name.replace("-", "_")
+            self.assertIn(f"    {keyword}:", seamflow.smooth.__doc__)
+            self.assertIn(f"    {keyword}: ", stub)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("error")
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
