@@ -10,7 +10,7 @@ import numpy as np
 import seamflow
 
 # A sphere of quads with triangles at the poles, and noise.
-rows, columns = 60, 120
+rows, columns = 40, 80
 latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rows)[1:-1], np.arange(columns) * 2 * np.pi / columns)
 ring = np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=2)
 V = np.concatenate([ring.transpose(1, 0, 2).reshape(-1, 3), [[0, 0, 1], [0, 0, -1]]])
