@@ -10,7 +10,7 @@ import numpy as np
 import seamflow
 
 # A sphere of quads with triangles at the poles, and noise.
-rows, columns = 60, 120
+rows, columns = 40, 80
 latitude, longitude = np.meshgrid(np.linspace(0, np.pi, rows)[1:-1], np.arange(columns) * 2 * np.pi / columns)
 ring = np.stack([np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)], axis=2)
 V = np.concatenate([ring.transpose(1, 0, 2).reshape(-1, 3), [[0, 0, 1], [0, 0, -1]]])
@@ -42,10 +42,19 @@ try:
 except ImportError:
     print("Without matplotlib there is no picture.")
     sys.exit()
+
+
+def shades(points):
+    """Grey values of the faces in a light from above."""
+    normals = np.array([np.cross(points[f[1]] - points[f[0]], points[f[2]] - points[f[0]]) for f in F])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return [str(shade) for shade in 0.2 + 0.75 * np.clip(normals @ [0.48, -0.6, 0.64], 0, 1)]
+
+
 figure, axes = pyplot.subplots(1, 2, figsize=(10, 5), subplot_kw={"projection": "3d"})
 for axis, points, title in zip(axes, (V, smoothed), ("before", "after, the north held fixed")):
-    axis.add_collection3d(Poly3DCollection([points[face] for face in F], facecolors="tan", shade=True))
-    axis.set(title=title, xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1), box_aspect=(1, 1, 1))
+    axis.add_collection3d(Poly3DCollection([points[face] for face in F], facecolors=shades(points)))
+    axis.set(title=title, xlim=(-0.7, 0.7), ylim=(-0.7, 0.7), zlim=(-0.7, 0.7), box_aspect=(1, 1, 1))
     axis.set_axis_off()
 picture = sys.argv[1] if len(sys.argv) > 1 else "sphere.png"
 figure.savefig(picture, dpi=120)

@@ -56,13 +56,14 @@ class SameBits(WithFolder):
         for keywords, words in (
             ({}, []),
             ({"radius": "1%"}, ["--radius", "1%"]),
+            ({"radius": "2%", "subdomains": 6, "plain": False}, ["--radius", "2%", "--subdomains", "6"]),
             ({"time_step_edges": 3, "steps": np.int32(2)}, ["--time-step-edges", "3", "--steps", "2"]),
             (
                 {"time_step": np.float64(0.1) / 30, "laplacian": "virtual-refinement", "subdomains": 5},
                 ["--time-step", repr(0.1 / 30), "--laplacian", "virtual-refinement", "--subdomains", "5"],
             ),
             (
-                {"plain": True, "no_correction": True, "strict": False, "q": None, "radius": 0.1, "subdomains": 3},
+                {"plain": True, "no_correction": True, "q": None, "radius": 0.1, "subdomains": 3},
                 ["--plain", "--no-correction", "--radius", "0.1", "--subdomains", "3"],
             ),
             ({"preset": "fair", "converge": 1e-8}, ["--preset", "fair", "--converge", "1e-8"]),
