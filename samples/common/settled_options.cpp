@@ -1,0 +1,199 @@
+#include "samples/common/settled_options.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "samples/common/cpu_quota.h"
+#include "samples/common/presets.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The first of these options that was given; empty: none.
+std::string first_given(const CLI::App& app, std::initializer_list<const char*> names)
+{
+    for (const char* name : names)
+        if (const CLI::Option* option = app.get_option_no_throw(name); option != nullptr && option->count() > 0)
+            return name;
+    return {};
+}
+
+/// Options that show or set sub-meshes.
+constexpr auto of_sub_meshes_alone = {"--subdomains", "--labels", "--parts", "--task-graph", "--trace"};
+
+/// Options that mean nothing to steps that keep edges.
+void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
+{
+    if (!command.options.keep_edges)
+        return;
+    const std::string other = first_given(app, {"--subdomains",
+                                                "--labels",
+                                                "--parts",
+                                                "--task-graph",
+                                                "--trace",
+                                                "--conditions",
+                                                "--transmission",
+                                                "--p",
+                                                "--p-rule",
+                                                "--p-edge",
+                                                "--q",
+                                                "--overlap",
+                                                "--no-correction",
+                                                "--sweep",
+                                                "--coloring",
+                                                "--plain",
+                                                "--keep-gaps",
+                                                "--scheme",
+                                                "--converge",
+                                                "--converge-iterations",
+                                                "--approach",
+                                                "--factorisation",
+                                                "--precision",
+                                                "--memory-limit",
+                                                "--reference"});
+    if (!other.empty())
+        throw OptionError(other +
+                          " is about the equations of mean curvature flow, but --keep-edges smooths face normals "
+                          "on the whole mesh: leave one of them out");
+}
+
+/// @param of_sweeps an option that is about sweeps; may be empty.
+void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
+{
+    const Approach approach = command.options.accuracy.approach;
+    if (app.count("--approach") == 0 || approach == Approach::Automatic || approach == Approach::Decomposed)
+        return;
+    const std::string name = fmt::format("--approach {}", option_name(approach));
+    if (approach == Approach::Sweep && command.options.accuracy.tolerance)
+        throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
+    if (approach != Approach::Sweep && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
+    std::string of_sub_meshes = first_given(app, of_sub_meshes_alone);
+    if (of_sub_meshes.empty() && approach == Approach::ConjugateGradients)
+        of_sub_meshes = first_given(app, {"--memory-limit", "--factorisation", "--precision"});
+    if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
+        throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
+                          " takes the whole mesh: leave one of them out");
+}
+
+/// Options that would have no effect are a mistake of the user's.
+void require_effective(const CLI::App& app, const SmoothCommand& command)
+{
+    const std::string of_sweeps =
+        first_given(app, {"--conditions", "--transmission", "--p", "--p-rule", "--p-edge", "--q", "--overlap",
+                          "--no-correction", "--sweep", "--coloring", "--plain"});
+    if (command.options.accuracy.tolerance && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
+    require_consistent_approach(app, command, of_sweeps);
+    if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
+        if (const std::string of_converged = first_given(app, {"--converge-iterations", "--precision"});
+            !of_converged.empty())
+            throw OptionError(of_converged + " is for converged steps, but --converge never takes none");
+    if (app.count("--p") > 0)
+        if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
+            throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
+    if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
+        throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
+    if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
+        throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
+                          " has a number a line");
+}
+
+/// Options that leave no room for what a preset chooses, unless another option asks for it.
+std::string given_against_presets(const CLI::App& app)
+{
+    return first_given(app, {"--plain", "--scheme", "--conditions", "--transmission", "--p", "--p-rule", "--p-edge",
+                             "--q", "--overlap", "--no-correction", "--keep-gaps"});
+}
+
+/// Takes from the preset that is asked for, or that an amount which is not given asks for, what no option says.
+void apply_preset(const CLI::App& app, SmoothCommand& command)
+{
+    const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
+    if (command.preset.empty() && has_amount)
+        return;
+    if (const std::string other = given_against_presets(app); !other.empty())
+        throw OptionError(
+            fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}", other,
+                        command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
+                        command.preset.empty() ? "" : ", and leave the preset out"));
+    if (command.preset.empty())
+        command.preset = app.count("--keep-edges") > 0 ? "cad" : presets().front().name;
+    const Preset& preset = *std::ranges::find(presets(), std::string_view(command.preset), &Preset::name);
+    // Of the flows of presets these two know nothing.
+    const bool is_plain = (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian)) ||
+                          command.options.accuracy.approach == Approach::ConjugateGradients;
+    for (const PresetOption& option : options_of(preset)) {
+        const bool is_further = option.name == "--flow" || option.name == "--filter" || option.name == "--attach";
+        const bool is_said = app.count(std::string(option.name)) > 0 ||
+                             (option.name == "--attach" && app.count("--attach-weights") > 0) ||
+                             (is_further && is_plain);
+        if (is_said)
+            continue;
+        option.set(command.options, command.attach);
+        command.chosen += fmt::format("{} {} ", option.name, option.value);
+    }
+    if (has_amount)
+        return;
+    command.amount = preset.amount;
+    command.chosen += amount_of(preset);
+}
+
+void require_consistent(const CLI::App& app, const SmoothCommand& command)
+{
+    require_room_for_edges(app, command);
+    require_effective(app, command);
+    if (app.count("--overlap") > 0 && command.options.interface.conditions != Conditions::Schwarz)
+        throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
+    if (command.options.interface.conditions == Conditions::Schwarz &&
+        command.options.interface.sweep == Sweep::Alternating)
+        throw OptionError(
+            "--conditions schwarz sweeps in the same order in every step; --sweep alternating contradicts "
+            "it");
+    if (command.options.interface.conditions == Conditions::Schwarz && command.options.interface.p)
+        throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
+    if (app.count("--transmission") > 0 && command.options.interface.conditions != Conditions::AdaptedRobin)
+        throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
+    if (app.count("--plain") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)
+        throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
+    if (app.count("--plain") > 0 &&
+        command.options.interface.transmission != FlowOptions::plain().interface.transmission)
+        throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
+    if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
+        throw OptionError("--rescale moves every vertex, but --fix holds some: leave one of them out");
+    for (const auto& [option, path] : {std::pair{"--trace", command.trace}, {"--task-graph", command.task_graph}})
+        if (!path.empty() && command.options.scheme == Scheme::ExplicitEuler)
+            throw OptionError(
+                std::string(option).append(" shows the tasks of the sub-meshes; --scheme explicit has none"));
+    if (app.count("--factorisation") > 0 && command.options.scheme == Scheme::ExplicitEuler &&
+        !command.options.report.reference)
+        throw OptionError("--factorisation is for backward Euler steps; --scheme explicit solves no equations");
+    if (command.options.resources.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
+}
+
+}  // namespace
+
+void settle(const CLI::App& app, SmoothCommand& command)
+{
+    if (command.options.resources.threads == 0)
+        command.options.resources.threads = threads_within_quota();
+    apply_preset(app, command);
+    command.limits_iterations = app.count("--converge-iterations") > 0;
+    for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
+        if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)
+            command.options.accuracy.approach = Approach::Sweep;
+    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
+        command.options.accuracy.approach = Approach::Decomposed;
+    require_consistent(app, command);
+}
+
+}  // namespace seamflow
