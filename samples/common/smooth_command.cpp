@@ -1,6 +1,5 @@
 #include "samples/common/smooth_command.h"
 
-#include <algorithm>
 #include <limits>
 #include <vector>
 
