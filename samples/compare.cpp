@@ -20,8 +20,9 @@ ExitStatus compare(int argc, char** argv)
     if (const auto end = parse_compare_command(argc, argv, command))
         return *end;
     Workers workers(0);
-    const PolygonMesh reference = read_mesh(command.reference, workers.loop()).mesh;
-    const PolygonMesh candidate = read_mesh(command.candidate, workers.loop()).mesh;
+    FaultLog left_out{.of_faces_alone = true};
+    const PolygonMesh reference = read_faulty_mesh(command.reference, left_out, workers.loop()).mesh;
+    const PolygonMesh candidate = read_faulty_mesh(command.candidate, left_out, workers.loop()).mesh;
 
     Comparison comparison = compare_meshes(reference, candidate, command.direction);
     comparison.reference = command.reference.string();

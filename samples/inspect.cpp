@@ -37,7 +37,7 @@ ExitStatus inspect_file(int argc, char** argv)
         std::cout << inspection_json(input.string(), faults, found);
     else
         print_inspection(std::cout, input.string(), faults, found, most_listed);
-    return faults.count == 0 ? ExitStatus::Success : ExitStatus::UnusableInput;
+    return faults.count == faults.n_harmless ? ExitStatus::Success : ExitStatus::UnusableInput;
 }
 
 }  // namespace

@@ -43,11 +43,23 @@ using namespace seamflow;
 
 namespace {
 
+/// The labels of the faces that flow.
+/// @param left_out ascending: the numbers of the others, which have labels, too.
+std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)
+{
+    std::vector<Index> labels = read_labels(path, n_faces + static_cast<Index>(left_out.size()));
+    for (auto f = left_out.rbegin(); f != left_out.rend(); ++f)
+        labels.erase(labels.begin() + *f);
+    return labels;
+}
+
 /// What the command line leaves to be taken from the input.
-void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
+/// @param left_out ascending: the faces of the file that are not in the mesh.
+void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
+                      const Loop& loop, RunRecord& run)
 {
     if (!command.labels.empty())
-        command.options.cut.labels = read_labels(command.labels, mesh.n_faces());
+        command.options.cut.labels = labels_of_faces(command.labels, mesh.n_faces(), left_out);
     MotionOptions& motion = command.options.motion;
     if (!command.fix.empty())
         motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
@@ -105,6 +117,24 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     return remarks;
 }
 
+/// About what of a file has been left out of the flow.
+std::string remark_on_faces(const FaultLog& faults, const FileKind& kind)
+{
+    const std::size_t n_faces = faults.faces_left_out.size();
+    const std::size_t n_rows = faults.n_harmless - n_faces;
+    std::string text;
+    if (n_faces > 0)
+        text = fmt::format("{} a vertex twice or {} fewer than three corners, and {} no part in the flow",
+                           n_faces == 1 ? "1 face names" : fmt::format("{} faces name", n_faces),
+                           n_faces == 1 ? "has" : "have", n_faces == 1 ? "takes" : "take");
+    if (n_rows > 0)
+        text += fmt::format("{}{} more numbers than the file declares, which were passed over",
+                            text.empty() ? "" : "; ", n_rows == 1 ? "1 row has" : fmt::format("{} rows have", n_rows));
+    return fmt::format("{}; {} (the first: {}; --strict refuses such files).", text,
+                       kind.format == FileFormat::Stl ? "STL is written without them" : "in the file they stay",
+                       faults.messages.front());
+}
+
 /// What is written about the run: report, trace and page.
 void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
                    std::optional<PageFlow>& page)
@@ -155,8 +185,10 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
     const Loop loop = workers.loop();
-    MeshFile file = read_mesh(command.input, loop);
-    complete_options(command, file.mesh, loop, run);
+    FaultLog left_out{.of_faces_alone = true};
+    MeshFile file = command.options.motion.strict ? read_mesh(command.input, loop)
+                                                  : read_faulty_mesh(command.input, left_out, loop);
+    complete_options(command, file.mesh, left_out.faces_left_out, loop, run);
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh);
     print_preset(out, run, command.chosen);
@@ -167,6 +199,8 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
+    if (left_out.count > 0)
+        losses.push_back(remark_on_faces(left_out, file.kind));
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))
         losses.push_back("The result has replaced the input, in one go when it was complete.");

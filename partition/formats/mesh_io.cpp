@@ -245,14 +245,14 @@ const Format& require_format(const std::filesystem::path& path)
                             path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
 }
 
-/// @param faults null: they are thrown. Else the file is no source for others.
+/// @param faults null: they are thrown. With faults that are not of faces alone the file is no source for others.
 MeshFile read_open(OpenFile open, const Format* format, const Loop& loop, FaultLog* faults)
 {
     const InputFile input(open);
     if (format == nullptr)
         format = find_format(&Format::format, recognised_format(input.content()));
     MeshFile file = format->read(open.path(), input.content(), {loop}, faults);
-    if (faults == nullptr)
+    if (faults == nullptr || faults->of_faces_alone)
         file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, loop);
     return file;
 }

@@ -79,6 +79,9 @@ MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_ser
 
 /// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
 /// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
+/// With FaultLog::of_faces_alone only faces of less than three corners, or that name a vertex twice, are left out, and
+/// numbers passed over that rows have too many; all else is thrown as by read_mesh, and the result has a source: there
+/// such faces and numbers stay (but in STL, which is written from the mesh).
 /// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
 

@@ -10,6 +10,7 @@
 
 #include "partition/formats/obj.h"
 #include "partition/formats/splicing.h"
+#include "partition/io/mesh_builder.h"
 
 namespace seamflow {
 
@@ -102,17 +103,38 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
                         reasons)};
 }
 
-/// The normal that each corner of a slice names, or `none`.
-/// @param n number of normals before the slice.
-std::vector<Index> normals_of_corners(TextScanner scanner, Index n)
+/// The vertex that such a corner names, counted from 0.
+/// @param n number of vertices before this line.
+Index vertex_of(std::string_view corner, Index n)
+{
+    if (corner.starts_with('+'))
+        corner.remove_prefix(1);
+    Index number = 0;
+    std::from_chars(corner.data(), corner.data() + corner.size(), number);
+    return number > 0 ? number - 1 : number + n;
+}
+
+/// The normal that each corner of a slice names, or `none`; without the faces that are left out of the mesh.
+/// @param counts what stands before the slice.
+std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
 {
     std::vector<Index> normals;
+    std::vector<Index> vertices;
+    std::vector<Index> sorted;
     while (scanner.next_line()) {
         const std::string_view keyword = scanner.token();
-        n += keyword == "vn" ? 1 : 0;
-        if (is_obj_face(keyword))
-            while (scanner.has_token())
-                normals.push_back(normal_of(scanner.token(), n));
+        counts.n_vertices += keyword == "v" ? 1 : 0;
+        counts.n_normals += keyword == "vn" ? 1 : 0;
+        if (!is_obj_face(keyword))
+            continue;
+        vertices.clear();
+        while (scanner.has_token()) {
+            const std::string_view corner = scanner.token();
+            vertices.push_back(vertex_of(corner, counts.n_vertices));
+            normals.push_back(normal_of(corner, counts.n_normals));
+        }
+        if (!are_corners_of_face(vertices, sorted))
+            normals.resize(normals.size() - vertices.size());
     }
     return normals;
 }
@@ -146,7 +168,7 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
     const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
     std::vector<std::vector<Index>> of_slice(slices.size());
     for_each(slicing.loop, static_cast<Index>(slices.size()),
-             [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i].n_normals); });
+             [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i]); });
     const Index n = counts.back().n_normals;
     return make_lists(n, [&](auto&& add) {
         Index corner = 0;
@@ -166,9 +188,10 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
     const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
     std::optional<NormalUpdate> normals;
+    FaultLog known_faults{.of_faces_alone = true};
     if (counts.back().n_normals > 0)
-        normals.emplace(corners_of_obj_normals(path, text, slicing), mesh, read_obj(path, text, slicing).vertices,
-                        slicing.loop);
+        normals.emplace(corners_of_obj_normals(path, text, slicing), mesh,
+                        read_obj(path, text, slicing, &known_faults).vertices, slicing.loop);
     std::vector<StayingNormals> staying(slices.size());
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {

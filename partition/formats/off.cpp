@@ -270,8 +270,9 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     }
     TextScanner scanner(path, content);
     std::optional<MovedNormals> normals;
+    FaultLog known_faults{.of_faces_alone = true};
     if (read_off_header(scanner).has_normals())
-        normals.emplace(mesh, read_off(path, content, slicing).vertices, slicing.loop);
+        normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.loop);
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
     const std::vector<std::int64_t> first = count_lines(scanner, slices, slicing.loop);
     const auto vertices_before = [&](Index i) {

@@ -218,7 +218,10 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
     const std::vector<PlySlice> slices = slice_ply(content, after_header, header.encoding, elements, slicing);
     std::vector<std::uint8_t> rounded(slices.size());
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+        // Those that the reader has let pass.
+        FaultLog known_faults{.of_faces_alone = true};
         const auto rewrite = [&](auto source) {
+            source.note_faults_in(&known_faults);
             return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes, mesh,
                                  normals);
         };
@@ -242,8 +245,9 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     const PlyElement& vertices = *header.element("vertex");
     const std::vector<Change> changes = changes_of(vertices, mesh);
     std::optional<MovedNormals> normals;
+    FaultLog known_faults{.of_faces_alone = true};
     if (normals_of(vertices) == Normals::Usable)
-        normals.emplace(mesh, read_ply(path, content, slicing).mesh.vertices, slicing.loop);
+        normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.loop);
     Splicer splicer(file, content.substr(0, content.size() - scanner.rest().size()));
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
     splicer.finish();

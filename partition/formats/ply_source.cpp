@@ -18,9 +18,11 @@ void PlyTextSource::begin_element(const PlyElement& element, std::uint64_t i)
 
 void PlyTextSource::end_element()
 {
-    if (scanner_.has_token())
-        scanner_.fail("the line goes on with " + in_quotes(scanner_.peek()) +
-                      " after all the properties that the header declares; correct the header or the line");
+    if (!scanner_.has_token())
+        return;
+    scanner_.harmless_fault("the line goes on with " + in_quotes(scanner_.peek()) +
+                            " after all the properties that the header declares; correct the header or the line");
+    scanner_.pass_over_rest();
 }
 
 void PlyTextSource::pass_over(PlyType, std::int64_t n)

@@ -124,11 +124,14 @@ class FacetCollector {
 
     void add(const std::array<Corner, 3>& points)
     {
+        const Index number = n_facets_++;
+        if (points[0] == points[1] || points[1] == points[2] || points[2] == points[0]) {
+            position_.harmless_fault("two corners of the facet have the same coordinates; remove the facet");
+            position_.leave_out_face(number);
+            return;
+        }
         const std::array<Index, 3> corners = {numbers_(points[0]), numbers_(points[1]), numbers_(points[2])};
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-            position_.fault("two corners of the facet have the same coordinates; remove the facet");
-        else
-            builder_.add_face(corners);
+        builder_.add_face(corners);
     }
 
     [[nodiscard]] PointNumbers take_points() { return std::move(numbers_); }
@@ -144,6 +147,7 @@ class FacetCollector {
     const InputPosition& position_;
     MeshBuilder builder_;
     PointNumbers numbers_;
+    Index n_facets_ = 0;
 };
 
 /// Reads a whole file, or a slice of one.

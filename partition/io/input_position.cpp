@@ -15,9 +15,23 @@ void InputPosition::fail(const std::string& complaint) const
 
 void InputPosition::fault_at(const std::string& place, const std::string& complaint) const
 {
-    if (log_ == nullptr)
+    if (!notes_faults())
         throw InputError(place + ": " + complaint);
     log_->add(place + ": " + complaint);
+}
+
+void InputPosition::harmless_fault(const std::string& complaint) const
+{
+    if (log_ == nullptr)
+        fail(complaint);
+    log_->add(position() + ": " + complaint);
+    ++log_->n_harmless;
+}
+
+void InputPosition::leave_out_face(Index f) const
+{
+    if (log_ != nullptr)
+        log_->faces_left_out.push_back(f);
 }
 
 std::string printable(std::string_view text)

@@ -23,10 +23,16 @@ class InputPosition {
     /// @throws InputError as `fail` does, unless faults are noted.
     void fault(const std::string& complaint) const { fault_at(position(), complaint); }
     void fault_at(const std::string& place, const std::string& complaint) const;
+    /// The same for a fault of a face or a row that leaves no doubt what the rest means (see
+    /// FaultLog::of_faces_alone).
+    void harmless_fault(const std::string& complaint) const;
+    /// Notes that a face is left out.
+    /// @param f its number in the file.
+    void leave_out_face(Index f) const;
 
     /// From now on faults are noted there; it has to outlive the reading.
     void note_faults_in(FaultLog* log) { log_ = log; }
-    [[nodiscard]] bool notes_faults() const { return log_ != nullptr; }
+    [[nodiscard]] bool notes_faults() const { return log_ != nullptr && !log_->of_faces_alone; }
 
   protected:
     InputPosition() = default;

@@ -15,6 +15,17 @@ constexpr std::size_t most = std::numeric_limits<Index>::max();
 
 }  // namespace
 
+bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted)
+{
+    if (corners.size() < 3)
+        return false;
+    if (corners.size() == 3 && corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+        return true;
+    sorted.assign(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+}
+
 MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number)
     : position_(position)
     , first_number_(first_number)
@@ -57,35 +68,33 @@ Index MeshBuilder::refuse_vertex(std::int64_t index, std::int64_t n) const
     return -1;
 }
 
-bool MeshBuilder::are_distinct(std::span<const Index> corners)
+bool MeshBuilder::is_usable(std::span<const Index> corners)
 {
-    sorted_.assign(corners.begin(), corners.end());
-    std::sort(sorted_.begin(), sorted_.end());
-    const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());
-    if (twice == sorted_.end())
+    if (are_corners_of_face(corners, sorted_))
         return true;
-    position_.fault(fmt::format("the face names vertex {} twice; remove the face, or split it at that vertex",
-                                std::int64_t{*twice} + first_number_));
+    if (corners.size() < 3)
+        position_.harmless_fault(fmt::format("the face has {}, but needs at least 3; remove it or add what is missing",
+                                             counted(corners.size(), "corner", "corners")));
+    else
+        position_.harmless_fault(
+            fmt::format("the face names vertex {} twice; remove the face, or split it at that vertex",
+                        std::int64_t{*std::ranges::adjacent_find(sorted_)} + first_number_));
     return false;
 }
 
 void MeshBuilder::add_face(std::span<const Index> corners)
 {
-    if (corners.size() < 3) {
-        position_.fault(fmt::format("the face has {}, but needs at least 3; remove it or add what is missing",
-                                    counted(corners.size(), "corner", "corners")));
-        return;
-    }
+    const Index number = n_faces_++;
     if (position_.notes_faults() && std::find(corners.begin(), corners.end(), -1) != corners.end())
         return;
+    if (!is_usable(corners)) {
+        position_.leave_out_face(number);
+        return;
+    }
     if (corners.size() > most - mesh_.face_vertices.size())
         position_.fail(
             fmt::format("the faces have more than {} corners together; divide the mesh into several files", most));
-    const bool triangle = corners.size() == 3;
-    const bool suspicious =
-        !triangle || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
-    if (!suspicious || are_distinct(corners))
-        mesh_.add_face(corners);
+    mesh_.add_face(corners);
 }
 
 /// Those that named vertices which never came.

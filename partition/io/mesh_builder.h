@@ -10,6 +10,10 @@
 
 namespace seamflow {
 
+/// Whether the corners are at least three, and all different.
+/// @param sorted scratch: receives the corners, sorted, where they may be alike.
+bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted);
+
 /// Where the elements of one slice of a file belong.
 struct MeshSlice {
     /// Those of the whole file, with room for all.
@@ -42,7 +46,8 @@ class MeshBuilder {
 
     /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
     /// with.
-    /// @throws InputError for less than three corners, for a vertex named twice, and for more than 2^31 - 1 corners in
+    /// @throws InputError for less than three corners and for a vertex named twice, unless such faces are left out (see
+    ///         InputPosition::harmless_fault), and for more than 2^31 - 1 corners in
     ///         all.
     void add_face(std::span<const Index> corners);
 
@@ -64,12 +69,14 @@ class MeshBuilder {
 
   private:
     [[nodiscard]] Index refuse_vertex(std::int64_t index, std::int64_t n) const;
-    [[nodiscard]] bool are_distinct(std::span<const Index> corners);
+    [[nodiscard]] bool is_usable(std::span<const Index> corners);
     void leave_out_faces_without_vertices();
 
     const InputPosition& position_;
     Index first_number_;
     Index n_vertices_ = 0;
+    /// Those that were left out included.
+    Index n_faces_ = 0;
     std::vector<double> coordinates_;
     /// Of a slice, else null: then they are collected in `coordinates_`.
     Points* vertices_ = nullptr;

@@ -57,7 +57,9 @@ class FindingsPrinter {
         out_ << '\n';
         for (std::size_t i = 0; i < faults.messages.size() && i < most_listed_; ++i)
             out_ << "    " << faults.messages[i] << '\n';
-        out_ << "    smooth refuses the file until they are mended\n";
+        out_ << (faults.n_harmless == faults.count
+                     ? "    smooth leaves such faces and numbers out of the flow, and refuses the file with --strict\n"
+                     : "    smooth refuses the file until they are mended\n");
     }
 
     void print(const char* sentence)

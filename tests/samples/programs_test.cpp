@@ -86,6 +86,27 @@ TEST_CASE("a report goes to standard output, and one of a run that fails says wh
     CHECK(w.json("report.json")["error"]["exit_status"] == 3);
 }
 
+TEST_CASE("faces that are none take no part, stay in the file and are told of; --strict refuses them")
+{
+    const Workshop w;
+    const std::string faces = "f 1 2 3\nf 1 1 2\nf 2 4 3\n";
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    static_cast<void>(w.directory.with("bad.obj", vertices + faces));
+    REQUIRE(w.smooth("bad.obj out.obj --time-step 1e-2") == 0);
+    CHECK(w.count_lines("said", "remark     1 face names a vertex twice or has fewer than three corners") == 1);
+    CHECK(w.said().find("bad.obj:6: the face names vertex 1 twice") != std::string::npos);
+    CHECK(test::content_of(w.directory / "out.obj").find(faces) != std::string::npos);
+    CHECK(w.smooth("bad.obj out.obj --time-step 1e-2 --strict") == 3);
+    CHECK(w.run(COMPARE " bad.obj out.obj") == 0);
+    CHECK(w.run(INSPECT " bad.obj") == 0);
+    CHECK(w.said().find("refuses the file with --strict") != std::string::npos);
+    // Labels are those of the file.
+    static_cast<void>(w.directory.with("labels.txt", "0\n7\n0\n"));
+    CHECK(w.smooth("bad.obj out.obj --time-step 1e-2 --labels labels.txt") == 0);
+    static_cast<void>(w.directory.with("labels.txt", "0\n0\n"));
+    CHECK(w.smooth("bad.obj out.obj --time-step 1e-2 --labels labels.txt") == 3);
+}
+
 TEST_CASE("the report of smooth has its keys")
 {
     const Workshop w;
