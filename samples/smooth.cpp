@@ -8,7 +8,6 @@
 //        sub-meshes of lower colour
 //        that it takes values from
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -48,8 +47,14 @@ namespace {
 std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)
 {
     std::vector<Index> labels = read_labels(path, n_faces + static_cast<Index>(left_out.size()));
-    for (auto f = left_out.rbegin(); f != left_out.rend(); ++f)
-        labels.erase(labels.begin() + *f);
+    auto next = left_out.begin();
+    Index f = 0;
+    std::erase_if(labels, [&](Index) {
+        const bool is_left_out = next != left_out.end() && *next == f;
+        next += is_left_out ? 1 : 0;
+        ++f;
+        return is_left_out;
+    });
     return labels;
 }
 
@@ -118,7 +123,8 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
 }
 
 /// About what of a file has been left out of the flow.
-std::string remark_on_faces(const FaultLog& faults, const FileKind& kind)
+/// @param stays whether it is in the result as it was.
+std::string remark_on_faces(const FaultLog& faults, bool stays)
 {
     const std::size_t n_faces = faults.faces_left_out.size();
     const std::size_t n_rows = faults.n_harmless - n_faces;
@@ -130,9 +136,8 @@ std::string remark_on_faces(const FaultLog& faults, const FileKind& kind)
     if (n_rows > 0)
         text += fmt::format("{}{} more numbers than the file declares, which were passed over",
                             text.empty() ? "" : "; ", n_rows == 1 ? "1 row has" : fmt::format("{} rows have", n_rows));
-    return fmt::format("{}; {} (the first: {}; --strict refuses such files).", text,
-                       kind.format == FileFormat::Stl ? "STL is written without them" : "in the file they stay",
-                       faults.messages.front());
+    return fmt::format("{}; the result {} (the first: {}; --strict refuses such files).", text,
+                       stays ? "has all that as it was" : "is written without", faults.messages.front());
 }
 
 /// What is written about the run: report, trace and page.
@@ -199,14 +204,18 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
                          kind_for_writing(command.every_step->path(1), file.kind));
 
     std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
-    if (left_out.count > 0)
-        losses.push_back(remark_on_faces(left_out, file.kind));
+    if (left_out.count > 0) {
+        // What write_mesh_like copies.
+        const bool stays = kind_for_writing(command.output, file.kind).format == file.kind.format &&
+                           file.kind.format != FileFormat::Stl && !command.options.report.keep_gaps;
+        losses.push_back(remark_on_faces(left_out, stays));
+    }
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))
         losses.push_back("The result has replaced the input, in one go when it was complete.");
     std::optional<PageFlow> page = make_page(command, file.mesh);
     std::optional<SurfaceChangeMeter> change;
-    if (!command.quiet || !command.report.empty())
+    if (!command.quiet || !command.report.empty() || !command.html.empty())
         change.emplace(file.mesh, loop);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =

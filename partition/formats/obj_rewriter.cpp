@@ -18,6 +18,17 @@ namespace {
 
 constexpr Index none = -1;
 
+/// The number that a text begins with, counted from 0; `none` if there is no such number.
+/// @param n how many precede; negative numbers count back from there.
+Index index_at_start(std::string_view text, Index n)
+{
+    if (text.starts_with('+'))
+        text.remove_prefix(1);
+    Index number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number > 0 ? number - 1 : number < 0 ? number + n : none;
+}
+
 /// The normal that a corner such as 7//2 or 7/1/-2 names, counted from 0; it need not be there.
 /// @param n number of normals before this line.
 Index normal_of(std::string_view corner, Index n)
@@ -26,12 +37,7 @@ Index normal_of(std::string_view corner, Index n)
     const auto second = first == std::string_view::npos ? first : corner.find('/', first + 1);
     if (second == std::string_view::npos)
         return none;
-    corner.remove_prefix(second + 1);
-    if (corner.starts_with('+'))
-        corner.remove_prefix(1);
-    Index number = 0;
-    std::from_chars(corner.data(), corner.data() + corner.size(), number);
-    return number > 0 ? number - 1 : number < 0 ? number + n : none;
+    return index_at_start(corner.substr(second + 1), n);
 }
 
 /// How many normals stay although the surface has moved.
@@ -103,17 +109,6 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
                         reasons)};
 }
 
-/// The vertex that such a corner names, counted from 0.
-/// @param n number of vertices before this line.
-Index vertex_of(std::string_view corner, Index n)
-{
-    if (corner.starts_with('+'))
-        corner.remove_prefix(1);
-    Index number = 0;
-    std::from_chars(corner.data(), corner.data() + corner.size(), number);
-    return number > 0 ? number - 1 : number + n;
-}
-
 /// The normal that each corner of a slice names, or `none`; without the faces that are left out of the mesh.
 /// @param counts what stands before the slice.
 std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
@@ -130,7 +125,7 @@ std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
         vertices.clear();
         while (scanner.has_token()) {
             const std::string_view corner = scanner.token();
-            vertices.push_back(vertex_of(corner, counts.n_vertices));
+            vertices.push_back(index_at_start(corner, counts.n_vertices));
             normals.push_back(normal_of(corner, counts.n_normals));
         }
         if (!are_corners_of_face(vertices, sorted))

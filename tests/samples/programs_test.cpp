@@ -95,7 +95,11 @@ TEST_CASE("faces that are none take no part, stay in the file and are told of; -
     REQUIRE(w.smooth("bad.obj out.obj --time-step 1e-2") == 0);
     CHECK(w.count_lines("said", "remark     1 face names a vertex twice or has fewer than three corners") == 1);
     CHECK(w.said().find("bad.obj:6: the face names vertex 1 twice") != std::string::npos);
+    CHECK(w.said().find("the result has all that as it was") != std::string::npos);
     CHECK(test::content_of(w.directory / "out.obj").find(faces) != std::string::npos);
+    REQUIRE(w.smooth("bad.obj out.ply --time-step 1e-2") == 0);
+    CHECK(w.said().find("the result is written without") != std::string::npos);
+    CHECK(read_mesh(w.directory / "out.ply").mesh.n_faces() == 2);
     CHECK(w.smooth("bad.obj out.obj --time-step 1e-2 --strict") == 3);
     CHECK(w.run(COMPARE " bad.obj out.obj") == 0);
     CHECK(w.run(INSPECT " bad.obj") == 0);
