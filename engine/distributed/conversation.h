@@ -84,6 +84,29 @@ class Conversation {
         return all;
     }
 
+    /// What every rank gives, joined in the order of ranks, at rank 0; the others get nothing.
+    template <class Value>
+    std::vector<Value> gather_at_first(const std::vector<Value>& own)
+    {
+        std::vector<Bytes> to_each(static_cast<std::size_t>(size()));
+        to_each.front() = packed(own);
+        std::vector<Value> all;
+        for (const Bytes& bytes : exchange(std::move(to_each))) {
+            if (bytes.empty())
+                continue;
+            const auto values = unpacked<Value>(bytes);
+            all.insert(all.end(), values.begin(), values.end());
+        }
+        return all;
+    }
+
+    /// What rank 0 gives; what the others give is passed over.
+    template <class Value>
+    std::vector<Value> tell_all(const std::vector<Value>& of_first)
+    {
+        return gather_all(rank() == 0 ? of_first : std::vector<Value>{});
+    }
+
     /// Gives bytes to each rank, and takes what each has for this one.
     /// @param to_each #ranks. @returns #ranks, in their order.
     std::vector<Bytes> exchange(std::vector<Bytes> to_each);

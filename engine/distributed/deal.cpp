@@ -20,24 +20,12 @@ struct SubMeshCost {
     std::int64_t corners;
 };
 
-/// The stretch that has a number.
-int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number)
+void require_labels(const RankSlice& slice, std::int64_t first_face)
 {
-    return static_cast<int>(std::ranges::upper_bound(bounds, number) - bounds.begin()) - 1;
-}
-
-void require_valid(const RankSlice& slice, const SliceBounds& bounds, int rank)
-{
-    for (Index f = 0; f < slice.n_faces(); ++f) {
-        const auto number = bounds.faces[rank] + f;
+    for (Index f = 0; f < slice.n_faces(); ++f)
         if (slice.labels[f] < 0)
             throw InputError(fmt::format("face {} (numbered from 0) has the label {}: labels must be at least 0",
-                                         number, slice.labels[f]));
-        for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
-            if (slice.corners[c] < 0 || slice.corners[c] >= bounds.vertices.back())
-                throw InputError(fmt::format("face {} (numbered from 0) names vertex {}, but the mesh has {} vertices",
-                                             number, slice.corners[c], bounds.vertices.back()));
-    }
+                                         first_face + f, slice.labels[f]));
 }
 
 /// Adds up what has the same label, ascending.
@@ -144,8 +132,22 @@ std::vector<std::vector<std::int64_t>> by_stretch(std::span<const std::int64_t> 
     return of_stretch;
 }
 
-/// Asks the ranks that have read them for the positions of vertices.
-/// @param numbers ascending. @returns #numbers by 3.
+}  // namespace
+
+void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank)
+{
+    for (Index f = 0; f < slice.n_faces(); ++f)
+        for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
+            if (slice.corners[c] < 0 || slice.corners[c] >= bounds.vertices.back())
+                throw InputError(fmt::format("face {} (numbered from 0) names vertex {}, but the mesh has {} vertices",
+                                             bounds.faces[rank] + f, slice.corners[c], bounds.vertices.back()));
+}
+
+int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number)
+{
+    return static_cast<int>(std::ranges::upper_bound(bounds, number) - bounds.begin()) - 1;
+}
+
 Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
                        std::span<const std::int64_t> bounds)
 {
@@ -170,8 +172,6 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
     return positions;
 }
 
-}  // namespace
-
 SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice)
 {
     SliceBounds bounds{{0}, {0}};
@@ -185,7 +185,8 @@ SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice)
 MeshPart deal(Conversation& talk, const RankSlice& slice)
 {
     const SliceBounds bounds = gather_bounds(talk, slice);
-    require_valid(slice, bounds, talk.rank());
+    require_corners(slice, bounds, talk.rank());
+    require_labels(slice, bounds.faces[talk.rank()]);
     const Owners owners(talk, slice);
     MeshPart part;
     const std::vector<std::int64_t> corners =

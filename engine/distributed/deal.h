@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/distributed/conversation.h"
@@ -31,6 +32,20 @@ struct SliceBounds {
 
 /// The stretches in order. All ranks call this together.
 SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice);
+
+/// Checks that the corners of a stretch are vertices of the mesh.
+/// @throws InputError naming the first face of this rank that has another.
+void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank);
+
+/// The stretch in which a number lies.
+/// @param bounds of vertices or faces (see SliceBounds), the number within them.
+int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number);
+
+/// Asks the ranks that have them for the positions of vertices. All ranks call this together.
+/// @param numbers ascending, in the whole mesh. @param bounds those of vertices.
+/// @returns #numbers by 3.
+Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
+                       std::span<const std::int64_t> bounds);
 
 /// Gives every face to the rank that has its sub-mesh, with the positions of its corners. Sub-meshes are dealt in
 /// ascending order, so that all ranks get about as many corners. All ranks call this together; no rank needs room for

@@ -97,31 +97,6 @@ Index local_number(std::span<const Number> numbers, Number number)
     return static_cast<Index>(std::ranges::lower_bound(numbers, number) - numbers.begin());
 }
 
-/// Some faces of a part and their vertices, in the order of the part.
-MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
-{
-    MeshPart some;
-    std::vector<Index> vertices;
-    for (const Index f : faces)
-        vertices.insert(vertices.end(), part.mesh.face(f).begin(), part.mesh.face(f).end());
-    sort_unique(vertices);
-    some.mesh.vertices = part.mesh.vertices(vertices, Eigen::all);
-    for (const Index v : vertices) {
-        some.vertex_numbers.push_back(part.vertex_numbers[v]);
-        some.fixed.push_back(part.fixed.empty() ? 0 : part.fixed[v]);
-    }
-    std::vector<Index> corners;
-    for (const Index f : faces) {
-        corners.clear();
-        for (const Index v : part.mesh.face(f))
-            corners.push_back(static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin()));
-        some.mesh.add_face(corners);
-        some.face_numbers.push_back(part.face_numbers[f]);
-        some.labels.push_back(part.labels[f]);
-    }
-    return some;
-}
-
 Bytes packed_part(const MeshPart& part)
 {
     Packer packer;
@@ -236,6 +211,30 @@ void require_valid(const MeshPart& part)
     if (!part.fixed.empty() && part.fixed.size() != part.vertex_numbers.size())
         throw InputError("a part of a mesh does not say of each vertex whether it is fixed");
     require_valid(part.mesh);
+}
+
+MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
+{
+    MeshPart some;
+    std::vector<Index> vertices;
+    for (const Index f : faces)
+        vertices.insert(vertices.end(), part.mesh.face(f).begin(), part.mesh.face(f).end());
+    sort_unique(vertices);
+    some.mesh.vertices = part.mesh.vertices(vertices, Eigen::all);
+    for (const Index v : vertices) {
+        some.vertex_numbers.push_back(part.vertex_numbers[v]);
+        some.fixed.push_back(part.fixed.empty() ? 0 : part.fixed[v]);
+    }
+    std::vector<Index> corners;
+    for (const Index f : faces) {
+        corners.clear();
+        for (const Index v : part.mesh.face(f))
+            corners.push_back(static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin()));
+        some.mesh.add_face(corners);
+        some.face_numbers.push_back(part.face_numbers[f]);
+        some.labels.push_back(part.labels[f]);
+    }
+    return some;
 }
 
 MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers)

@@ -27,6 +27,10 @@ struct MeshPart {
 /// @throws InputError naming the first vertex or face (in the whole mesh, where it has a number) at which they do not.
 void require_valid(const MeshPart& part);
 
+/// Some faces of a part and their vertices.
+/// @param faces ascending, numbered in the part.
+MeshPart some_faces(const MeshPart& part, std::span<const Index> faces);
+
 /// The part with faces that other ranks have around it, as many layers of them: a layer is all faces around the
 /// vertices of those that are there. All ranks call this together.
 /// @param own the faces that are the rank's own: every face of the mesh is that of one rank.

@@ -13,6 +13,23 @@ namespace seamflow {
 
 namespace {
 
+/// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
+/// seams; of others clusters are.
+constexpr double min_weight_for_clusters = 500'000;
+/// With parts as small as this, seams matter less, and clusters are grown in lighter meshes too.
+constexpr double small_part = 5'000;
+constexpr double min_weight_for_small_parts = 300'000;
+/// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
+constexpr double clusters_per_part = 80;
+/// And in all, which takes a twentieth of a second.
+constexpr double min_clusters = 20'000;
+/// Larger clusters save no time and leave longer seams.
+constexpr double max_cluster_weight = 64;
+/// Smaller clusters save little against single faces.
+constexpr double min_cluster_weight = 8;
+/// Where a part would have fewer clusters than this, METIS gets every face.
+constexpr double min_clusters_per_part = 30;
+
 /// Faces that follow each other.
 struct Chunk {
     Index begin;
@@ -247,6 +264,16 @@ InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> fac
 }
 
 }  // namespace
+
+Index cluster_weight(double total, Index k)
+{
+    if (total < (total / k <= small_part ? min_weight_for_small_parts : min_weight_for_clusters))
+        return 1;
+    if (total / k < min_clusters_per_part * min_cluster_weight)
+        return 1;
+    return static_cast<Index>(
+        std::clamp(total / std::max(k * clusters_per_part, min_clusters), min_cluster_weight, max_cluster_weight));
+}
 
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Loop& loop,
                            Index chunk)

@@ -26,6 +26,10 @@ inline Index face_weight(const PolygonMesh& mesh, Index f)
     return static_cast<Index>(mesh.face(f).size()) - 2;
 }
 
+/// How much clusters should weigh when a mesh is cut into k parts; 1 where its faces should not be put together.
+/// @param total the weight of all faces.
+Index cluster_weight(double total, Index k);
+
 /// So many faces are a chunk at least (see grow_clusters).
 inline constexpr Index faces_per_chunk = 1 << 18;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,18 @@ enum class ArcMeasure {
 /// The graph of the clusters of a mesh.
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
                           ArcMeasure measure, const Loop& loop = run_serially);
+
+/// How many edges two clusters share.
+struct ClusterContact {
+    Index low;
+    Index high;
+    Index n_edges;
+};
+
+/// The graph of clusters of which no more than this is known.
+/// @param weights one entry per cluster, at least 1 (see face_weight). @param contacts in any order; those of the same
+/// clusters are added up.
+FaceGraph make_face_graph(std::span<const std::int64_t> weights, std::span<const ClusterContact> contacts);
 
 /// The connected components of a graph.
 Components graph_components(const FaceGraph& graph);

@@ -19,18 +19,19 @@ constexpr int max_shortening_rounds = 8;
 
 class SeamShortener {
   public:
-    SeamShortener(const PolygonMesh& mesh, const Topology& topology, Index n_labels, std::vector<Index>& labels,
-                  const Loop& loop)
+    SeamShortener(const PolygonMesh& mesh, const Topology& topology, const SeamSurroundings& whole,
+                  std::vector<Index>& labels)
         : mesh_(mesh)
         , topology_(topology)
         , labels_(labels)
-        , weight_(sums_by_value(
-              loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
-              [&](Index f) { return face_weight(mesh, f); }))
-        , shared_(n_labels, 0)
-        , may_be_divided_(n_labels, false)
+        , held_(whole.held)
+        , weight_(whole.weights)
+        , shared_(whole.weights.size(), 0)
+        , may_be_divided_(whole.weights.size(), false)
     {
     }
+
+    [[nodiscard]] bool is_held(Index f) const { return !held_.empty() && held_[f] != 0; }
 
     [[nodiscard]] bool is_beside_seam(Index f) const
     {
@@ -103,6 +104,8 @@ class SeamShortener {
     const PolygonMesh& mesh_;
     const Topology& topology_;
     std::vector<Index>& labels_;
+    /// #F, or empty.
+    const std::vector<std::uint8_t>& held_;
     PartWeights weight_;
     /// One entry per label, 0 between faces: how many edges the face in hand shares with the part.
     std::vector<Index> shared_;
@@ -115,17 +118,30 @@ class SeamShortener {
 SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
                                std::vector<Index>& labels, const Loop& loop)
 {
-    if (n_labels < 2)
-        return {.parts = std::vector<bool>(n_labels, false), .faces = {}};
-    SeamShortener shortener(mesh, topology, n_labels, labels, loop);
-    auto faces = select(loop, mesh.n_faces(), [&](Index f) { return shortener.is_beside_seam(f); });
+    const auto weights = sums_by_value(
+        loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
+        [&](Index f) { return face_weight(mesh, f); });
+    return shorten_seams(mesh, topology, SeamSurroundings{.weights = weights, .held = {}}, labels, loop);
+}
+
+SuspectedDefects shorten_seams(const PolygonMesh& piece, const Topology& topology, const SeamSurroundings& whole,
+                               std::vector<Index>& labels, const Loop& loop)
+{
+    if (whole.weights.size() < 2)
+        return {.parts = std::vector<bool>(whole.weights.size(), false), .faces = {}};
+    SeamShortener shortener(piece, topology, whole, labels);
+    auto faces =
+        select(loop, piece.n_faces(), [&](Index f) { return !shortener.is_held(f) && shortener.is_beside_seam(f); });
     std::vector<Index> suspected = faces;
     for (int round = 0; round < max_shortening_rounds && !faces.empty(); ++round) {
         // Only around faces that have moved may others follow.
         std::vector<Index> next;
         for (const Index f : faces)
             if (shortener.improve(f))
-                for_each_neighbour(mesh, topology, f, [&](Index, Index g) { next.push_back(g); });
+                for_each_neighbour(piece, topology, f, [&](Index, Index g) {
+                    if (!shortener.is_held(g))
+                        next.push_back(g);
+                });
         sort_unique(next);
         faces = std::move(next);
         suspected.insert(suspected.end(), faces.begin(), faces.end());

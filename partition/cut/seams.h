@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "partition/loop.h"
@@ -17,6 +18,18 @@ namespace seamflow {
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
 /// @returns where defects may be now if all parts were connected before.
 SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
+                               std::vector<Index>& labels, const Loop& loop = run_serially);
+
+/// What a piece of a mesh has to know of the whole.
+struct SeamSurroundings {
+    /// One entry per label: the weight of the part in the whole mesh.
+    std::vector<std::int64_t> weights;
+    /// #F of the piece: 1 where a face keeps its label, as those do that have neighbours outside.
+    std::vector<std::uint8_t> held;
+};
+
+/// The same within a piece of a mesh.
+SuspectedDefects shorten_seams(const PolygonMesh& piece, const Topology& topology, const SeamSurroundings& whole,
                                std::vector<Index>& labels, const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -8,28 +8,10 @@
 #include "engine/distributed/deal.h"
 #include "engine/distributed/thread_communicator.h"
 #include "partition/errors.h"
+#include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;
-
-namespace {
-
-/// What rank of n reads, if each reads as many faces and vertices.
-RankSlice slice_of(const PolygonMesh& mesh, const std::vector<Index>& labels, int rank, int n)
-{
-    RankSlice slice;
-    const auto bound = [n](Index all, int r) { return static_cast<Index>(std::int64_t{all} * r / n); };
-    const Index first = bound(mesh.n_vertices(), rank);
-    slice.vertices = mesh.vertices.middleRows(first, bound(mesh.n_vertices(), rank + 1) - first);
-    for (Index f = bound(mesh.n_faces(), rank); f < bound(mesh.n_faces(), rank + 1); ++f) {
-        slice.corners.insert(slice.corners.end(), mesh.face(f).begin(), mesh.face(f).end());
-        slice.face_offsets.push_back(static_cast<Index>(slice.corners.size()));
-        slice.labels.push_back(labels[f]);
-    }
-    return slice;
-}
-
-}  // namespace
 
 TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as much")
 {
@@ -46,7 +28,7 @@ TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as 
         std::map<Index, int> rank_of;
         run_on_threads(n, [&](Communicator& communicator) {
             run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = slice_of(mesh, labels, talk.rank(), n);
+                RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
                 MeshPart part = deal(talk, slice);
                 require_valid(part);
                 const std::scoped_lock lock(mutex);
@@ -81,13 +63,13 @@ TEST_CASE("positions come back to where they were read")
     for (const int n : {1, 3, 5})
         run_on_threads(n, [&](Communicator& communicator) {
             run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = slice_of(mesh, labels, talk.rank(), n);
+                RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
                 MeshPart part = deal(talk, slice);
                 part.mesh.vertices *= 2.0;
                 collect_positions(talk, part, slice);
                 PolygonMesh moved = mesh;
                 moved.vertices.topRows(mesh.n_vertices() - 1) *= 2.0;
-                CHECK(test::same_bits(slice.vertices, slice_of(moved, labels, talk.rank(), n).vertices));
+                CHECK(test::same_bits(slice.vertices, test::slice_of(moved, labels, talk.rank(), n).vertices));
             });
         });
 }
@@ -100,7 +82,7 @@ TEST_CASE("a corner that is none of the mesh's vertices is named on all ranks")
         std::string message;
         try {
             run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = slice_of(mesh, labels, talk.rank(), 3);
+                RankSlice slice = test::slice_of(mesh, labels, talk.rank(), 3);
                 if (talk.rank() == 1)
                     slice.corners[4] = mesh.n_vertices();
                 deal(talk, slice);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
+#include "engine/distributed/deal.h"
 #include "engine/distributed/mesh_part.h"
 #include "partition/index_lists.h"
 
@@ -37,6 +39,21 @@ inline MeshPart part_of(const PolygonMesh& mesh, const std::vector<Index>& label
         part.labels.push_back(labels[f]);
     }
     return part;
+}
+
+/// What rank of n reads, if each reads as many faces and vertices.
+inline RankSlice slice_of(const PolygonMesh& mesh, const std::vector<Index>& labels, int rank, int n)
+{
+    RankSlice slice;
+    const auto bound = [n](Index all, int r) { return static_cast<Index>(std::int64_t{all} * r / n); };
+    const Index first = bound(mesh.n_vertices(), rank);
+    slice.vertices = mesh.vertices.middleRows(first, bound(mesh.n_vertices(), rank + 1) - first);
+    for (Index f = bound(mesh.n_faces(), rank); f < bound(mesh.n_faces(), rank + 1); ++f) {
+        slice.corners.insert(slice.corners.end(), mesh.face(f).begin(), mesh.face(f).end());
+        slice.face_offsets.push_back(static_cast<Index>(slice.corners.size()));
+        slice.labels.push_back(labels[f]);
+    }
+    return slice;
 }
 
 }  // namespace seamflow::test

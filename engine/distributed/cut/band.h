@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/distributed/conversation.h"
+#include "engine/distributed/deal.h"
+#include "engine/distributed/mesh_part.h"
+
+namespace seamflow {
+
+/// The faces around some vertices, as rank 0 gets them from all ranks.
+struct Band {
+    MeshPart part;
+    /// #V of the band: whether it has all faces of the mesh around the vertex.
+    std::vector<std::uint8_t> is_whole;
+};
+
+/// Gathers so many layers of faces around vertices at rank 0: the first are all faces around them, the next those
+/// around the corners of these. All ranks call this together.
+/// @param slice with labels. @param vertices of rank 0, ascending; others give none.
+/// @returns the band at rank 0, nothing at the others.
+Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds,
+                 const std::vector<std::int64_t>& vertices, int layers);
+
+}  // namespace seamflow

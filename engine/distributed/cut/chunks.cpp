@@ -1,0 +1,291 @@
+#include "engine/distributed/cut/chunks.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "engine/distributed/cut/hilbert.h"
+#include "engine/tasks/parallel_loop.h"
+#include "partition/index_lists.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+using Number = std::int64_t;
+
+/// The positions of the corners of a stretch of faces.
+class CornerPositions {
+  public:
+    CornerPositions(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds)
+        : slice_(slice)
+        , first_(bounds.vertices[talk.rank()])
+        , end_(bounds.vertices[talk.rank() + 1])
+    {
+        for (const Number corner : slice.corners)
+            if (!is_own(corner))
+                others_.push_back(corner);
+        sort_unique(others_);
+        positions_ = fetch_positions(talk, slice, others_, bounds.vertices);
+    }
+
+    [[nodiscard]] Point operator[](Number corner) const
+    {
+        if (is_own(corner))
+            return slice_.vertices.row(corner - first_);
+        return positions_.row(std::ranges::lower_bound(others_, corner) - others_.begin());
+    }
+
+  private:
+    [[nodiscard]] bool is_own(Number corner) const { return corner >= first_ && corner < end_; }
+
+    const RankSlice& slice_;
+    Number first_;
+    Number end_;
+    /// Ascending, those of other stretches.
+    std::vector<Number> others_;
+    Points positions_;
+};
+
+/// #F of the stretch by 3.
+Points centroids_of(const RankSlice& slice, const CornerPositions& positions)
+{
+    Points centroids(slice.n_faces(), 3);
+    for_each(run_in_parallel, slice.n_faces(), [&](Index f) {
+        Point sum = Point::Zero();
+        for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
+            sum += positions[slice.corners[c]];
+        centroids.row(f) = sum / std::max(1, slice.face_offsets[f + 1] - slice.face_offsets[f]);
+    });
+    return centroids;
+}
+
+/// Low and high corner of the box around the points of all ranks; those that are not finite do not count.
+std::array<Point, 2> box_of(Conversation& talk, const Points& points)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<Point, 2> box{Point::Constant(infinity), Point::Constant(-infinity)};
+    const auto take_in = [&](const Point& point) {
+        if (!point.allFinite())
+            return;
+        box[0] = box[0].cwiseMin(point);
+        box[1] = box[1].cwiseMax(point);
+    };
+    for (const auto& point : points.rowwise())
+        take_in(point);
+    const std::vector<double> all =
+        talk.gather_all(std::vector<double>{box[0].x(), box[0].y(), box[0].z(), box[1].x(), box[1].y(), box[1].z()});
+    for (std::size_t i = 0; i < all.size(); i += 3)
+        take_in({all[i], all[i + 1], all[i + 2]});
+    return box;
+}
+
+/// #F of the stretch.
+std::vector<std::uint64_t> hilbert_codes(Conversation& talk, const Points& centroids)
+{
+    const auto [low, high] = box_of(talk, centroids);
+    const double side = (high - low).maxCoeff();
+    constexpr double n_cells = std::uint32_t{1} << hilbert_bits;
+    const Point origin = low;
+    std::vector<std::uint64_t> codes(static_cast<std::size_t>(centroids.rows()));
+    for_each(run_in_parallel, static_cast<Index>(codes.size()), [&](Index f) {
+        std::array<std::uint32_t, 3> cell{};
+        for (int c = 0; c < 3; ++c) {
+            const double place = (centroids(f, c) - origin[c]) / side * n_cells;
+            cell[c] = place > 0.0 ? static_cast<std::uint32_t>(std::min(place, n_cells - 1.0)) : 0;
+        }
+        codes[f] = hilbert_code(cell);
+    });
+    return codes;
+}
+
+/// For each number of faces the largest code below which no more of them are, of all ranks.
+/// @param sorted the codes of this rank.
+std::vector<std::uint64_t> codes_at(Conversation& talk, const std::vector<std::uint64_t>& sorted,
+                                    const std::vector<Number>& numbers)
+{
+    std::vector<std::uint64_t> codes(numbers.size(), 0);
+    for (int bit = 3 * hilbert_bits - 1; bit >= 0; --bit) {
+        std::vector<Number> counts;
+        for (const std::uint64_t code : codes)
+            counts.push_back(std::ranges::lower_bound(sorted, code | std::uint64_t{1} << bit) - sorted.begin());
+        const std::vector<Number> of_all = talk.gather_all(counts);
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            Number count = 0;
+            for (std::size_t k = i; k < of_all.size(); k += codes.size())
+                count += of_all[k];
+            if (count <= numbers[i])
+                codes[i] |= std::uint64_t{1} << bit;
+        }
+    }
+    return codes;
+}
+
+/// Sends numbers to their homes, those whose stretches they lie in, and gets an answer to each.
+/// @param numbers #numbers; each with a home. @param home_of the home of a question.
+/// @param answer called at each home with all questions that have come there, and to fill in one answer to each.
+template <class Question, class HomeOf, class Answer>
+std::vector<std::uint8_t> ask_homes(Conversation& talk, const std::vector<Question>& questions, HomeOf&& home_of,
+                                    Answer&& answer)
+{
+    std::vector<std::vector<Question>> to_homes(talk.size());
+    for (const Question& question : questions)
+        to_homes[home_of(question)].push_back(question);
+    std::vector<Bytes> sent;
+    for (auto& of_home : to_homes)
+        sent.push_back(packed(std::exchange(of_home, {})));
+    std::vector<Question> asked;
+    std::vector<std::size_t> ends;
+    for (const Bytes& bytes : talk.exchange(std::move(sent))) {
+        const auto of_rank = unpacked<Question>(bytes);
+        asked.insert(asked.end(), of_rank.begin(), of_rank.end());
+        ends.push_back(asked.size());
+    }
+    const std::vector<std::uint8_t> answers = answer(asked);
+    std::vector<Bytes> replies;
+    for (std::size_t rank = 0, begin = 0; rank < ends.size(); begin = ends[rank++])
+        replies.push_back(packed(std::vector<std::uint8_t>(answers.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                           answers.begin() + static_cast<std::ptrdiff_t>(ends[rank]))));
+    std::vector<std::vector<std::uint8_t>> from_homes;
+    for (const Bytes& bytes : talk.exchange(std::move(replies)))
+        from_homes.push_back(unpacked<std::uint8_t>(bytes));
+    std::vector<std::size_t> next(from_homes.size(), 0);
+    std::vector<std::uint8_t> result;
+    for (const Question& question : questions) {
+        const int home = home_of(question);
+        result.push_back(from_homes[home][next[home]++]);
+    }
+    return result;
+}
+
+/// How often each value occurs, up to 3.
+template <class Value>
+std::vector<std::uint8_t> counts_of(const std::vector<Value>& values)
+{
+    std::vector<Value> sorted = values;
+    std::ranges::sort(sorted);
+    std::vector<std::uint8_t> counts;
+    for (const Value& value : values) {
+        const auto found = std::ranges::equal_range(sorted, value);
+        counts.push_back(static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(std::ssize(found), 3)));
+    }
+    return counts;
+}
+
+void find_shared_vertices(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks)
+{
+    std::vector<Number> vertices;
+    for (const Chunk& chunk : chunks)
+        vertices.insert(vertices.end(), chunk.part.vertex_numbers.begin(), chunk.part.vertex_numbers.end());
+    const Number first = bounds.vertices[talk.rank()];
+    const auto counts_at_home = [&](const std::vector<Number>& asked) {
+        std::vector<std::uint8_t> n_chunks(bounds.vertices[talk.rank() + 1] - first, 0);
+        for (const Number vertex : asked)
+            n_chunks[vertex - first] = n_chunks[vertex - first] > 0 ? 2 : 1;
+        std::vector<std::uint8_t> counts;
+        for (const Number vertex : asked)
+            counts.push_back(n_chunks[vertex - first]);
+        return counts;
+    };
+    const std::vector<std::uint8_t> counts = ask_homes(
+        talk, vertices, [&](Number vertex) { return stretch_of(bounds.vertices, vertex); }, counts_at_home);
+    auto next = counts.begin();
+    for (Chunk& chunk : chunks)
+        for (std::size_t v = 0; v < chunk.part.vertex_numbers.size(); ++v)
+            chunk.is_shared.push_back(*next++ > 1 ? 1 : 0);
+}
+
+/// The ends of an edge in the whole mesh.
+struct Edge {
+    Number low;
+    Number high;
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+/// The half-edges of a chunk whose ends are both shared.
+std::vector<Index> halfedges_at_others(const Chunk& chunk)
+{
+    const PolygonMesh& mesh = chunk.part.mesh;
+    return select(run_in_parallel, mesh.n_corners(), [&](Index h) {
+        return chunk.is_shared[mesh.face_vertices[h]] != 0 &&
+               chunk.is_shared[mesh.face_vertices[chunk.topology.next(mesh, h)]] != 0;
+    });
+}
+
+Edge edge_of(const Chunk& chunk, Index h)
+{
+    const PolygonMesh& mesh = chunk.part.mesh;
+    const Number one = chunk.part.vertex_numbers[mesh.face_vertices[h]];
+    const Number other = chunk.part.vertex_numbers[mesh.face_vertices[chunk.topology.next(mesh, h)]];
+    return {std::min(one, other), std::max(one, other)};
+}
+
+/// Finds the edges to other chunks, and leaves no twins at edges that have a third face there.
+void match_edges(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks)
+{
+    std::vector<Edge> edges;
+    for (const Chunk& chunk : chunks)
+        for (const Index h : halfedges_at_others(chunk))
+            edges.push_back(edge_of(chunk, h));
+    const std::vector<std::uint8_t> n_faces = ask_homes(
+        talk, edges, [&](const Edge& edge) { return stretch_of(bounds.vertices, edge.low); }, counts_of<Edge>);
+    auto next = n_faces.begin();
+    for (Chunk& chunk : chunks)
+        for (const Index h : halfedges_at_others(chunk)) {
+            const int n = *next++;
+            if (chunk.topology.twin[h] < 0 && n == 2)
+                chunk.crossing.push_back(h);
+            if (n > 2) {
+                chunk.topology.twin[h] = -1;
+                chunk.topology.kind[chunk.part.mesh.face_vertices[h]] = VertexKind::NonManifold;
+            }
+        }
+}
+
+}  // namespace
+
+void label_chunks(Conversation& talk, RankSlice& slice, const SliceBounds& bounds, Index size)
+{
+    const std::vector<std::uint64_t> codes =
+        hilbert_codes(talk, centroids_of(slice, CornerPositions(talk, slice, bounds)));
+    std::vector<Number> begins;
+    for (Number begin = size; begin < bounds.faces.back(); begin += size)
+        begins.push_back(begin);
+    std::vector<std::uint64_t> sorted = codes;
+    std::ranges::sort(sorted);
+    const std::vector<std::uint64_t> first_codes = codes_at(talk, sorted, begins);
+    slice.labels.resize(codes.size());
+    for_each(run_in_parallel, slice.n_faces(), [&](Index f) {
+        slice.labels[f] = static_cast<Index>(std::ranges::upper_bound(first_codes, codes[f]) - first_codes.begin());
+    });
+}
+
+std::vector<Chunk> deal_chunks(Conversation& talk, RankSlice& slice, const SliceBounds& bounds)
+{
+    std::vector<Chunk> chunks;
+    {
+        const MeshPart part = deal(talk, slice);
+        slice.labels = {};
+        std::vector<Index> numbers = part.labels;
+        sort_unique(numbers);
+        const auto place_of = [&](Index label) {
+            return static_cast<Index>(std::ranges::lower_bound(numbers, label) - numbers.begin());
+        };
+        const IndexLists faces = make_lists(static_cast<Index>(numbers.size()), [&](auto&& add) {
+            for (Index f = 0; f < part.mesh.n_faces(); ++f)
+                add(place_of(part.labels[f]), f);
+        });
+        for (Index i = 0; i < faces.size(); ++i)
+            chunks.push_back({.part = some_faces(part, faces[i]), .topology = {}, .is_shared = {}, .crossing = {}});
+    }
+    for (Chunk& chunk : chunks)
+        chunk.topology = make_topology(chunk.part.mesh, run_in_parallel);
+    find_shared_vertices(talk, bounds, chunks);
+    match_edges(talk, bounds, chunks);
+    return chunks;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,416 @@
+#include "engine/distributed/cut/mending.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "engine/distributed/cut/band.h"
+#include "engine/tasks/parallel_loop.h"
+#include "partition/connected_components.h"
+#include "partition/labels.h"
+#include "partition/repair/pinches.h"
+
+namespace seamflow {
+
+namespace {
+
+using Number = std::int64_t;
+
+/// After so many rounds pinched parts are merged.
+constexpr int max_rounds = 12;
+/// Mending at a vertex looks at the second layer around it, and at vertices of the first there may be more to mend.
+constexpr int layers_around_pinches = 4;
+
+/// A face and the part to which it goes.
+struct Moved {
+    Number face;
+    Index label;
+};
+
+/// Faces that a part has apart from its largest component.
+struct LooseFaces {
+    /// Those of one component after the other, the lowest first.
+    std::vector<Number> faces;
+    std::vector<Index> component_sizes;
+    std::vector<Number> corners;
+};
+
+/// Some parts of a cut as one rank sees them.
+struct WholeParts {
+    MeshPart part;
+    /// One entry per half-edge (see SlicedCut).
+    std::vector<std::uint8_t> has_twin;
+};
+
+/// Gives each of these parts to one rank.
+WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vector<Index>& parts)
+{
+    const RankSlice& slice = cut.slice;
+    const auto place_of = [&](Index label) {
+        const auto found = std::ranges::lower_bound(parts, label);
+        return found != parts.end() && *found == label ? found - parts.begin() : std::ptrdiff_t{-1};
+    };
+    const auto wanted =
+        select(run_in_parallel, slice.n_faces(), [&](Index f) { return place_of(slice.labels[f]) >= 0; });
+    std::vector<Packer> to_each(talk.size());
+    for (const Index f : wanted) {
+        const auto owner = static_cast<std::size_t>(place_of(slice.labels[f])) * to_each.size() / parts.size();
+        const std::size_t begin = at(slice.face_offsets[f]);
+        const std::size_t size = at(slice.face_offsets[f + 1]) - begin;
+        to_each[owner].put(cut.bounds.faces[talk.rank()] + f);
+        to_each[owner].put(slice.labels[f]);
+        to_each[owner].put_all(std::span<const Number>(slice.corners).subspan(begin, size));
+        to_each[owner].put_all(std::span<const std::uint8_t>(cut.has_twin).subspan(begin, size));
+    }
+    std::vector<Bytes> sent;
+    for (Packer& packer : to_each)
+        sent.push_back(packer.take());
+    WholeParts whole;
+    std::vector<Number> corners;
+    for (const Bytes& bytes : talk.exchange(std::move(sent)))
+        for (Unpacker unpacker(bytes); !unpacker.is_at_end();) {
+            whole.part.face_numbers.push_back(unpacker.get<Number>());
+            whole.part.labels.push_back(unpacker.get<Index>());
+            const auto of_face = unpacker.get_all<Number>();
+            corners.insert(corners.end(), of_face.begin(), of_face.end());
+            whole.part.mesh.face_offsets.push_back(static_cast<Index>(corners.size()));
+            const auto twins = unpacker.get_all<std::uint8_t>();
+            whole.has_twin.insert(whole.has_twin.end(), twins.begin(), twins.end());
+        }
+    whole.part.vertex_numbers = corners;
+    sort_unique(whole.part.vertex_numbers);
+    for (const Number corner : corners)
+        whole.part.mesh.face_vertices.push_back(static_cast<Index>(
+            std::ranges::lower_bound(whole.part.vertex_numbers, corner) - whole.part.vertex_numbers.begin()));
+    // Nobody asks where they are.
+    whole.part.mesh.vertices = Points::Zero(std::ssize(whole.part.vertex_numbers), 3);
+    return whole;
+}
+
+/// The components of parts, all but the largest of each (of equals the one with the lowest face).
+LooseFaces find_loose(const WholeParts& whole)
+{
+    LooseFaces loose;
+    const auto& [part, has_twin] = whole;
+    const PolygonMesh& mesh = part.mesh;
+    const Topology topology = make_topology(mesh, run_in_parallel);
+    const Components components = connected_components(mesh.n_faces(), [&](Index f, auto&& visit) {
+        for_each_neighbour(mesh, topology, f, [&](Index h, Index g) {
+            if (has_twin[h] != 0 && part.labels[f] == part.labels[g])
+                visit(g);
+        });
+    });
+    const auto label_of = [&](Index component) { return part.labels[components.nodes[component].front()]; };
+    std::map<Index, Index> largest;
+    for (Index component = 0; component < components.count(); ++component) {
+        const auto [found, is_first] = largest.try_emplace(label_of(component), component);
+        if (components.nodes[component].size() > components.nodes[found->second].size())
+            found->second = component;
+    }
+    for (Index component = 0; component < components.count(); ++component) {
+        if (largest.at(label_of(component)) == component)
+            continue;
+        for (const Index f : components.nodes[component]) {
+            loose.faces.push_back(part.face_numbers[f]);
+            for (const Index v : mesh.face(f))
+                loose.corners.push_back(part.vertex_numbers[v]);
+        }
+        loose.component_sizes.push_back(static_cast<Index>(components.nodes[component].size()));
+    }
+    return loose;
+}
+
+/// The components as faces of a band, in the order of their lowest faces.
+IndexLists components_in(const Band& band, const LooseFaces& loose)
+{
+    std::vector<std::span<const Number>> sorted;
+    std::size_t begin = 0;
+    for (const Index size : loose.component_sizes) {
+        sorted.push_back(std::span(loose.faces).subspan(begin, at(size)));
+        begin += at(size);
+    }
+    std::ranges::sort(sorted, {}, [](std::span<const Number> component) { return component.front(); });
+    IndexLists components;
+    for (const auto& component : sorted) {
+        for (const Number face : component)
+            components.values.push_back(static_cast<Index>(std::ranges::lower_bound(band.part.face_numbers, face) -
+                                                           band.part.face_numbers.begin()));
+        components.close();
+    }
+    return components;
+}
+
+/// Lets loose components join the parts with which they share most edges, in rings around what is settled.
+/// @param band of all faces around them. @param components the loose ones, as faces of the band.
+/// @param n_parts grows where one has nothing settled around it, and becomes a part.
+/// @returns one label per component.
+std::vector<Index> join_to_neighbours(const Band& band, const IndexLists& components, Index& n_parts)
+{
+    const PolygonMesh& mesh = band.part.mesh;
+    const Topology topology = make_topology(mesh, run_in_parallel);
+    constexpr Index settled = -1;
+    constexpr Index loose = -1;
+    std::vector<Index> component_of(mesh.n_faces(), settled);
+    for (Index component = 0; component < components.size(); ++component)
+        for (const Index f : components[component])
+            component_of[f] = component;
+    std::vector<Index> joined(components.size(), loose);
+    const auto join = [&](Index component) {
+        std::map<Index, Index> shared;
+        for (const Index f : components[component])
+            for_each_neighbour(mesh, topology, f, [&](Index, Index g) {
+                const Index label = component_of[g] == settled ? band.part.labels[g] : joined[component_of[g]];
+                if (label != loose)
+                    ++shared[label];
+            });
+        const auto best = std::ranges::max_element(shared, {}, [](const auto& entry) { return entry.second; });
+        if (best == shared.end())
+            return false;
+        joined[component] = best->first;
+        return true;
+    };
+    for (bool any = true; any;) {
+        any = false;
+        for (Index component = 0; component < components.size(); ++component)
+            any = (joined[component] == loose && join(component)) || any;
+    }
+    for (Index& label : joined)
+        if (label == loose)
+            label = n_parts++;
+    return joined;
+}
+
+/// Mends a cut round by round. Every function is called by all ranks together; what rank 0 alone has is empty at the
+/// others.
+class Mender {
+  public:
+    Mender(Conversation& talk, const SlicedCut& cut, SlicedDefects defects, Index n_parts)
+        : talk_(talk)
+        , cut_(cut)
+        , parts_(std::move(defects.parts))
+        , queue_(std::move(defects.vertices))
+        , n_parts_(n_parts)
+    {
+    }
+
+    void run()
+    {
+        for (int round = 0;; ++round) {
+            join_loose();
+            const std::vector<Number> pinched = keep_pinched();
+            if (!anywhere(!pinched.empty()))
+                return;
+            if (round >= max_rounds) {
+                merge_pinched_at(pinched);
+                queue_ = pinched;
+            } else {
+                mend_at(pinched);
+            }
+        }
+    }
+
+  private:
+    [[nodiscard]] bool anywhere(bool at_first)
+    {
+        return talk_.tell_all(std::vector<std::uint8_t>{at_first ? std::uint8_t{1} : std::uint8_t{0}}).front() != 0;
+    }
+
+    [[nodiscard]] Band band_around(const std::vector<Number>& vertices, int layers)
+    {
+        return gather_band(talk_, cut_.slice, cut_.bounds, vertices, layers);
+    }
+
+    /// Looks at the parts that may not be connected.
+    void join_loose()
+    {
+        if (parts_.empty())
+            return;
+        const LooseFaces own = find_loose(deal_parts(talk_, cut_, parts_));
+        parts_.clear();
+        const LooseFaces all{.faces = talk_.gather_at_first(own.faces),
+                             .component_sizes = talk_.gather_at_first(own.component_sizes),
+                             .corners = talk_.gather_at_first(own.corners)};
+        if (!anywhere(!all.faces.empty()))
+            return;
+        std::vector<Number> corners = all.corners;
+        sort_unique(corners);
+        const Band band = band_around(corners, 1);
+        std::vector<Moved> moved;
+        if (talk_.rank() == 0) {
+            const IndexLists components = components_in(band, all);
+            const std::vector<Index> joined = join_to_neighbours(band, components, n_parts_);
+            for (Index component = 0; component < components.size(); ++component)
+                for (const Index f : components[component])
+                    moved.push_back({band.part.face_numbers[f], joined[component]});
+        }
+        n_parts_ = talk_.tell_all(std::vector<Index>{n_parts_}).front();
+        apply(moved);
+        queue_.insert(queue_.end(), corners.begin(), corners.end());
+        sort_unique(queue_);
+    }
+
+    /// Empties the queue. @returns the vertices of it at which a part is pinched, ascending.
+    std::vector<Number> keep_pinched()
+    {
+        if (!anywhere(!queue_.empty()))
+            return {};
+        Band band = band_around(queue_, 1);
+        queue_.clear();
+        const Topology topology = make_topology(band.part.mesh, run_in_parallel);
+        std::vector<Index> labels = band.part.labels;
+        const Index n_labels = compact_labels(labels);
+        PinchMender pinches(band.part.mesh, topology, labels, n_labels);
+        std::vector<Number> pinched;
+        for (Index v = 0; v < band.part.mesh.n_vertices(); ++v)
+            if (band.is_whole[v] != 0 && pinches.pinches_at(v) > 0)
+                pinched.push_back(band.part.vertex_numbers[v]);
+        return pinched;
+    }
+
+    void mend_at(const std::vector<Number>& pinched)
+    {
+        const Band band = band_around(pinched, layers_around_pinches);
+        std::vector<Moved> moved;
+        std::vector<Index> touched;
+        if (talk_.rank() == 0)
+            mend_within(band, pinched, moved, touched);
+        parts_ = talk_.tell_all(touched);
+        apply(moved);
+    }
+
+    /// @param moved gets the faces that have other labels then, @param touched the labels they had, ascending.
+    void mend_within(const Band& band, const std::vector<Number>& pinched, std::vector<Moved>& moved,
+                     std::vector<Index>& touched);
+    void merge_pinched_at(const std::vector<Number>& pinched);
+
+    /// @param moved of rank 0.
+    void apply(const std::vector<Moved>& moved)
+    {
+        const auto& faces = cut_.bounds.faces;
+        std::vector<std::vector<Moved>> to_homes(talk_.size());
+        for (const Moved& face : moved)
+            to_homes[stretch_of(faces, face.face)].push_back(face);
+        std::vector<Bytes> sent;
+        for (const auto& of_home : to_homes)
+            sent.push_back(packed(of_home));
+        for (const auto& [face, label] : unpacked<Moved>(talk_.exchange(std::move(sent)).front()))
+            cut_.slice.labels[face - faces[talk_.rank()]] = label;
+    }
+
+    Conversation& talk_;
+    SlicedCut cut_;
+    /// Those that may not be connected, at all ranks.
+    std::vector<Index> parts_;
+    /// Vertices to look at, ascending; at rank 0.
+    std::vector<Number> queue_;
+    Index n_parts_;
+};
+
+void Mender::mend_within(const Band& band, const std::vector<Number>& pinched, std::vector<Moved>& moved,
+                         std::vector<Index>& touched)
+{
+    const PolygonMesh& mesh = band.part.mesh;
+    const Topology topology = make_topology(mesh, run_in_parallel);
+    std::vector<Index> values = band.part.labels;
+    sort_unique(values);
+    std::vector<Index> labels = band.part.labels;
+    PinchMender mender(mesh, topology, labels, compact_labels(labels));
+    mender.count_faces();
+    const std::vector<Index> before = labels;
+    // What mending at a vertex looks at.
+    const auto is_in_sight = [&](Index v) {
+        const auto is_whole = [&](Index corner) { return band.is_whole[corner] != 0; };
+        return std::ranges::all_of(topology.corners_at(v), [&](Index corner) {
+            return std::ranges::all_of(mesh.face(topology.face_of[corner]), is_whole);
+        });
+    };
+    std::vector<Index> next;
+    for (const Number number : pinched)
+        next.push_back(static_cast<Index>(std::ranges::lower_bound(band.part.vertex_numbers, number) -
+                                          band.part.vertex_numbers.begin()));
+    for (int round = 0; round < max_rounds && !next.empty(); ++round) {
+        std::vector<Index> faces;
+        std::vector<Index> labels_before;
+        for (const Index v : std::exchange(next, {}))
+            if (is_in_sight(v))
+                mender.mend(v, faces, labels_before);
+            else
+                queue_.push_back(band.part.vertex_numbers[v]);
+        for (const Index f : faces)
+            next.insert(next.end(), mesh.face(f).begin(), mesh.face(f).end());
+        sort_unique(next);
+        for (const Index f : faces)
+            for (const Index v : mesh.face(f))
+                queue_.push_back(band.part.vertex_numbers[v]);
+    }
+    sort_unique(queue_);
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (labels[f] != before[f]) {
+            moved.push_back({band.part.face_numbers[f], values[labels[f]]});
+            touched.push_back(values[before[f]]);
+        }
+    sort_unique(touched);
+}
+
+/// Each pinched part and one of those between its fans become one.
+void Mender::merge_pinched_at(const std::vector<Number>& pinched)
+{
+    const Band band = band_around(pinched, 1);
+    // Pairs of labels, one after the other: the second becomes the first.
+    std::vector<Index> pairs;
+    if (talk_.rank() == 0) {
+        const Topology topology = make_topology(band.part.mesh, run_in_parallel);
+        std::vector<Index> values = band.part.labels;
+        sort_unique(values);
+        std::vector<Index> labels = band.part.labels;
+        PinchMender pinches(band.part.mesh, topology, labels, compact_labels(labels));
+        pinches.count_faces();
+        std::map<Index, Index> merged_into;
+        const auto root_of = [&](Index label) {
+            for (auto found = merged_into.find(label); found != merged_into.end(); found = merged_into.find(label))
+                label = found->second;
+            return label;
+        };
+        for (const Number number : pinched) {
+            const auto v = static_cast<Index>(std::ranges::lower_bound(band.part.vertex_numbers, number) -
+                                              band.part.vertex_numbers.begin());
+            const auto [larger, smaller] = pinches.pinched_and_between(v);
+            const Index root = root_of(values[larger]);
+            if (const Index other = root_of(values[smaller]); other != root)
+                merged_into[other] = root;
+        }
+        for (const auto& [from, to] : merged_into) {
+            pairs.push_back(root_of(to));
+            pairs.push_back(from);
+        }
+    }
+    pairs = talk_.tell_all(pairs);
+    std::map<Index, Index> name;
+    for (std::size_t i = 0; i < pairs.size(); i += 2)
+        name[pairs[i + 1]] = pairs[i];
+    for (Index& label : cut_.slice.labels)
+        if (const auto found = name.find(label); found != name.end())
+            label = found->second;
+}
+
+}  // namespace
+
+void mend_together(Conversation& talk, SlicedCut cut, SlicedDefects defects, Index n_parts)
+{
+    Mender(talk, cut, std::move(defects), n_parts).run();
+}
+
+Index compact_labels_together(Conversation& talk, std::vector<Index>& labels)
+{
+    std::vector<Index> names = labels;
+    sort_unique(names);
+    names = talk.gather_all(names);
+    sort_unique(names);
+    for_each(run_in_parallel, static_cast<Index>(labels.size()), [&](Index f) {
+        labels[f] = static_cast<Index>(std::ranges::lower_bound(names, labels[f]) - names.begin());
+    });
+    return static_cast<Index>(names.size());
+}
+
+}  // namespace seamflow

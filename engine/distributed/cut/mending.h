@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/distributed/conversation.h"
+#include "engine/distributed/deal.h"
+
+namespace seamflow {
+
+/// A cut of a mesh that no rank has as a whole.
+struct SlicedCut {
+    /// Labelled with the parts.
+    RankSlice& slice;
+    const SliceBounds& bounds;
+    /// One entry per corner of the stretch: whether its half-edge has one of another face beside it (see Topology).
+    const std::vector<std::uint8_t>& has_twin;
+};
+
+/// Where a cut may have defects (see repair); elsewhere it is known to have none.
+struct SlicedDefects {
+    /// Parts that may not be connected, ascending, the same at all ranks.
+    std::vector<Index> parts;
+    /// At rank 0, ascending: vertices at which a part may be pinched.
+    std::vector<std::int64_t> vertices;
+};
+
+/// Makes every part a manifold with boundary, as repair does: what is doubtful comes to rank 0 with the faces around
+/// it. All ranks call this together; what comes of it does not depend on their number.
+/// @param n_parts all labels are below it. Labels of parts that are used up do not occur any more, and parts that had
+/// to
+///        be divided get new ones after the largest.
+void mend_together(Conversation& talk, SlicedCut cut, SlicedDefects defects, Index n_parts);
+
+/// Renumbers the labels of all ranks to 0, 1, 2 … without gaps, keeping their order. All ranks call this together.
+/// @returns the number of different labels.
+Index compact_labels_together(Conversation& talk, std::vector<Index>& labels);
+
+}  // namespace seamflow

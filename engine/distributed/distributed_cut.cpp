@@ -1,0 +1,323 @@
+#include "engine/distributed/distributed_cut.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "engine/distributed/cut/chunk_cut.h"
+#include "engine/distributed/cut/chunks.h"
+#include "engine/distributed/cut/mending.h"
+#include "engine/measure/surface_measures.h"
+#include "engine/setup/automatic_choices.h"
+#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/workers.h"
+#include "partition/cut/cut.h"
+
+namespace seamflow {
+
+namespace {
+
+using Number = std::int64_t;
+
+void put(Packer& packer, const std::string& text)
+{
+    packer.put_all(std::span(text));
+}
+
+std::string get_text(Unpacker& unpacker)
+{
+    const auto text = unpacker.get_all<char>();
+    return {text.begin(), text.end()};
+}
+
+/// Tells all ranks what one of them found.
+DistributedCut tell_all(Conversation& talk, const DistributedCut& found, bool is_own)
+{
+    Packer packer;
+    if (is_own) {
+        packer.put(found.n_parts);
+        packer.put(found.repaired_faces);
+        put(packer, found.choice);
+        for (const std::string& remark : found.remarks)
+            put(packer, remark);
+    }
+    DistributedCut cut;
+    for (const Bytes& bytes : talk.gather_to_all(packer.take())) {
+        if (bytes.empty())
+            continue;
+        Unpacker unpacker(bytes);
+        cut.n_parts = unpacker.get<Index>();
+        cut.repaired_faces = unpacker.get<std::int64_t>();
+        cut.choice = get_text(unpacker);
+        while (!unpacker.is_at_end())
+            cut.remarks.push_back(get_text(unpacker));
+    }
+    return cut;
+}
+
+/// The labels of faces, asked for where they were read.
+/// @param labels of the stretch of this rank.
+std::vector<Index> fetch_labels(Conversation& talk, std::span<const Index> labels, const SliceBounds& bounds,
+                                std::span<const Number> faces)
+{
+    std::vector<std::vector<Number>> questions(talk.size());
+    for (const Number face : faces)
+        questions[stretch_of(bounds.faces, face)].push_back(face);
+    std::vector<Bytes> asked;
+    for (const auto& of_home : questions)
+        asked.push_back(packed(of_home));
+    std::vector<Bytes> answers;
+    for (const Bytes& question : talk.exchange(std::move(asked))) {
+        std::vector<Index> found;
+        for (const Number face : unpacked<Number>(question))
+            found.push_back(labels[static_cast<std::size_t>(face - bounds.faces[talk.rank()])]);
+        answers.push_back(packed(found));
+    }
+    // Homes ascend, and so do the faces.
+    std::vector<Index> all;
+    for (const Bytes& answer : talk.exchange(std::move(answers))) {
+        const auto of_home = unpacked<Index>(answer);
+        all.insert(all.end(), of_home.begin(), of_home.end());
+    }
+    return all;
+}
+
+/// Sends the labels of a part to the stretches that have its faces, and which of its half-edges have twins.
+/// @param has_twin called with a half-edge. @param twins_of_slice one entry per corner of the stretch.
+template <class HasTwin>
+void send_home(Conversation& talk, const SliceBounds& bounds, std::span<const MeshPart* const> parts,
+               HasTwin&& has_twin, RankSlice& slice, std::vector<std::uint8_t>& twins_of_slice)
+{
+    std::vector<Packer> to_homes(talk.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto& [mesh, vertex_numbers, face_numbers, labels, fixed] = *parts[i];
+        for (Index f = 0; f < mesh.n_faces(); ++f) {
+            Packer& packer = to_homes[stretch_of(bounds.faces, face_numbers[f])];
+            packer.put(face_numbers[f]);
+            packer.put(labels[f]);
+            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+                packer.put(has_twin(i, h) ? std::uint8_t{1} : std::uint8_t{0});
+        }
+    }
+    std::vector<Bytes> sent;
+    for (Packer& packer : to_homes)
+        sent.push_back(packer.take());
+    slice.labels.assign(at(slice.n_faces()), 0);
+    twins_of_slice.assign(slice.corners.size(), 0);
+    for (const Bytes& bytes : talk.exchange(std::move(sent)))
+        for (Unpacker unpacker(bytes); !unpacker.is_at_end();) {
+            const auto f = static_cast<Index>(unpacker.get<Number>() - bounds.faces[talk.rank()]);
+            slice.labels[f] = unpacker.get<Index>();
+            for (Index h = slice.face_offsets[f]; h < slice.face_offsets[f + 1]; ++h)
+                twins_of_slice[h] = unpacker.get<std::uint8_t>();
+        }
+}
+
+/// One number of each rank, added up.
+Number sum_of(Conversation& talk, Number own)
+{
+    Number sum = 0;
+    for (const Number of_rank : talk.gather_all(std::vector<Number>{own}))
+        sum += of_rank;
+    return sum;
+}
+
+/// A cut on its way through all ranks.
+class TogetherCut {
+  public:
+    /// @param given the labels of the stretch; nullptr: the options say how to cut.
+    TogetherCut(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk,
+                const std::vector<Index>* given)
+        : talk_(talk)
+        , slice_(slice)
+        , bounds_(gather_bounds(talk, slice))
+        , options_(options)
+        , chunk_(chunk)
+        , given_(given)
+    {
+        require_corners(slice, bounds_, talk.rank());
+    }
+
+    DistributedCut run()
+    {
+        if (bounds_.faces.back() == 0)
+            return {};
+        return bounds_.faces.back() <= chunk_ ? by_one_rank() : by_all_ranks();
+    }
+
+  private:
+    /// How many parts are asked for, or the number that suits the mesh.
+    Index number_of_parts(double area, std::string& reason) const
+    {
+        if (options_.cut.subdomains > 0)
+            return options_.cut.subdomains;
+        MeshSize size;
+        size.vertices =
+            static_cast<Index>(std::min<Number>(bounds_.vertices.back(), std::numeric_limits<Index>::max()));
+        size.area = area;
+        const bool is_converged =
+            options_.accuracy.approach == Approach::Converged || options_.accuracy.tolerance.has_value();
+        const SubdomainChoice choice =
+            choose_subdomains(size, options_.time_step, needs_of(options_.laplacian, is_converged));
+        reason = choice.reason + ".";
+        return choice.count;
+    }
+
+    DistributedCut by_one_rank()
+    {
+        slice_.labels.assign(at(slice_.n_faces()), 0);
+        MeshPart part = deal(talk_, slice_);
+        const bool is_own = part.mesh.n_faces() > 0;
+        const std::vector<Index> given =
+            given_ != nullptr ? fetch_labels(talk_, *given_, bounds_, part.face_numbers) : std::vector<Index>{};
+        DistributedCut found;
+        if (is_own) {
+            const Topology topology = make_topology(part.mesh, run_in_parallel);
+            Cut cut = given_ != nullptr
+                          ? cut_by_labels(part.mesh, topology, given, run_in_parallel)
+                          : cut_into(part.mesh, topology, number_of_parts(total_area(part.mesh), found.choice),
+                                     run_in_parallel);
+            part.labels = std::move(cut.labels);
+            found.n_parts = cut.n_parts;
+            found.repaired_faces = cut.repaired_faces;
+            found.remarks = std::move(cut.remarks);
+        }
+        const MeshPart* const own[] = {&part};
+        std::vector<std::uint8_t> twins;
+        send_home(
+            talk_, bounds_, own, [](std::size_t, Index) { return false; }, slice_, twins);
+        return tell_all(talk_, found, is_own);
+    }
+
+    DistributedCut by_all_ranks()
+    {
+        label_chunks(talk_, slice_, bounds_, chunk_);
+        std::vector<Chunk> chunks = deal_chunks(talk_, slice_, bounds_);
+        DistributedCut found;
+        SlicedDefects defects;
+        Index n_parts = 0;
+        Index n_components = 0;
+        Index k = 1;
+        if (given_ == nullptr) {
+            k = number_of_parts(area_of(chunks), found.choice);
+            if (k == 1)
+                return uncut(std::move(found));
+            const double weight = static_cast<double>(sum_of(talk_, std::ssize(slice_.corners))) -
+                                  2.0 * static_cast<double>(bounds_.faces.back());
+            ChunkCut cut = cut_chunks(talk_, bounds_, chunks, weight, sensible_parts(bounds_.faces.back(), k));
+            n_parts = cut.n_parts;
+            n_components = cut.n_components;
+            defects.parts = std::move(cut.suspects);
+        } else {
+            std::vector<Index> closed = *given_;
+            n_parts = compact_labels_together(talk_, closed);
+            if (n_parts == 1)
+                return uncut(std::move(found));
+            label_by(closed, chunks);
+            defects.parts.resize(n_parts);
+            std::iota(defects.parts.begin(), defects.parts.end(), 0);
+        }
+        defects.vertices = gather_pinch_candidates(talk_, bounds_, chunks);
+        mend(std::move(chunks), std::move(defects), n_parts, found);
+        if (given_ != nullptr)
+            found.remarks = remarks_on_labels(n_parts, largest_given(), found.repaired_faces, found.n_parts);
+        else if (std::string remark = remark_on_number(bounds_.faces.back(), k, found.n_parts, n_components);
+                 !remark.empty())
+            found.remarks.push_back(std::move(remark));
+        return found;
+    }
+
+    /// Adds up chunk after chunk, however many ranks have them.
+    double area_of(const std::vector<Chunk>& chunks)
+    {
+        std::vector<double> areas;
+        for (const Chunk& chunk : chunks)
+            areas.push_back(total_area(chunk.part.mesh));
+        double area = 0.0;
+        for (const double of_chunk : talk_.gather_all(areas))
+            area += of_chunk;
+        return area;
+    }
+
+    DistributedCut uncut(DistributedCut found)
+    {
+        slice_.labels.assign(at(slice_.n_faces()), 0);
+        found.n_parts = 1;
+        return found;
+    }
+
+    void label_by(const std::vector<Index>& labels, std::vector<Chunk>& chunks)
+    {
+        std::vector<Number> faces;
+        for (const Chunk& chunk : chunks)
+            faces.insert(faces.end(), chunk.part.face_numbers.begin(), chunk.part.face_numbers.end());
+        sort_unique(faces);
+        const std::vector<Index> found = fetch_labels(talk_, labels, bounds_, faces);
+        for (Chunk& chunk : chunks)
+            for (std::size_t f = 0; f < chunk.part.face_numbers.size(); ++f) {
+                const auto place = std::ranges::lower_bound(faces, chunk.part.face_numbers[f]) - faces.begin();
+                chunk.part.labels[f] = found[static_cast<std::size_t>(place)];
+            }
+    }
+
+    /// @param chunks with their labels, which come into the stretches.
+    void mend(std::vector<Chunk> chunks, SlicedDefects defects, Index n_parts, DistributedCut& found)
+    {
+        std::vector<const MeshPart*> parts;
+        for (const Chunk& chunk : chunks)
+            parts.push_back(&chunk.part);
+        std::vector<std::uint8_t> twins;
+        const auto has_twin = [&](std::size_t i, Index h) {
+            return chunks[i].topology.twin[h] >= 0 || std::ranges::binary_search(chunks[i].crossing, h);
+        };
+        send_home(talk_, bounds_, parts, has_twin, slice_, twins);
+        chunks = {};
+        const std::vector<Index> before = slice_.labels;
+        mend_together(talk_, {slice_, bounds_, twins}, std::move(defects), n_parts);
+        Number moved = 0;
+        for (std::size_t f = 0; f < before.size(); ++f)
+            moved += before[f] != slice_.labels[f] ? 1 : 0;
+        found.repaired_faces = sum_of(talk_, moved);
+        found.n_parts = compact_labels_together(talk_, slice_.labels);
+    }
+
+    [[nodiscard]] Index largest_given()
+    {
+        const auto largest = std::ranges::max_element(*given_);
+        const auto of_all = talk_.gather_all(std::vector<Index>{largest != given_->end() ? *largest : Index{0}});
+        return *std::ranges::max_element(of_all);
+    }
+
+    Conversation& talk_;
+    RankSlice& slice_;
+    SliceBounds bounds_;
+    const FlowOptions& options_;
+    Index chunk_;
+    const std::vector<Index>* given_;
+};
+
+DistributedCut run(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk,
+                   const std::vector<Index>* given)
+{
+    DistributedCut cut;
+    Workers workers(options.resources.threads);
+    workers.execute([&] { cut = TogetherCut(talk, slice, options, chunk, given).run(); });
+    return cut;
+}
+
+}  // namespace
+
+DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk)
+{
+    return run(talk, slice, options, chunk, nullptr);
+}
+
+DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk)
+{
+    const std::vector<Index> given = std::exchange(slice.labels, {});
+    return run(talk, slice, options, chunk, &given);
+}
+
+}  // namespace seamflow

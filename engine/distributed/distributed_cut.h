@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/distributed/conversation.h"
+#include "engine/distributed/deal.h"
+#include "engine/options/flow_options.h"
+#include "partition/cut/clusters.h"
+
+namespace seamflow {
+
+/// What became of a cut of a mesh that no rank has as a whole.
+struct DistributedCut {
+    Index n_parts = 0;
+    /// How many faces had to be moved to other parts to make every part a manifold.
+    std::int64_t repaired_faces = 0;
+    /// Why there are so many parts, a sentence; empty where the options say how many.
+    std::string choice = {};
+    /// What the user should know about the cut, one sentence each.
+    std::vector<std::string> remarks = {};
+};
+
+/// Cuts a mesh as its options say: into CutOptions::subdomains, or as many as suit its size and the step. Meshes of no
+/// more faces than a chunk are cut by one rank as cut_into does. Larger ones are sorted along Hilbert's curve and
+/// divided into chunks, in which clusters of faces grow; METIS divides the graph of all clusters at rank 0, and what
+/// has to be mended comes there with the faces around it. All ranks call this together; the cut does not depend on
+/// their number.
+/// @param slice gets labels, from 0 to n_parts - 1. @param chunk the number of faces, at least 1.
+/// @returns the same at all ranks.
+/// @throws InputError naming a face with a corner that is none of the mesh's vertices; OptionError;
+///         ComputationError if METIS fails.
+DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options,
+                            Index chunk = faces_per_chunk);
+
+/// Cuts a mesh as given (see cut_by_labels).
+/// @param slice its labels, at least 0, are closed up and mended.
+DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options,
+                                      Index chunk = faces_per_chunk);
+
+}  // namespace seamflow

@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/distributed/cut/hilbert.h"
+#include "engine/distributed/distributed_cut.h"
+#include "engine/distributed/thread_communicator.h"
+#include "partition/cut/cut.h"
+#include "partition/repair/repair.h"
+#include "partition/vector_area.h"
+#include "tests/engine/distributed/parts.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+
+namespace {
+
+struct FoundCut {
+    std::vector<Index> labels;
+    DistributedCut cut;
+};
+
+/// The cut that n ranks find.
+/// @param given labels to begin with; empty: none.
+FoundCut cut_by_ranks(const PolygonMesh& mesh, Index k, Index chunk, int n, const std::vector<Index>& given = {})
+{
+    FoundCut found;
+    found.labels.resize(mesh.n_faces());
+    const std::vector<Index> first = given.empty() ? std::vector<Index>(mesh.n_faces(), 0) : given;
+    FlowOptions options;
+    options.cut.subdomains = k;
+    options.resources.threads = 1;
+    std::mutex mutex;
+    run_on_threads(n, [&](Communicator& communicator) {
+        run_together(communicator, [&](Conversation& talk) {
+            RankSlice slice = test::slice_of(mesh, first, talk.rank(), n);
+            const DistributedCut cut = given.empty() ? cut_together(talk, slice, options, chunk)
+                                                     : cut_together_by_labels(talk, slice, options, chunk);
+            const SliceBounds bounds = gather_bounds(talk, slice);
+            const std::scoped_lock lock(mutex);
+            std::ranges::copy(slice.labels, found.labels.begin() + bounds.faces[talk.rank()]);
+            found.cut = cut;
+        });
+    });
+    return found;
+}
+
+/// Checks that every part is a manifold with boundary, and that no label is missing.
+void check_sound(const PolygonMesh& mesh, const FoundCut& found)
+{
+    const Topology topology = make_topology(mesh);
+    std::vector<Index> labels = found.labels;
+    CHECK(repair(mesh, topology, labels) == 0);
+    CHECK(labels == found.labels);
+    CHECK(std::set<Index>(labels.begin(), labels.end()).size() == at(found.cut.n_parts));
+}
+
+/// The number of its faces.
+Index largest_part(const std::vector<Index>& labels, Index n_parts)
+{
+    std::vector<Index> sizes(at(n_parts), 0);
+    for (const Index label : labels)
+        ++sizes[label];
+    return *std::ranges::max_element(sizes);
+}
+
+/// The number of edges between parts.
+Index cut_edges(const PolygonMesh& mesh, const std::vector<Index>& labels)
+{
+    const Topology topology = make_topology(mesh);
+    Index n = 0;
+    for (Index h = 0; h < mesh.n_corners(); ++h)
+        if (const Index twin = topology.twin[h]; twin > h)
+            n += labels[topology.face_of[h]] != labels[topology.face_of[twin]] ? 1 : 0;
+    return n;
+}
+
+/// A mesh with a further triangle on every tenth of its edges, so that those have three faces.
+PolygonMesh with_fins(PolygonMesh mesh)
+{
+    const Topology topology = make_topology(mesh);
+    std::vector<Point> tips;
+    const Index n_halfedges = mesh.n_corners();
+    const Index n_vertices = mesh.n_vertices();
+    for (Index h = 0; h < n_halfedges; h += 10) {
+        const Index from = mesh.face_vertices[h];
+        const Index to = mesh.face_vertices[topology.next(mesh, h)];
+        const std::array<Index, 3> fin{from, to, n_vertices + static_cast<Index>(tips.size())};
+        tips.push_back(1.1 * mesh.vertices.row(from));
+        mesh.add_face(fin);
+    }
+    mesh.vertices.conservativeResize(n_vertices + std::ssize(tips), 3);
+    for (std::size_t i = 0; i < tips.size(); ++i)
+        mesh.vertices.row(n_vertices + static_cast<Index>(i)) = tips[i];
+    return mesh;
+}
+
+/// Surfaces of all kinds, with more than one chunk of a thousand faces.
+std::vector<std::pair<std::string, PolygonMesh>> examples()
+{
+    return {{"torus", test::triangle_torus(90, 60)},
+            {"quads", test::quad_torus(70, 60)},
+            {"band", test::moebius_band(600, 10)},
+            {"polygons", make_mixed_polygons(4000)},
+            {"sphere", make_noisy_sphere(6000)},
+            {"three", test::side_by_side({test::triangle_torus(40, 30), make_hexagons(1500), test::cylinder(30, 40)})}};
+}
+
+}  // namespace
+
+TEST_CASE("Hilbert's curve goes from cell to neighbouring cell, through all")
+{
+    constexpr std::uint32_t side = 8;
+    std::vector<std::pair<std::uint64_t, std::array<std::uint32_t, 3>>> cells;
+    for (std::uint32_t x = 0; x < side; ++x)
+        for (std::uint32_t y = 0; y < side; ++y)
+            for (std::uint32_t z = 0; z < side; ++z)
+                cells.push_back({hilbert_code({x, y, z}), {x, y, z}});
+    std::ranges::sort(cells);
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        CHECK(cells[i].first == cells[i - 1].first + 1);
+        int steps = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            steps += std::abs(static_cast<int>(cells[i].second[c]) - static_cast<int>(cells[i - 1].second[c]));
+        CHECK(steps == 1);
+    }
+}
+
+TEST_CASE("a mesh of one chunk is cut as on one machine")
+{
+    const PolygonMesh mesh = make_mixed_polygons(3000);
+    const Cut expected = cut_into(mesh, make_topology(mesh), 12);
+    for (const int n : {1, 3}) {
+        const FoundCut found = cut_by_ranks(mesh, 12, mesh.n_faces(), n);
+        CHECK(found.labels == expected.labels);
+        CHECK(found.cut.n_parts == expected.n_parts);
+    }
+}
+
+TEST_CASE("a mesh of several chunks is cut alike by any number of ranks, and every part is sound")
+{
+    for (const auto& [name, mesh] : examples())
+        for (const Index chunk : {300, 1000}) {
+            CAPTURE(name);
+            CAPTURE(chunk);
+            constexpr Index k = 20;
+            const FoundCut found = cut_by_ranks(mesh, k, chunk, 1);
+            check_sound(mesh, found);
+            CHECK(found.cut.n_parts == k);
+            const Cut serial = cut_into(mesh, make_topology(mesh), k);
+            CHECK(largest_part(found.labels, k) < 1.25 * largest_part(serial.labels, k));
+            CHECK(cut_edges(mesh, found.labels) < 1.25 * cut_edges(mesh, serial.labels));
+            for (const int n : {2, 3, 5, 8}) {
+                CAPTURE(n);
+                const FoundCut other = cut_by_ranks(mesh, k, chunk, n);
+                CHECK(other.labels == found.labels);
+                CHECK(other.cut.repaired_faces == found.cut.repaired_faces);
+                CHECK(other.cut.remarks == found.cut.remarks);
+            }
+        }
+}
+
+TEST_CASE("a mesh so large that faces are put into clusters is cut alike by any number of ranks")
+{
+    // In parts of about 3,000 faces.
+    const PolygonMesh mesh = make_triangles(160'000);
+    constexpr Index k = 100;
+    const FoundCut found = cut_by_ranks(mesh, k, 40'000, 1);
+    check_sound(mesh, found);
+    CHECK(found.cut.n_parts == k);
+    const Cut serial = cut_into(mesh, make_topology(mesh), k);
+    CHECK(largest_part(found.labels, k) < 1.1 * largest_part(serial.labels, k));
+    CHECK(cut_edges(mesh, found.labels) < 1.1 * cut_edges(mesh, serial.labels));
+    CAPTURE(cut_edges(mesh, found.labels));
+    CAPTURE(cut_edges(mesh, serial.labels));
+    CHECK(cut_by_ranks(mesh, k, 40'000, 3).labels == found.labels);
+}
+
+TEST_CASE("what is not manifold is cut alike by any number of ranks, and every part is sound")
+{
+    const PolygonMesh fins = with_fins(test::triangle_torus(40, 30));
+    for (const Index chunk : {150, 700}) {
+        CAPTURE(chunk);
+        const FoundCut found = cut_by_ranks(fins, 16, chunk, 1);
+        check_sound(fins, found);
+        for (const int n : {2, 5})
+            CHECK(cut_by_ranks(fins, 16, chunk, n).labels == found.labels);
+    }
+    for (const auto& [name, mesh, topology] : test::assorted_meshes()) {
+        CAPTURE(name);
+        const FoundCut found = cut_by_ranks(mesh, 3, 5, 1);
+        check_sound(mesh, found);
+        CHECK(cut_by_ranks(mesh, 3, 5, 3).labels == found.labels);
+    }
+}
+
+TEST_CASE("labels without any sense are mended alike by any number of ranks")
+{
+    for (const PolygonMesh& mesh :
+         {test::triangle_torus(30, 24), make_mixed_polygons(700), test::moebius_band(80, 6)}) {
+        const std::vector<Index> given = test::random_labels(mesh.n_faces(), 12, 3);
+        const FoundCut found = cut_by_ranks(mesh, 0, 200, 1, given);
+        check_sound(mesh, found);
+        CHECK(cut_by_ranks(mesh, 0, 200, 4, given).labels == found.labels);
+    }
+}
+
+TEST_CASE("labels of any kind are mended alike by any number of ranks")
+{
+    for (const auto& [name, mesh] : examples()) {
+        CAPTURE(name);
+        // Stripes across the order of the faces, with single faces strewn in and gaps in their numbers.
+        std::vector<Index> given(mesh.n_faces());
+        const std::vector<Index> strewn = test::random_labels(mesh.n_faces(), 40, 7);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            given[f] = 3 * (f / (mesh.n_faces() / 9)) + (strewn[f] == 0 ? 5 : 0);
+        const FoundCut found = cut_by_ranks(mesh, 0, 500, 1, given);
+        check_sound(mesh, found);
+        CHECK(found.cut.repaired_faces > 0);
+        CHECK(found.cut.remarks.size() >= 2);
+        for (const int n : {2, 5}) {
+            CAPTURE(n);
+            const FoundCut other = cut_by_ranks(mesh, 0, 500, n, given);
+            CHECK(other.labels == found.labels);
+            CHECK(other.cut.remarks == found.cut.remarks);
+        }
+        // What is sound stays as it is.
+        const FoundCut again = cut_by_ranks(mesh, 0, 500, 3, found.labels);
+        CHECK(again.labels == found.labels);
+        CHECK(again.cut.repaired_faces == 0);
+    }
+}
