@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "engine/distributed/cut/chunk_cut.h"
 #include "engine/distributed/cut/chunks.h"
+#include "engine/distributed/cut/face_homes.h"
 #include "engine/distributed/cut/mending.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
@@ -57,64 +59,6 @@ DistributedCut tell_all(Conversation& talk, const DistributedCut& found, bool is
     return cut;
 }
 
-/// The labels of faces, asked for where they were read.
-/// @param labels of the stretch of this rank.
-std::vector<Index> fetch_labels(Conversation& talk, std::span<const Index> labels, const SliceBounds& bounds,
-                                std::span<const Number> faces)
-{
-    std::vector<std::vector<Number>> questions(talk.size());
-    for (const Number face : faces)
-        questions[stretch_of(bounds.faces, face)].push_back(face);
-    std::vector<Bytes> asked;
-    for (const auto& of_home : questions)
-        asked.push_back(packed(of_home));
-    std::vector<Bytes> answers;
-    for (const Bytes& question : talk.exchange(std::move(asked))) {
-        std::vector<Index> found;
-        for (const Number face : unpacked<Number>(question))
-            found.push_back(labels[static_cast<std::size_t>(face - bounds.faces[talk.rank()])]);
-        answers.push_back(packed(found));
-    }
-    // Homes ascend, and so do the faces.
-    std::vector<Index> all;
-    for (const Bytes& answer : talk.exchange(std::move(answers))) {
-        const auto of_home = unpacked<Index>(answer);
-        all.insert(all.end(), of_home.begin(), of_home.end());
-    }
-    return all;
-}
-
-/// Sends the labels of a part to the stretches that have its faces, and which of its half-edges have twins.
-/// @param has_twin called with a half-edge. @param twins_of_slice one entry per corner of the stretch.
-template <class HasTwin>
-void send_home(Conversation& talk, const SliceBounds& bounds, std::span<const MeshPart* const> parts,
-               HasTwin&& has_twin, RankSlice& slice, std::vector<std::uint8_t>& twins_of_slice)
-{
-    std::vector<Packer> to_homes(talk.size());
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto& [mesh, vertex_numbers, face_numbers, labels, fixed] = *parts[i];
-        for (Index f = 0; f < mesh.n_faces(); ++f) {
-            Packer& packer = to_homes[stretch_of(bounds.faces, face_numbers[f])];
-            packer.put(face_numbers[f]);
-            packer.put(labels[f]);
-            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
-                packer.put(has_twin(i, h) ? std::uint8_t{1} : std::uint8_t{0});
-        }
-    }
-    std::vector<Bytes> sent;
-    for (Packer& packer : to_homes)
-        sent.push_back(packer.take());
-    slice.labels.assign(at(slice.n_faces()), 0);
-    twins_of_slice.assign(slice.corners.size(), 0);
-    for (const Bytes& bytes : talk.exchange(std::move(sent)))
-        for (Unpacker unpacker(bytes); !unpacker.is_at_end();) {
-            const auto f = static_cast<Index>(unpacker.get<Number>() - bounds.faces[talk.rank()]);
-            slice.labels[f] = unpacker.get<Index>();
-            for (Index h = slice.face_offsets[f]; h < slice.face_offsets[f + 1]; ++h)
-                twins_of_slice[h] = unpacker.get<std::uint8_t>();
-        }
-}
-
 /// One number of each rank, added up.
 Number sum_of(Conversation& talk, Number own)
 {
@@ -127,24 +71,29 @@ Number sum_of(Conversation& talk, Number own)
 /// A cut on its way through all ranks.
 class TogetherCut {
   public:
-    /// @param given the labels of the stretch; nullptr: the options say how to cut.
+    /// @param given the labels of the stretch; empty: the options say how to cut.
     TogetherCut(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk,
-                const std::vector<Index>* given)
+                std::optional<std::vector<Index>> given)
         : talk_(talk)
         , slice_(slice)
         , bounds_(gather_bounds(talk, slice))
         , options_(options)
         , chunk_(chunk)
-        , given_(given)
+        , given_(std::move(given))
     {
         require_corners(slice, bounds_, talk.rank());
     }
 
     DistributedCut run()
     {
-        if (bounds_.faces.back() == 0)
-            return {};
-        return bounds_.faces.back() <= chunk_ ? by_one_rank() : by_all_ranks();
+        std::optional<DistributedCut> cut;
+        // Again where faces had to be left out.
+        while (!cut && bounds_.faces.back() > 0)
+            cut = bounds_.faces.back() <= chunk_ ? by_one_rank() : by_all_ranks();
+        if (!cut)
+            cut.emplace();
+        cut->left_out = std::move(left_out_);
+        return *std::move(cut);
     }
 
   private:
@@ -165,20 +114,28 @@ class TogetherCut {
         return choice.count;
     }
 
-    DistributedCut by_one_rank()
+    /// @returns nothing where faces had to be left out.
+    std::optional<DistributedCut> by_one_rank()
     {
         slice_.labels.assign(at(slice_.n_faces()), 0);
         MeshPart part = deal(talk_, slice_);
         const bool is_own = part.mesh.n_faces() > 0;
+        const Topology topology = make_topology(part.mesh, run_in_parallel);
+        if (std::vector<Repetition> repeated; may_repeat_) {
+            find_repetitions(part, topology, repeated);
+            may_repeat_ = false;
+            if (leave_out_repeated(talk_, repeated, slice_, given_, left_out_)) {
+                bounds_ = gather_bounds(talk_, slice_);
+                return {};
+            }
+        }
         const std::vector<Index> given =
-            given_ != nullptr ? fetch_labels(talk_, *given_, bounds_, part.face_numbers) : std::vector<Index>{};
+            given_ ? fetch_labels(talk_, *given_, bounds_, part.face_numbers) : std::vector<Index>{};
         DistributedCut found;
         if (is_own) {
-            const Topology topology = make_topology(part.mesh, run_in_parallel);
-            Cut cut = given_ != nullptr
-                          ? cut_by_labels(part.mesh, topology, given, run_in_parallel)
-                          : cut_into(part.mesh, topology, number_of_parts(total_area(part.mesh), found.choice),
-                                     run_in_parallel);
+            Cut cut = given_ ? cut_by_labels(part.mesh, topology, given, run_in_parallel)
+                             : cut_into(part.mesh, topology, number_of_parts(total_area(part.mesh), found.choice),
+                                        run_in_parallel);
             part.labels = std::move(cut.labels);
             found.n_parts = cut.n_parts;
             found.repaired_faces = cut.repaired_faces;
@@ -191,16 +148,27 @@ class TogetherCut {
         return tell_all(talk_, found, is_own);
     }
 
-    DistributedCut by_all_ranks()
+    /// @returns nothing where faces had to be left out.
+    std::optional<DistributedCut> by_all_ranks()
     {
         label_chunks(talk_, slice_, bounds_, chunk_);
         std::vector<Chunk> chunks = deal_chunks(talk_, slice_, bounds_);
+        if (std::vector<Repetition> repeated; may_repeat_) {
+            // Those with the same corners are in the same chunk.
+            for (const Chunk& chunk : chunks)
+                find_repetitions(chunk.part, chunk.topology, repeated);
+            may_repeat_ = false;
+            if (leave_out_repeated(talk_, repeated, slice_, given_, left_out_)) {
+                bounds_ = gather_bounds(talk_, slice_);
+                return {};
+            }
+        }
         DistributedCut found;
         SlicedDefects defects;
         Index n_parts = 0;
         Index n_components = 0;
         Index k = 1;
-        if (given_ == nullptr) {
+        if (!given_) {
             k = number_of_parts(area_of(chunks), found.choice);
             if (k == 1)
                 return uncut(std::move(found));
@@ -221,7 +189,7 @@ class TogetherCut {
         }
         defects.vertices = gather_pinch_candidates(talk_, bounds_, chunks);
         mend(std::move(chunks), std::move(defects), n_parts, found);
-        if (given_ != nullptr)
+        if (given_)
             found.remarks = remarks_on_labels(n_parts, largest_given(), found.repaired_faces, found.n_parts);
         else if (std::string remark = remark_on_number(bounds_.faces.back(), k, found.n_parts, n_components);
                  !remark.empty())
@@ -295,15 +263,17 @@ class TogetherCut {
     SliceBounds bounds_;
     const FlowOptions& options_;
     Index chunk_;
-    const std::vector<Index>* given_;
+    std::optional<std::vector<Index>> given_;
+    bool may_repeat_ = true;
+    RepeatedFaces left_out_;
 };
 
 DistributedCut run(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk,
-                   const std::vector<Index>* given)
+                   std::optional<std::vector<Index>> given)
 {
     DistributedCut cut;
     Workers workers(options.resources.threads);
-    workers.execute([&] { cut = TogetherCut(talk, slice, options, chunk, given).run(); });
+    workers.execute([&] { cut = TogetherCut(talk, slice, options, chunk, std::move(given)).run(); });
     return cut;
 }
 
@@ -311,13 +281,12 @@ DistributedCut run(Conversation& talk, RankSlice& slice, const FlowOptions& opti
 
 DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk)
 {
-    return run(talk, slice, options, chunk, nullptr);
+    return run(talk, slice, options, chunk, {});
 }
 
 DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk)
 {
-    const std::vector<Index> given = std::exchange(slice.labels, {});
-    return run(talk, slice, options, chunk, &given);
+    return run(talk, slice, options, chunk, std::exchange(slice.labels, {}));
 }
 
 }  // namespace seamflow

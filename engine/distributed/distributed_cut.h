@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/distributed/conversation.h"
+#include "engine/distributed/cut/repeated_faces.h"
 #include "engine/distributed/deal.h"
 #include "engine/options/flow_options.h"
 #include "partition/cut/clusters.h"
@@ -20,6 +21,8 @@ struct DistributedCut {
     std::string choice = {};
     /// What the user should know about the cut, one sentence each.
     std::vector<std::string> remarks = {};
+    /// What the stretch does not have any more.
+    RepeatedFaces left_out = {};
 };
 
 /// Cuts a mesh as its options say: into CutOptions::subdomains, or as many as suit its size and the step. Meshes of no

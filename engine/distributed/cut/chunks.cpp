@@ -55,9 +55,13 @@ Points centroids_of(const RankSlice& slice, const CornerPositions& positions)
 {
     Points centroids(slice.n_faces(), 3);
     for_each(run_in_parallel, slice.n_faces(), [&](Index f) {
+        // In one order, so that faces that repeat each other come to one place.
+        const auto begin = slice.corners.begin() + slice.face_offsets[f];
+        std::vector<Number> corners(begin, slice.corners.begin() + slice.face_offsets[f + 1]);
+        std::ranges::sort(corners);
         Point sum = Point::Zero();
-        for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
-            sum += positions[slice.corners[c]];
+        for (const Number corner : corners)
+            sum += positions[corner];
         centroids.row(f) = sum / std::max(1, slice.face_offsets[f + 1] - slice.face_offsets[f]);
     });
     return centroids;
@@ -199,10 +203,10 @@ void find_shared_vertices(Conversation& talk, const SliceBounds& bounds, std::ve
 }
 
 /// The ends of an edge in the whole mesh.
-struct Edge {
+struct VertexPair {
     Number low;
     Number high;
-    friend auto operator<=>(const Edge&, const Edge&) = default;
+    friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
 };
 
 /// The half-edges of a chunk whose ends are both shared.
@@ -215,7 +219,7 @@ std::vector<Index> halfedges_at_others(const Chunk& chunk)
     });
 }
 
-Edge edge_of(const Chunk& chunk, Index h)
+VertexPair edge_of(const Chunk& chunk, Index h)
 {
     const PolygonMesh& mesh = chunk.part.mesh;
     const Number one = chunk.part.vertex_numbers[mesh.face_vertices[h]];
@@ -226,12 +230,13 @@ Edge edge_of(const Chunk& chunk, Index h)
 /// Finds the edges to other chunks, and leaves no twins at edges that have a third face there.
 void match_edges(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks)
 {
-    std::vector<Edge> edges;
+    std::vector<VertexPair> edges;
     for (const Chunk& chunk : chunks)
         for (const Index h : halfedges_at_others(chunk))
             edges.push_back(edge_of(chunk, h));
     const std::vector<std::uint8_t> n_faces = ask_homes(
-        talk, edges, [&](const Edge& edge) { return stretch_of(bounds.vertices, edge.low); }, counts_of<Edge>);
+        talk, edges, [&](const VertexPair& edge) { return stretch_of(bounds.vertices, edge.low); },
+        counts_of<VertexPair>);
     auto next = n_faces.begin();
     for (Chunk& chunk : chunks)
         for (const Index h : halfedges_at_others(chunk)) {

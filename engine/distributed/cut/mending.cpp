@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <span>
 #include <utility>
 
 #include "engine/distributed/cut/band.h"
+#include "engine/distributed/cut/loose_parts.h"
 #include "engine/tasks/parallel_loop.h"
-#include "partition/connected_components.h"
 #include "partition/labels.h"
 #include "partition/repair/pinches.h"
 
@@ -27,159 +26,6 @@ struct Moved {
     Number face;
     Index label;
 };
-
-/// Faces that a part has apart from its largest component.
-struct LooseFaces {
-    /// Those of one component after the other, the lowest first.
-    std::vector<Number> faces;
-    std::vector<Index> component_sizes;
-    std::vector<Number> corners;
-};
-
-/// Some parts of a cut as one rank sees them.
-struct WholeParts {
-    MeshPart part;
-    /// One entry per half-edge (see SlicedCut).
-    std::vector<std::uint8_t> has_twin;
-};
-
-/// Gives each of these parts to one rank.
-WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vector<Index>& parts)
-{
-    const RankSlice& slice = cut.slice;
-    const auto place_of = [&](Index label) {
-        const auto found = std::ranges::lower_bound(parts, label);
-        return found != parts.end() && *found == label ? found - parts.begin() : std::ptrdiff_t{-1};
-    };
-    const auto wanted =
-        select(run_in_parallel, slice.n_faces(), [&](Index f) { return place_of(slice.labels[f]) >= 0; });
-    std::vector<Packer> to_each(talk.size());
-    for (const Index f : wanted) {
-        const auto owner = static_cast<std::size_t>(place_of(slice.labels[f])) * to_each.size() / parts.size();
-        const std::size_t begin = at(slice.face_offsets[f]);
-        const std::size_t size = at(slice.face_offsets[f + 1]) - begin;
-        to_each[owner].put(cut.bounds.faces[talk.rank()] + f);
-        to_each[owner].put(slice.labels[f]);
-        to_each[owner].put_all(std::span<const Number>(slice.corners).subspan(begin, size));
-        to_each[owner].put_all(std::span<const std::uint8_t>(cut.has_twin).subspan(begin, size));
-    }
-    std::vector<Bytes> sent;
-    for (Packer& packer : to_each)
-        sent.push_back(packer.take());
-    WholeParts whole;
-    std::vector<Number> corners;
-    for (const Bytes& bytes : talk.exchange(std::move(sent)))
-        for (Unpacker unpacker(bytes); !unpacker.is_at_end();) {
-            whole.part.face_numbers.push_back(unpacker.get<Number>());
-            whole.part.labels.push_back(unpacker.get<Index>());
-            const auto of_face = unpacker.get_all<Number>();
-            corners.insert(corners.end(), of_face.begin(), of_face.end());
-            whole.part.mesh.face_offsets.push_back(static_cast<Index>(corners.size()));
-            const auto twins = unpacker.get_all<std::uint8_t>();
-            whole.has_twin.insert(whole.has_twin.end(), twins.begin(), twins.end());
-        }
-    whole.part.vertex_numbers = corners;
-    sort_unique(whole.part.vertex_numbers);
-    for (const Number corner : corners)
-        whole.part.mesh.face_vertices.push_back(static_cast<Index>(
-            std::ranges::lower_bound(whole.part.vertex_numbers, corner) - whole.part.vertex_numbers.begin()));
-    // Nobody asks where they are.
-    whole.part.mesh.vertices = Points::Zero(std::ssize(whole.part.vertex_numbers), 3);
-    return whole;
-}
-
-/// The components of parts, all but the largest of each (of equals the one with the lowest face).
-LooseFaces find_loose(const WholeParts& whole)
-{
-    LooseFaces loose;
-    const auto& [part, has_twin] = whole;
-    const PolygonMesh& mesh = part.mesh;
-    const Topology topology = make_topology(mesh, run_in_parallel);
-    const Components components = connected_components(mesh.n_faces(), [&](Index f, auto&& visit) {
-        for_each_neighbour(mesh, topology, f, [&](Index h, Index g) {
-            if (has_twin[h] != 0 && part.labels[f] == part.labels[g])
-                visit(g);
-        });
-    });
-    const auto label_of = [&](Index component) { return part.labels[components.nodes[component].front()]; };
-    std::map<Index, Index> largest;
-    for (Index component = 0; component < components.count(); ++component) {
-        const auto [found, is_first] = largest.try_emplace(label_of(component), component);
-        if (components.nodes[component].size() > components.nodes[found->second].size())
-            found->second = component;
-    }
-    for (Index component = 0; component < components.count(); ++component) {
-        if (largest.at(label_of(component)) == component)
-            continue;
-        for (const Index f : components.nodes[component]) {
-            loose.faces.push_back(part.face_numbers[f]);
-            for (const Index v : mesh.face(f))
-                loose.corners.push_back(part.vertex_numbers[v]);
-        }
-        loose.component_sizes.push_back(static_cast<Index>(components.nodes[component].size()));
-    }
-    return loose;
-}
-
-/// The components as faces of a band, in the order of their lowest faces.
-IndexLists components_in(const Band& band, const LooseFaces& loose)
-{
-    std::vector<std::span<const Number>> sorted;
-    std::size_t begin = 0;
-    for (const Index size : loose.component_sizes) {
-        sorted.push_back(std::span(loose.faces).subspan(begin, at(size)));
-        begin += at(size);
-    }
-    std::ranges::sort(sorted, {}, [](std::span<const Number> component) { return component.front(); });
-    IndexLists components;
-    for (const auto& component : sorted) {
-        for (const Number face : component)
-            components.values.push_back(static_cast<Index>(std::ranges::lower_bound(band.part.face_numbers, face) -
-                                                           band.part.face_numbers.begin()));
-        components.close();
-    }
-    return components;
-}
-
-/// Lets loose components join the parts with which they share most edges, in rings around what is settled.
-/// @param band of all faces around them. @param components the loose ones, as faces of the band.
-/// @param n_parts grows where one has nothing settled around it, and becomes a part.
-/// @returns one label per component.
-std::vector<Index> join_to_neighbours(const Band& band, const IndexLists& components, Index& n_parts)
-{
-    const PolygonMesh& mesh = band.part.mesh;
-    const Topology topology = make_topology(mesh, run_in_parallel);
-    constexpr Index settled = -1;
-    constexpr Index loose = -1;
-    std::vector<Index> component_of(mesh.n_faces(), settled);
-    for (Index component = 0; component < components.size(); ++component)
-        for (const Index f : components[component])
-            component_of[f] = component;
-    std::vector<Index> joined(components.size(), loose);
-    const auto join = [&](Index component) {
-        std::map<Index, Index> shared;
-        for (const Index f : components[component])
-            for_each_neighbour(mesh, topology, f, [&](Index, Index g) {
-                const Index label = component_of[g] == settled ? band.part.labels[g] : joined[component_of[g]];
-                if (label != loose)
-                    ++shared[label];
-            });
-        const auto best = std::ranges::max_element(shared, {}, [](const auto& entry) { return entry.second; });
-        if (best == shared.end())
-            return false;
-        joined[component] = best->first;
-        return true;
-    };
-    for (bool any = true; any;) {
-        any = false;
-        for (Index component = 0; component < components.size(); ++component)
-            any = (joined[component] == loose && join(component)) || any;
-    }
-    for (Index& label : joined)
-        if (label == loose)
-            label = n_parts++;
-    return joined;
-}
 
 /// Mends a cut round by round. Every function is called by all ranks together; what rank 0 alone has is empty at the
 /// others.
@@ -226,11 +72,8 @@ class Mender {
     {
         if (parts_.empty())
             return;
-        const LooseFaces own = find_loose(deal_parts(talk_, cut_, parts_));
+        const LooseFaces all = gather_loose(talk_, cut_, parts_);
         parts_.clear();
-        const LooseFaces all{.faces = talk_.gather_at_first(own.faces),
-                             .component_sizes = talk_.gather_at_first(own.component_sizes),
-                             .corners = talk_.gather_at_first(own.corners)};
         if (!anywhere(!all.faces.empty()))
             return;
         std::vector<Number> corners = all.corners;

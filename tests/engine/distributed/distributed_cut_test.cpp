@@ -43,9 +43,10 @@ FoundCut cut_by_ranks(const PolygonMesh& mesh, Index k, Index chunk, int n, cons
             RankSlice slice = test::slice_of(mesh, first, talk.rank(), n);
             const DistributedCut cut = given.empty() ? cut_together(talk, slice, options, chunk)
                                                      : cut_together_by_labels(talk, slice, options, chunk);
-            const SliceBounds bounds = gather_bounds(talk, slice);
+            const std::vector<Index> labels = labels_of_all_faces(talk, slice, cut.left_out);
             const std::scoped_lock lock(mutex);
-            std::ranges::copy(slice.labels, found.labels.begin() + bounds.faces[talk.rank()]);
+            const auto begin = static_cast<Index>(std::int64_t{mesh.n_faces()} * talk.rank() / n);
+            std::ranges::copy(labels, found.labels.begin() + begin);
             found.cut = cut;
         });
     });
@@ -198,6 +199,37 @@ TEST_CASE("what is not manifold is cut alike by any number of ranks, and every p
         const FoundCut found = cut_by_ranks(mesh, 3, 5, 1);
         check_sound(mesh, found);
         CHECK(cut_by_ranks(mesh, 3, 5, 3).labels == found.labels);
+    }
+}
+
+TEST_CASE("faces that repeat others are left out of the cut, and have the labels of those that they repeat")
+{
+    const PolygonMesh single = make_mixed_polygons(900);
+    PolygonMesh mesh = single;
+    // Every third face once more, turned round and beginning at another corner.
+    std::vector<Index> repeats;
+    for (Index f = 0; f < single.n_faces(); f += 3) {
+        std::vector<Index> corners(single.face(f).rbegin(), single.face(f).rend());
+        std::ranges::rotate(corners, corners.begin() + 1);
+        mesh.add_face(corners);
+        repeats.push_back(f);
+    }
+    const std::vector<Index> given = test::random_labels(mesh.n_faces(), 4, 3);
+    for (const Index chunk : {100, 10'000}) {
+        const FoundCut of_single = cut_by_ranks(single, 9, chunk, 2);
+        const FoundCut by_labels = cut_by_ranks(single, 9, chunk, 2, {given.begin(), given.begin() + single.n_faces()});
+        for (const int n : {1, 3}) {
+            CAPTURE(chunk);
+            CAPTURE(n);
+            const auto check = [&](const FoundCut& found, const FoundCut& expected) {
+                REQUIRE(found.labels.size() == at(mesh.n_faces()));
+                CHECK(std::equal(expected.labels.begin(), expected.labels.end(), found.labels.begin()));
+                for (std::size_t i = 0; i < repeats.size(); ++i)
+                    CHECK(found.labels[expected.labels.size() + i] == found.labels[repeats[i]]);
+            };
+            check(cut_by_ranks(mesh, 9, chunk, n), of_single);
+            check(cut_by_ranks(mesh, 9, chunk, n, given), by_labels);
+        }
     }
 }
 

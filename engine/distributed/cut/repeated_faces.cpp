@@ -1,0 +1,109 @@
+#include "engine/distributed/cut/repeated_faces.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/distributed/cut/face_homes.h"
+#include "engine/tasks/parallel_loop.h"
+#include "partition/index_lists.h"
+#include "partition/inspection/mesh_inspection.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The stretch without some of its faces.
+/// @param faces ascending.
+void leave_out(const std::vector<Index>& faces, RankSlice& slice)
+{
+    RankSlice left;
+    auto next = faces.begin();
+    for (Index f = 0; f < slice.n_faces(); ++f) {
+        if (next != faces.end() && *next == f) {
+            ++next;
+            continue;
+        }
+        left.corners.insert(left.corners.end(), slice.corners.begin() + slice.face_offsets[f],
+                            slice.corners.begin() + slice.face_offsets[f + 1]);
+        left.face_offsets.push_back(static_cast<Index>(left.corners.size()));
+    }
+    slice.face_offsets = std::move(left.face_offsets);
+    slice.corners = std::move(left.corners);
+}
+
+}  // namespace
+
+void find_repetitions(const MeshPart& part, const Topology& topology, std::vector<Repetition>& found)
+{
+    const auto is_suspicious = [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; };
+    const auto candidates = select(run_in_parallel, part.mesh.n_faces(),
+                                   [&](Index f) { return std::ranges::any_of(part.mesh.face(f), is_suspicious); });
+    for (const auto& [face, first] : find_repeated_faces(part.mesh, candidates))
+        found.push_back({part.face_numbers[face], part.face_numbers[first]});
+}
+
+bool leave_out_repeated(Conversation& talk, const std::vector<Repetition>& own, RankSlice& slice,
+                        std::optional<std::vector<Index>>& labels, RepeatedFaces& left_out)
+{
+    std::int64_t n_found = 0;
+    for (const std::int64_t of_rank : talk.gather_all(std::vector<std::int64_t>{std::ssize(own)}))
+        n_found += of_rank;
+    if (n_found == 0)
+        return false;
+    const SliceBounds bounds = gather_bounds(talk, slice);
+    std::vector<std::vector<Repetition>> to_homes(talk.size());
+    for (const Repetition& repetition : own)
+        to_homes[stretch_of(bounds.faces, repetition.face)].push_back(repetition);
+    std::vector<Bytes> sent;
+    for (const auto& of_home : to_homes)
+        sent.push_back(packed(of_home));
+    std::vector<Repetition> here;
+    for (const Bytes& bytes : talk.exchange(std::move(sent))) {
+        const auto of_rank = unpacked<Repetition>(bytes);
+        here.insert(here.end(), of_rank.begin(), of_rank.end());
+    }
+    std::ranges::sort(here, {}, &Repetition::face);
+    for (const auto& [face, first] : here) {
+        left_out.faces.push_back(static_cast<Index>(face - bounds.faces[talk.rank()]));
+        left_out.firsts.push_back(first);
+    }
+    if (labels) {
+        auto next = left_out.faces.begin();
+        std::vector<Index> left;
+        for (Index f = 0; f < slice.n_faces(); ++f)
+            if (next != left_out.faces.end() && *next == f)
+                ++next;
+            else
+                left.push_back((*labels)[f]);
+        labels = std::move(left);
+    }
+    leave_out(left_out.faces, slice);
+    return true;
+}
+
+std::vector<Index> labels_of_all_faces(Conversation& talk, const RankSlice& slice, const RepeatedFaces& left_out)
+{
+    std::vector<Index> labels;
+    auto left = slice.labels.begin();
+    auto next = left_out.faces.begin();
+    while (left != slice.labels.end() || next != left_out.faces.end()) {
+        const bool is_left_out = next != left_out.faces.end() && at(*next) == labels.size();
+        labels.push_back(is_left_out ? -1 : *left);
+        if (is_left_out)
+            ++next;
+        else
+            ++left;
+    }
+    SliceBounds bounds{{}, {0}};
+    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{std::ssize(labels)}))
+        bounds.faces.push_back(bounds.faces.back() + n);
+    std::vector<std::int64_t> firsts = left_out.firsts;
+    sort_unique(firsts);
+    const std::vector<Index> found = fetch_labels(talk, labels, bounds, firsts);
+    for (std::size_t i = 0; i < left_out.faces.size(); ++i)
+        labels[left_out.faces[i]] =
+            found[static_cast<std::size_t>(std::ranges::lower_bound(firsts, left_out.firsts[i]) - firsts.begin())];
+    return labels;
+}
+
+}  // namespace seamflow
