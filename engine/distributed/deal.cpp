@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 
@@ -47,8 +48,11 @@ class Owners {
     Owners(Conversation& talk, const RankSlice& slice)
     {
         std::vector<SubMeshCost> own;
-        for (Index f = 0; f < slice.n_faces(); ++f)
-            own.push_back({slice.labels[f], slice.face_offsets[f + 1] - slice.face_offsets[f]});
+        for (Index f = 0; f < slice.n_faces(); ++f) {
+            if (own.empty() || own.back().label != slice.labels[f])
+                own.push_back({slice.labels[f], 0});
+            own.back().corners += slice.face_offsets[f + 1] - slice.face_offsets[f];
+        }
         const std::vector<SubMeshCost> all = summed(talk.gather_all(summed(std::move(own))));
         std::int64_t total = 0;
         for (const SubMeshCost& cost : all)
@@ -121,6 +125,24 @@ std::vector<std::int64_t> unpack_faces(const std::vector<Bytes>& packed_faces, M
     return corners;
 }
 
+/// Ascending, each once.
+std::vector<std::int64_t> distinct(const std::vector<std::int64_t>& numbers)
+{
+    // Most that are the same stand near each other.
+    std::vector<std::vector<std::int64_t>> of_block(numbers.size() / block_size + 1);
+    for_each_block(run_in_parallel, static_cast<Index>(numbers.size()), [&](Index block, Index begin, Index end) {
+        of_block[block].assign(numbers.begin() + begin, numbers.begin() + end);
+        sort_unique(of_block[block]);
+    });
+    std::vector<std::int64_t> all;
+    for (std::vector<std::int64_t>& some : of_block) {
+        all.insert(all.end(), some.begin(), some.end());
+        some = {};
+    }
+    sort_unique(all);
+    return all;
+}
+
 /// Sorted by the stretches to which they belong.
 /// @param numbers ascending.
 std::vector<std::vector<std::int64_t>> by_stretch(std::span<const std::int64_t> numbers,
@@ -191,11 +213,12 @@ MeshPart deal(Conversation& talk, const RankSlice& slice)
     MeshPart part;
     const std::vector<std::int64_t> corners =
         unpack_faces(talk.exchange(pack_faces(slice, owners, bounds.faces[talk.rank()], talk.size())), part);
-    part.vertex_numbers = corners;
-    sort_unique(part.vertex_numbers);
-    for (const std::int64_t corner : corners)
-        part.mesh.face_vertices.push_back(
-            static_cast<Index>(std::ranges::lower_bound(part.vertex_numbers, corner) - part.vertex_numbers.begin()));
+    part.vertex_numbers = distinct(corners);
+    part.mesh.face_vertices.resize(corners.size());
+    for_each(run_in_parallel, part.mesh.n_corners(), [&](Index c) {
+        part.mesh.face_vertices[c] =
+            static_cast<Index>(std::ranges::lower_bound(part.vertex_numbers, corners[c]) - part.vertex_numbers.begin());
+    });
     part.mesh.vertices = fetch_positions(talk, slice, part.vertex_numbers, bounds.vertices);
     return part;
 }

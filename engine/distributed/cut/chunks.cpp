@@ -283,11 +283,12 @@ std::vector<Chunk> deal_chunks(Conversation& talk, RankSlice& slice, const Slice
             for (Index f = 0; f < part.mesh.n_faces(); ++f)
                 add(place_of(part.labels[f]), f);
         });
-        for (Index i = 0; i < faces.size(); ++i)
-            chunks.push_back({.part = some_faces(part, faces[i]), .topology = {}, .is_shared = {}, .crossing = {}});
+        chunks.resize(numbers.size());
+        for_each(run_in_parallel, faces.size(), [&](Index i) {
+            chunks[i].part = some_faces(part, faces[i]);
+            chunks[i].topology = make_topology(chunks[i].part.mesh);
+        });
     }
-    for (Chunk& chunk : chunks)
-        chunk.topology = make_topology(chunk.part.mesh, run_in_parallel);
     find_shared_vertices(talk, bounds, chunks);
     match_edges(talk, bounds, chunks);
     return chunks;
