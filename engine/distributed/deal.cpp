@@ -144,8 +144,18 @@ std::vector<std::vector<std::int64_t>> by_stretch(std::span<const std::int64_t> 
     return of_stretch;
 }
 
-/// Asks the ranks that have read them for the positions of vertices.
-/// @param numbers ascending. @returns #numbers by 3.
+}  // namespace
+
+SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice)
+{
+    SliceBounds bounds{{0}, {0}};
+    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{slice.vertices.rows()}))
+        bounds.vertices.push_back(bounds.vertices.back() + n);
+    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{slice.n_faces()}))
+        bounds.faces.push_back(bounds.faces.back() + n);
+    return bounds;
+}
+
 Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
                        std::span<const std::int64_t> bounds)
 {
@@ -168,18 +178,6 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
         next += answer.size() / sizeof(double);
     }
     return positions;
-}
-
-}  // namespace
-
-SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice)
-{
-    SliceBounds bounds{{0}, {0}};
-    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{slice.vertices.rows()}))
-        bounds.vertices.push_back(bounds.vertices.back() + n);
-    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{slice.n_faces()}))
-        bounds.faces.push_back(bounds.faces.back() + n);
-    return bounds;
 }
 
 MeshPart deal(Conversation& talk, const RankSlice& slice)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/distributed/conversation.h"
@@ -31,6 +32,12 @@ struct SliceBounds {
 
 /// The stretches in order. All ranks call this together.
 SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice);
+
+/// Asks the ranks whose stretches have them for the positions of vertices. All ranks call this together.
+/// @param numbers in the whole mesh, ascending. @param bounds of the stretches of vertices.
+/// @returns #numbers by 3.
+Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
+                       std::span<const std::int64_t> bounds);
 
 /// Gives every face to the rank that has its sub-mesh, with the positions of its corners. Sub-meshes are dealt in
 /// ascending order, so that all ranks get about as many corners. All ranks call this together; no rank needs room for
