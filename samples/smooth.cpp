@@ -42,22 +42,6 @@ using namespace seamflow;
 
 namespace {
 
-/// The labels of the faces that flow.
-/// @param left_out ascending: the numbers of the others, which have labels, too.
-std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces, const std::vector<Index>& left_out)
-{
-    std::vector<Index> labels = read_labels(path, n_faces + static_cast<Index>(left_out.size()));
-    auto next = left_out.begin();
-    Index f = 0;
-    std::erase_if(labels, [&](Index) {
-        const bool is_left_out = next != left_out.end() && *next == f;
-        next += is_left_out ? 1 : 0;
-        ++f;
-        return is_left_out;
-    });
-    return labels;
-}
-
 /// What the command line leaves to be taken from the input.
 /// @param left_out ascending: the faces of the file that are not in the mesh.
 void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
@@ -122,24 +106,6 @@ std::vector<std::string> write_results(const SmoothCommand& command, const MeshF
     return remarks;
 }
 
-/// About what of a file has been left out of the flow.
-/// @param stays whether it is in the result as it was.
-std::string remark_on_faces(const FaultLog& faults, bool stays)
-{
-    const std::size_t n_faces = faults.faces_left_out.size();
-    const std::size_t n_rows = faults.n_harmless - n_faces;
-    std::string text;
-    if (n_faces > 0)
-        text = fmt::format("{} a vertex twice or {} fewer than three corners, and {} no part in the flow",
-                           n_faces == 1 ? "1 face names" : fmt::format("{} faces name", n_faces),
-                           n_faces == 1 ? "has" : "have", n_faces == 1 ? "takes" : "take");
-    if (n_rows > 0)
-        text += fmt::format("{}{} more numbers than the file declares, which were passed over",
-                            text.empty() ? "" : "; ", n_rows == 1 ? "1 row has" : fmt::format("{} rows have", n_rows));
-    return fmt::format("{}; the result {} (the first: {}; --strict refuses such files).", text,
-                       stays ? "has all that as it was" : "is written without", faults.messages.front());
-}
-
 /// What is written about the run: report, trace and page.
 void write_reports(const SmoothCommand& command, const RunRecord& run, FlowReport& report,
                    std::optional<PageFlow>& page)
@@ -195,7 +161,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
                                                   : read_faulty_mesh(command.input, left_out, loop);
     complete_options(command, file.mesh, left_out.faces_left_out, loop, run);
     run.read_seconds = whole.seconds();
-    print_input(out, run, file.mesh);
+    print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
     print_preset(out, run, command.chosen);
     print_amount(out, run.scale, command.options);
     require_storable(file.mesh, command.output, kind_for_writing(command.output, file.kind));
@@ -205,10 +171,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
 
     std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
     if (left_out.count > 0) {
-        // What write_mesh_like copies.
-        const bool stays = kind_for_writing(command.output, file.kind).format == file.kind.format &&
-                           file.kind.format != FileFormat::Stl && !command.options.report.keep_gaps;
-        losses.push_back(remark_on_faces(left_out, stays));
+        losses.push_back(remark_on_faces(left_out, command.output, !command.options.report.keep_gaps, file.kind));
     }
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))

@@ -64,6 +64,8 @@ WorkOutcome outcome_of(Work&& work)
         throw OutputError(message);
     case Kind::Cancelled:
         throw Cancelled(message);
+    case Kind::OutOfMemory:
+        throw std::bad_alloc();
     default:
         throw ComputationError(message);
     }
@@ -193,6 +195,14 @@ std::vector<Bytes> Conversation::exchange(std::vector<Bytes> to_each)
 std::vector<Bytes> Conversation::gather_to_all(Bytes own)
 {
     return exchange(std::vector<Bytes>(size(), std::move(own)));
+}
+
+void Conversation::at_first_rank(const std::function<void()>& action)
+{
+    const WorkOutcome own = rank() == 0 ? outcome_of(action) : WorkOutcome{};
+    const WorkOutcome first = unpacked_outcome(gather_to_all(rank() == 0 ? packed_outcome(own) : Bytes()).front());
+    if (first.kind != Kind::Done)
+        throw_as(first.kind, first.message);
 }
 
 std::optional<Message> Conversation::next_arrival(std::chrono::microseconds patience)

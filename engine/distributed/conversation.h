@@ -111,6 +111,9 @@ class Conversation {
     /// @param to_each #ranks. @returns #ranks, in their order.
     std::vector<Bytes> exchange(std::vector<Bytes> to_each);
 
+    /// Does on rank 0 what is for all ranks, which wait for it; what it throws all throw alike.
+    void at_first_rank(const std::function<void()>& action);
+
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);

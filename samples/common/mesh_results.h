@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/formats/mesh_io.h"
+#include "partition/io/fault_log.h"
 
 namespace seamflow {
 
@@ -22,5 +23,16 @@ std::vector<std::string> write_state(const std::filesystem::path& path, const Po
 /// @returns remarks for the user.
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
                                            const Loop& loop = run_serially);
+
+/// About what of a file has been left out of the flow.
+/// @param path, joined see remarks_on_losses. @param input the kind of the file.
+std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path& path, bool joined,
+                            const FileKind& input);
+
+/// The labels of the faces that flow.
+/// @param left_out ascending: the numbers in the file of the other faces, which have labels, too.
+/// @throws InputError (see read_labels).
+std::vector<Index> labels_of_faces(const std::filesystem::path& path, Index n_faces,
+                                   const std::vector<Index>& left_out);
 
 }  // namespace seamflow

@@ -20,7 +20,7 @@ std::string digits(double value, int significant = 6)
     return fmt::format("{:.{}g}", value, significant);
 }
 
-std::string counted(Index count, const std::string& singular, const std::string& plural)
+std::string counted(std::int64_t count, const std::string& singular, const std::string& plural)
 {
     return fmt::format("{} {}", count, count == 1 ? singular : plural);
 }
@@ -100,11 +100,10 @@ void print_distance(std::ostream& out, const char* name, double absolute, double
 
 }  // namespace
 
-void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh)
+void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces)
 {
-    out << fmt::format("input      {}: {}, {}, mean edge {:.6g}", run.input,
-                       counted(mesh.n_vertices(), "vertex", "vertices"), counted(mesh.n_faces(), "face", "faces"),
-                       run.scale.mean_edge)
+    out << fmt::format("input      {}: {}, {}, mean edge {:.6g}", run.input, counted(n_vertices, "vertex", "vertices"),
+                       counted(n_faces, "face", "faces"), run.scale.mean_edge)
         << std::endl;
 }
 

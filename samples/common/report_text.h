@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@
 namespace seamflow {
 
 /// What was read.
-void print_input(std::ostream& out, const RunRecord& run, const PolygonMesh& mesh);
+void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces);
 
 /// What a preset has chosen, if one has.
 /// @param options that say the same.

@@ -184,7 +184,8 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
 
 void settle(const CLI::App& app, SmoothCommand& command)
 {
-    if (command.options.resources.threads == 0)
+    command.chooses_threads = command.options.resources.threads == 0;
+    if (command.chooses_threads)
         command.options.resources.threads = threads_within_quota();
     apply_preset(app, command);
     command.limits_iterations = app.count("--converge-iterations") > 0;

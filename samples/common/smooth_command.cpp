@@ -265,17 +265,36 @@ void require_usable_files(const SmoothCommand& command)
         require_writable(path);
 }
 
+/// --help does not speak of what a program has not.
+void hide(CLI::App& app, const SmoothProgram& program)
+{
+    for (const SmoothProgram::Lack& lack : program.lacks)
+        app.get_option(lack.option)->group("");
+}
+
+void require_known(const CLI::App& app, const SmoothProgram& program)
+{
+    for (const SmoothProgram::Lack& lack : program.lacks)
+        if (app.count(lack.option) > 0)
+            throw OptionError(fmt::format("{} has no {}: {}", program.name, lack.option, lack.reason));
+}
+
 }  // namespace
 
-std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command)
+std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command,
+                                               const SmoothProgram& program)
 {
-    CLI::App app("Smooths a mesh by mean curvature flow, cut into sub-meshes that are solved in parallel.", "smooth");
+    CLI::App app(program.description, program.name);
     std::string every_step;
     add_files(app, command, every_step);
     add_flow_options(app, command);
     add_long_run(app, command);
+    if (program.add_own)
+        program.add_own(app);
+    hide(app, program);
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
+    require_known(app, program);
     command.arguments.assign(argv + 1, argv + argc);
     settle(app, command);
     // Nobody would see it.
@@ -285,7 +304,8 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     if (!every_step.empty())
         command.every_step.emplace(every_step);
     require_usable_results(command);
-    require_usable_files(command);
+    if (program.checks_files)
+        require_usable_files(command);
     return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"
 #include "samples/common/step_pattern.h"
+
+namespace CLI {
+class App;
+}
 
 namespace seamflow {
 
@@ -48,16 +53,35 @@ struct SmoothCommand {
     /// Whether to print errors alone; and what each step and task did.
     bool quiet = false;
     bool verbose = false;
+    /// Whether the number of threads was left open.
+    bool chooses_threads = false;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
     /// As the user typed it.
     std::vector<std::string> arguments;
 };
 
+/// A program with the command line of `smooth`, or with most of it.
+struct SmoothProgram {
+    const char* name = "smooth";
+    const char* description = "Smooths a mesh by mean curvature flow, cut into sub-meshes that are solved in parallel.";
+    /// An option that it has not, and why.
+    struct Lack {
+        const char* option;
+        const char* reason;
+    };
+    std::vector<Lack> lacks = {};
+    /// Adds the options that it alone has.
+    std::function<void(CLI::App&)> add_own = {};
+    /// Whether it looks for the results' folders: of several processes one does.
+    bool checks_files = true;
+};
+
 /// Parses the command line and checks that the results can be written where it says.
 /// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.
 /// @throws OptionError, OutputError (see output_files.h).
-std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command);
+std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command,
+                                               const SmoothProgram& program = {});
 
 /// An option of `smooth` that is about the flow, and not about files or what is printed.
 struct FlowOptionText {

@@ -1,0 +1,69 @@
+#include "samples/common/distributed_command.h"
+
+#include "partition/errors.h"
+#include "samples/common/command_line.h"
+
+namespace seamflow {
+
+namespace {
+
+const char* const whole_mesh = "it takes the whole mesh, which no rank has; smooth knows it";
+const char* const one_process = "it shows the tasks of one process; smooth knows it";
+const char* const sweeps_alone = "ranks do not know such steps; smooth does";
+
+std::vector<SmoothProgram::Lack> lacks()
+{
+    return {{"--preset", "presets measure the noise of the whole mesh; say --time-step, --time-step-edges or --radius"},
+            {"--boundary", "the rims of the mesh stay where they are; smooth can let them move"},
+            {"--attach-weights", "ranks know one attachment for all vertices (--attach); smooth knows others"},
+            {"--attach-property", "ranks know one attachment for all vertices (--attach); smooth knows others"},
+            {"--strict", whole_mesh},
+            {"--rescale", whole_mesh},
+            {"--scheme", sweeps_alone},
+            {"--keep-edges", whole_mesh},
+            {"--overlap", sweeps_alone},
+            {"--keep-gaps", sweeps_alone},
+            {"--reference", whole_mesh},
+            {"--every-step", "it writes the result alone; smooth writes every step"},
+            {"--trace", one_process},
+            {"--task-graph", one_process},
+            {"--html", "a page shows the whole mesh, which no rank has; smooth writes it"},
+            {"--checkpoint", "it starts anew; smooth can go on from a checkpoint"},
+            {"--checkpoint-every", "it starts anew; smooth can go on from a checkpoint"}};
+}
+
+/// Steps of ranks are in sub-meshes: sweeps where no tolerance is asked for.
+void settle_approach(AccuracyOptions& accuracy)
+{
+    if (accuracy.approach == Approach::Automatic || accuracy.approach == Approach::Decomposed)
+        accuracy.approach = accuracy.tolerance ? Approach::Converged : Approach::Sweep;
+}
+
+}  // namespace
+
+std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int rank, DistributedCommand& command)
+{
+    std::optional<std::size_t> whole_up_to;
+    const SmoothProgram program{
+        .name = "smooth-distributed",
+        .description = "Smooths a mesh as smooth does, on as many ranks of MPI as mpirun starts: mpirun -n 4 "
+                       "smooth-distributed INPUT OUTPUT …",
+        .lacks = lacks(),
+        .add_own =
+            [&](CLI::App& app) {
+                add_bytes(app, "--whole-up-to", whole_up_to,
+                          "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]");
+            },
+        .checks_files = rank == 0};
+    if (const auto end = parse_smooth_command(argc, argv, command.flow, program))
+        return end;
+    if (command.flow.amount.slope_of_noise)
+        throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius: smooth alone, which "
+                          "has the whole mesh, can measure its noise");
+    settle_approach(command.flow.options.accuracy);
+    if (whole_up_to)
+        command.sharing.whole_up_to = *whole_up_to;
+    return std::nullopt;
+}
+
+}  // namespace seamflow

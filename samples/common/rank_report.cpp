@@ -1,0 +1,121 @@
+#include "samples/common/rank_report.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/options/option_names.h"
+#include "samples/common/smoothing_request.h"
+
+namespace seamflow {
+
+namespace {
+
+std::string counted_as(std::int64_t n, const char* one, const char* several)
+{
+    return fmt::format("{} {}", n, n == 1 ? one : several);
+}
+
+double seconds_of_steps(const RankReport& report)
+{
+    double seconds = 0.0;
+    for (const RankStepReport& step : report.steps)
+        seconds += step.seconds;
+    return seconds;
+}
+
+/// "12" or "10 to 12".
+template <class Value>
+std::string range_of(const std::vector<RankRecord>& ranks, Value RankRecord::*member)
+{
+    const auto [least, most] = std::ranges::minmax_element(ranks, {}, member);
+    return (*least).*member == (*most).*member ? fmt::format("{}", (*most).*member)
+                                               : fmt::format("{} to {}", (*least).*member, (*most).*member);
+}
+
+}  // namespace
+
+void print_rank_steps(std::ostream& out, const DistributedRecord& record)
+{
+    int step = 0;
+    for (const RankStepReport& report : record.report.steps)
+        out << fmt::format("step {} of {}  {:.3f} s\n", ++step, record.report.steps.size(), report.seconds);
+}
+
+void print_distributed_result(std::ostream& out, const DistributedRecord& record)
+{
+    const RankReport& report = record.report;
+    for (std::size_t i = 0; i < record.choices.size(); ++i)
+        out << (i == 0 ? "chosen     " : " ") << record.choices[i] << (i + 1 == record.choices.size() ? "\n" : "");
+    out << fmt::format("cut        {} in {}, {}; {} of {} vertices each\n",
+                       counted_as(report.sub_meshes, "sub-mesh", "sub-meshes"),
+                       counted_as(report.colours, "colour", "colours"),
+                       counted_as(report.interface_vertices, "interface vertex", "interface vertices"),
+                       counted_as(static_cast<std::int64_t>(record.ranks.size()), "rank", "ranks"),
+                       range_of(record.ranks, &RankRecord::vertices));
+    const auto largest = std::ranges::max(record.ranks, {}, &RankRecord::peak_memory_bytes).peak_memory_bytes;
+    out << fmt::format(
+        "time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; threads of a rank: {}, MB at "
+        "most: {:.4g}\n",
+        record.run.seconds, record.run.read_seconds, record.setup_seconds, seconds_of_steps(report),
+        record.run.write_seconds, range_of(record.ranks, &RankRecord::threads), static_cast<double>(largest) / 1e6);
+    for (const std::string& remark : record.remarks)
+        out << "remark     " << remark << '\n';
+    const double edge = record.size.mean_edge > 0.0 ? record.size.mean_edge : 1.0;
+    out << fmt::format("result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most", record.run.output,
+                       record.moved.mean / edge, record.moved.max / edge)
+        << std::endl;
+}
+
+std::string distributed_report_json(const DistributedRecord& record, const FlowOptions& options)
+{
+    using Json = nlohmann::ordered_json;
+    const RunRecord& run = record.run;
+    const RankReport& report = record.report;
+    Json json;
+    json["input"] = run.input;
+    json["output"] = run.output;
+    json["arguments"] = run.arguments;
+    json["vertices"] = record.size.vertices;
+    json["faces"] = record.size.faces;
+    json["mean_edge"] = record.size.mean_edge;
+    json["diagonal"] = record.size.diagonal;
+    json["subdomains"] = report.sub_meshes;
+    json["colours"] = report.colours;
+    json["interface_vertices"] = report.interface_vertices;
+    json["laplacian"] = run.laplacian;
+    json["flow"] = option_name(run.flow);
+    json["filter"] = option_name(run.filter);
+    if (options.motion.attachment > 0.0)
+        json["attachment"] = options.motion.attachment;
+    json["time_step"] = record.time_step;
+    json["time_step_edges"] = record.time_step / (record.size.mean_edge * record.size.mean_edge);
+    json["radius"] = smoothed_radius(record.time_step, std::max(options.steps, 1));
+    json["approach"] = option_name(options.accuracy.approach);
+    json["seconds"] = {{"read", run.read_seconds},
+                       {"setup", record.setup_seconds},
+                       {"step", seconds_of_steps(report)},
+                       {"write", run.write_seconds},
+                       {"total", run.seconds}};
+    json["steps"] = Json::array();
+    for (const RankStepReport& step : report.steps)
+        json["steps"].push_back({{"seconds", step.seconds}});
+    json["ranks"] = Json::array();
+    for (const RankRecord& rank : record.ranks)
+        json["ranks"].push_back({{"vertices", rank.vertices},
+                                 {"foreign_vertices", rank.foreign_vertices},
+                                 {"messages", rank.messages},
+                                 {"bytes", rank.bytes},
+                                 {"threads", rank.threads},
+                                 {"peak_memory_bytes", rank.peak_memory_bytes}});
+    json["moved_mean_absolute"] = record.moved.mean;
+    json["moved_rms_absolute"] = record.moved.rms;
+    json["moved_max_absolute"] = record.moved.max;
+    json["choices"] = record.choices;
+    json["remarks"] = record.remarks;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace seamflow

@@ -1,0 +1,278 @@
+// Smooths a mesh on ranks of MPI, each of which has a part of it: mpirun -n 4 smooth-distributed INPUT OUTPUT …
+//
+//     a slice of the file on every rank ──► cut ──► whole sub-meshes on every rank ──► flow ──► slices ──► file
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/distributed/deal.h"
+#include "engine/distributed/distributed_cut.h"
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/mpi_communicator.h"
+#include "engine/distributed/shared_mesh_file.h"
+#include "engine/distributed/slice_measures.h"
+#include "engine/distributed/whole_mesh.h"
+#include "engine/tasks/stopwatch.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
+#include "partition/formats/index_files.h"
+#include "partition/io/input_file.h"
+#include "samples/common/distributed_command.h"
+#include "samples/common/flow_run.h"
+#include "samples/common/mesh_results.h"
+#include "samples/common/output_files.h"
+#include "samples/common/peak_memory.h"
+#include "samples/common/rank_report.h"
+#include "samples/common/report_json.h"
+#include "samples/common/report_text.h"
+
+using namespace seamflow;
+
+namespace {
+
+/// What is wrong with a mesh comes out with the name of its file.
+template <class Action>
+void about_file(const std::filesystem::path& path, Action&& action)
+{
+    try {
+        action();
+    } catch (const InputError& error) {
+        throw InputError(path.string() + ": " + error.what());
+    }
+}
+
+/// The cores of a machine are shared by the ranks on it.
+int threads_of_rank(Conversation& talk, const std::string& host, const SmoothCommand& command)
+{
+    int n_here = 0;
+    for (const Bytes& bytes : talk.gather_to_all(packed(std::vector<char>(host.begin(), host.end())))) {
+        const auto other = unpacked<char>(bytes);
+        n_here += std::ranges::equal(other, host) ? 1 : 0;
+    }
+    const int threads = command.options.resources.threads;
+    return command.chooses_threads ? std::max(1, threads / n_here) : threads;
+}
+
+/// One rank's share of a run.
+class RankRun {
+  public:
+    /// @param out where rank 0 prints, and others do not.
+    RankRun(Communicator& ranks, DistributedCommand& command, DistributedRecord& record, std::ostream& out)
+        : ranks_(ranks)
+        , command_(command.flow)
+        , sharing_(command.sharing)
+        , record_(record)
+        , out_(out)
+    {
+    }
+
+    void run()
+    {
+        const Stopwatch whole;
+        run_together(ranks_, [&](Conversation& talk) { begin(talk); });
+        FlowOptions options = command_.options;
+        options.cut = {};
+        about_file(command_.input, [&] { record_.report = distributed_mean_curvature_flow(ranks_, part_, options); });
+        record_.setup_seconds += record_.report.setup_seconds;
+        run_together(ranks_, [&](Conversation& talk) { end(talk, whole); });
+    }
+
+  private:
+    /// Reads, cuts, and deals the sub-meshes to the ranks.
+    void begin(Conversation& talk)
+    {
+        command_.options.resources.threads = threads_of_rank(talk, ranks_.host(), command_);
+        workers_.emplace(command_.options.resources.threads);
+        const Stopwatch reading;
+        file_ = open_together(talk, command_.input, sharing_, workers_->loop());
+        RankSlice slice = file_->read(talk);
+        about_file(command_.input, [&] { record_.size = measure(talk, slice); });
+        settle_amount();
+        const SliceBounds bounds = gather_bounds(talk, slice);
+        if (!command_.labels.empty())
+            slice.labels = read_labels_together(talk, slice);
+        const std::vector<std::int64_t> fixed = read_fixed(talk);
+        record_.run.read_seconds = reading.seconds();
+        print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
+        print_amount(out_, record_.run.scale, command_.options);
+        talk.at_first_rank([&] { look_at_results(); });
+
+        const Stopwatch setting_up;
+        cut(talk, slice);
+        about_file(command_.input, [&] { part_ = deal(talk, slice); });
+        part_.fixed.resize(part_.vertex_numbers.size());
+        std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(),
+                               [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
+        slice_vertices_ = std::move(slice.vertices);
+        record_.setup_seconds = setting_up.seconds();
+    }
+
+    /// Makes numbers of what is measured in sizes of the mesh.
+    void settle_amount()
+    {
+        record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
+        about_file(command_.input, [&] {
+            if (command_.attach)
+                command_.options.motion.attachment = attachment_of(*command_.attach, record_.run.scale);
+            command_.options.time_step = time_step_of(command_.amount, record_.run.scale, command_.options.steps);
+        });
+        record_.time_step = command_.options.time_step;
+    }
+
+    std::vector<Index> read_labels_together(Conversation& talk, const RankSlice& slice)
+    {
+        std::vector<Index> labels;
+        talk.at_first_rank([&] {
+            labels = labels_of_faces(command_.labels, static_cast<Index>(record_.size.faces),
+                                     file_->faults().faces_left_out);
+        });
+        return hand_out(talk, labels, slice);
+    }
+
+    /// The vertices of --fix, ascending.
+    std::vector<std::int64_t> read_fixed(Conversation& talk)
+    {
+        std::vector<std::int64_t> own;
+        talk.at_first_rank([&] {
+            if (command_.fix.empty())
+                return;
+            const auto fixed =
+                read_vertex_set(command_.fix, static_cast<Index>(record_.size.vertices), command_.fix_property);
+            own.assign(fixed.begin(), fixed.end());
+        });
+        return talk.gather_all(own);
+    }
+
+    /// Whether results can hold the mesh, and what they will not have of the input. On rank 0.
+    void look_at_results()
+    {
+        std::error_code ignored;
+        if (const MeshFile* const whole = file_->whole()) {
+            require_storable(whole->mesh, command_.output, kind_for_writing(command_.output, whole->kind));
+            record_.remarks = remarks_on_losses(command_.output, true, *whole);
+            if (file_->faults().count > 0)
+                record_.remarks.push_back(remark_on_faces(file_->faults(), command_.output, true, whole->kind));
+        }
+        if (std::filesystem::equivalent(command_.input, command_.output, ignored))
+            record_.remarks.push_back("The result has replaced the input, in one go when it was complete.");
+    }
+
+    void cut(Conversation& talk, RankSlice& slice)
+    {
+        const DistributedCut found = command_.labels.empty()
+                                         ? cut_together(talk, slice, command_.options)
+                                         : cut_together_by_labels(talk, slice, command_.options);
+        if (!found.choice.empty())
+            record_.choices.push_back(found.choice);
+        if (!command_.parts.empty())
+            labels_ = labels_of_all_faces(talk, slice, found.left_out);
+        record_.remarks.insert(record_.remarks.begin(), found.remarks.begin(), found.remarks.end());
+    }
+
+    /// Writes, and tells what was done.
+    void end(Conversation& talk, const Stopwatch& whole)
+    {
+        const Stopwatch writing;
+        RankSlice slice;
+        slice.vertices = slice_vertices_;
+        collect_positions(talk, part_, slice);
+        part_ = {};
+        record_.moved = measure_moves(talk, slice_vertices_, slice.vertices);
+        const auto remarks = file_->write(talk, command_.output, slice.vertices);
+        record_.remarks.insert(record_.remarks.end(), remarks.begin(), remarks.end());
+        if (!command_.parts.empty())
+            file_->write_labelled(talk, command_.parts, slice.vertices, labels_);
+        record_.run.write_seconds = writing.seconds();
+        record_.run.seconds = whole.seconds();
+        RankRecord own{.vertices = record_.report.vertices,
+                       .foreign_vertices = record_.report.foreign_vertices,
+                       .peak_memory_bytes = peak_memory_bytes(),
+                       .threads = command_.options.resources.threads};
+        for (const RankStepReport& step : record_.report.steps) {
+            own.messages += step.messages;
+            own.bytes += step.bytes;
+        }
+        record_.ranks = talk.gather_all(std::vector<RankRecord>{own});
+        talk.at_first_rank([&] {
+            if (!command_.report.empty())
+                write_text(command_.report, distributed_report_json(record_, command_.options));
+        });
+        if (command_.verbose)
+            print_rank_steps(out_, record_);
+        print_distributed_result(out_, record_);
+    }
+
+    Communicator& ranks_;
+    SmoothCommand& command_;
+    FileSharing sharing_;
+    DistributedRecord& record_;
+    std::ostream& out_;
+    std::optional<Workers> workers_;
+    std::unique_ptr<SharedMeshFile> file_;
+    MeshPart part_;
+    /// Where the vertices of this rank's stretch are in the file, and with --parts the labels of its faces.
+    Points slice_vertices_ = Points(0, 3);
+    std::vector<Index> labels_;
+};
+
+/// Rank 0 speaks for all.
+std::optional<ExitStatus> parse_together(Communicator& ranks, int argc, char** argv, DistributedCommand& command)
+{
+    std::optional<ExitStatus> end;
+    run_together(ranks, [&](Conversation& talk) {
+        talk.at_first_rank([&] { end = parse_distributed_command(argc, argv, 0, command); });
+        const auto ends = talk.gather_all(end ? std::vector<ExitStatus>{*end} : std::vector<ExitStatus>{});
+        if (!ends.empty())
+            end = ends.front();
+        else if (talk.rank() > 0)
+            end = parse_distributed_command(argc, argv, talk.rank(), command);
+    });
+    return end;
+}
+
+ExitStatus smooth_distributed(Communicator& ranks, int argc, char** argv)
+{
+    DistributedCommand command;
+    if (const auto end = parse_together(ranks, argc, argv, command))
+        return *end;
+    DistributedRecord record;
+    record.run = begin_record(command.flow);
+    std::ostream silence(nullptr);
+    const bool is_taken = is_standard_stream(command.flow.output) || is_standard_stream(command.flow.report);
+    std::ostream& out = command.flow.quiet || ranks.rank() > 0 ? silence : is_taken ? std::cerr : std::cout;
+    try {
+        RankRun(ranks, command, record, out).run();
+    } catch (...) {
+        // The report says what standard error says, if it can be written.
+        try {
+            if (ranks.rank() == 0 && !command.flow.report.empty())
+                write_text(command.flow.report, smooth_failure_json(record.run, current_failure()));
+        } catch (const OutputError&) {
+        }
+        throw;
+    }
+    return ExitStatus::Success;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    // MPI ends all ranks as soon as one has ended with a failure: until rank 0 has told of it, none does.
+    std::unique_ptr<Communicator> ranks;
+    return run_program("smooth-distributed", [&] {
+        ranks = make_mpi_communicator();
+        try {
+            return smooth_distributed(*ranks, argc, argv);
+        } catch (...) {
+            if (ranks->rank() > 0)
+                return current_failure().status;
+            throw;
+        }
+    });
+}
