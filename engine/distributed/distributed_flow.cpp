@@ -72,10 +72,11 @@ void in_step(int step, Body&& body)
 /// A distributed flow on one rank.
 class RankFlow {
   public:
-    RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options)
+    RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options, const RankObserver& on_step)
         : talk_(talk)
         , part_(part)
         , options_(options)
+        , on_step_(on_step)
         , progress_(control_)
     {
     }
@@ -96,8 +97,14 @@ class RankFlow {
         const UpdateLimit limit(mesh.part.mesh, (box.high - box.low).stableNorm(), options_.accuracy.largest_update);
         describe(mesh, rank_of_all, n_interface_vertices, report);
         report.setup_seconds = watch.seconds();
-        for (int step = 1; step <= options_.steps; ++step)
+        std::optional<MeshPart> shown = on_step_ ? std::optional(part_) : std::nullopt;
+        for (int step = 1; step <= options_.steps; ++step) {
             report.steps.push_back(take_step(step, mesh, limit, stepper));
+            if (!shown)
+                continue;
+            shown->mesh.vertices = positions_of_part(mesh, offset);
+            on_step_({step, report.steps.back(), *shown, talk_});
+        }
         return positions_of_part(mesh, offset);
     }
 
@@ -143,13 +150,15 @@ class RankFlow {
     Conversation& talk_;
     const MeshPart& part_;
     const FlowOptions& options_;
+    const RankObserver& on_step_;
     FlowControl control_;
     Progress progress_;
 };
 
 }  // namespace
 
-RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options)
+RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
+                                           const RankObserver& on_step)
 {
     RankReport report;
     Points positions;
@@ -158,7 +167,7 @@ RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart&
         require_for_ranks(options);
         require_valid(part);
         Workers workers(options.resources.threads);
-        workers.execute([&] { positions = RankFlow(talk, part, options).run(report); });
+        workers.execute([&] { positions = RankFlow(talk, part, options, on_step).run(report); });
     });
     part.mesh.vertices = std::move(positions);
     return report;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/distributed/communicator.h"
+#include "engine/distributed/conversation.h"
 #include "engine/distributed/mesh_part.h"
 #include "engine/options/flow_options.h"
 
@@ -32,6 +34,20 @@ struct RankReport {
     std::vector<RankStepReport> steps;
 };
 
+/// What an observer on a rank sees after each step.
+struct RankStepState {
+    /// Number of the step, from 1.
+    int step = 0;
+    const RankStepReport& report;
+    /// The part of this rank, as it was given, after the step.
+    const MeshPart& part;
+    /// For what observers on all ranks do together: its collective functions.
+    Conversation& talk;
+};
+
+/// Called after each step, on all ranks, in the thread that called the flow. What one throws, all ranks throw.
+using RankObserver = std::function<void(const RankStepState&)>;
+
 /// Mean curvature flow of a mesh that no rank has as a whole, in sweeps over the sub-meshes of all ranks. Each rank
 /// gives some of them with all their faces, and gets their vertices moved. All ranks call this together, with the same
 /// options. The result is, bit for bit, that of mean_curvature_flow with these labels and Approach::Sweep, for any
@@ -41,9 +57,11 @@ struct RankReport {
 /// Scheme::ExplicitEuler; keep_edges; a free boundary; attachment weights; rescale; strict; what ReportOptions asks
 /// for beside `measures`, which count as if they were off. Labels and fixed vertices are those of the part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
+/// @param on_step may be empty; on all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several
 ///         ranks, for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow would
 ///         move its faces), and for faces that repeat others; ComputationError naming step and sub-mesh.
-RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options);
+RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
+                                           const RankObserver& on_step = {});
 
 }  // namespace seamflow

@@ -27,6 +27,7 @@ InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
             }
             of_vertex.close();
         }
+        first_vertex.push_back(of_vertex.size());
     }
 }
 

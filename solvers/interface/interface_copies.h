@@ -21,6 +21,8 @@ struct InterfaceCopies {
 
     /// Per sub-mesh its first copy, and one more.
     std::vector<Index> first{0};
+    /// Per sub-mesh the first of the vertices of which it has the first copy, and one more: they follow each other.
+    std::vector<Index> first_vertex{0};
     /// Per copy.
     std::vector<Index> vertex;
     std::vector<Index> sub_mesh;

@@ -14,7 +14,10 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
     , weights_(copies_.n_copies())
     , residual_copies_(copies_.n_copies(), 3)
     , right_hand_side_(copies_.n_vertices(), 3)
-    , vectors_(copies_.n_vertices())
+    , sums_(copies_)
+    , vectors_(copies_.n_vertices(), [this](std::initializer_list<VectorPair> pairs, const Loop& loop) {
+        return sums_.products(pairs, loop);
+    })
 {
     std::size_t n_numbers = 0;
     for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {

@@ -11,6 +11,7 @@
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
 #include "solvers/interface/interface_result.h"
+#include "solvers/interface/interface_sums.h"
 #include "solvers/krylov/conjugate_gradients.h"
 
 namespace seamflow {
@@ -32,12 +33,15 @@ enum class Balancing {
 /// S_i⁻¹ W_i with weights that add up to 1 at each vertex (Neumann-Neumann), balanced or not. The products are in
 /// single precision, in units that leave it room; the residual is renewed, without beginning anew, from that of the
 /// whole step in double precision. So neither these products nor the factors of sub-meshes limit a tolerance.
-/// Sums are taken in a fixed order: the bits do not depend on how loops are run.
+/// Sums are taken sub-mesh by sub-mesh and along a tree of sub-meshes (see InterfaceSums): the bits do not depend on
+/// how loops are run.
 class InterfaceEquation {
   public:
     /// @param decomposition without overlap; needed only during the call.
     /// @throws ComputationError if an analysis fails.
     InterfaceEquation(const Decomposition& decomposition, Balancing balancing);
+    InterfaceEquation(const InterfaceEquation&) = delete;
+    InterfaceEquation& operator=(const InterfaceEquation&) = delete;
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
@@ -81,6 +85,7 @@ class InterfaceEquation {
     std::vector<std::size_t> first_product_;
     Points residual_copies_;
     Points right_hand_side_;
+    InterfaceSums sums_;
     ConjugateGradientVectors vectors_;
 };
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
-#include "partition/vector_area.h"
 #include "solvers/krylov/stopping_criterion.h"
 #include "solvers/krylov/sums.h"
 
@@ -13,11 +13,13 @@ namespace seamflow {
 /// What conjugate gradients work with, in Saad's letters, each n by 3: three right-hand sides at once, each with
 /// coefficients of its own.
 struct ConjugateGradientVectors {
-    explicit ConjugateGradientVectors(Index n)
+    /// @param how inner products are made.
+    explicit ConjugateGradientVectors(Index n, InnerProducts how = inner_products)
         : r(n, 3)
         , p(n, 3)
         , q(n, 3)
         , z(n, 3)
+        , products(std::move(how))
     {
     }
 
@@ -25,11 +27,17 @@ struct ConjugateGradientVectors {
     void begin(const Points& b, const Loop& loop)
     {
         r = b;
-        b_norms = column_norms(b, loop);
+        b_norms = norms(b, loop);
         p.setZero();
         q.setZero();
         pq.setZero();
         alpha.setOnes();
+    }
+
+    /// The norm of each column.
+    [[nodiscard]] Point norms(const Points& a, const Loop& loop) const
+    {
+        return products({{a, a}}, loop).front().cwiseSqrt();
     }
 
     /// The residual B - A X, the direction and its product, and the preconditioned residual.
@@ -37,6 +45,7 @@ struct ConjugateGradientVectors {
     Points p;
     Points q;
     Points z;
+    InnerProducts products;
     /// The norms of B; (p, A p); how far the last step went along p.
     Point b_norms = Point::Zero();
     Point pq = Point::Zero();
@@ -64,8 +73,9 @@ template <class Multiply>
 void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Loop& loop)
 {
     multiply(v.p, v.q);
-    v.pq = column_products(v.p, v.q, loop);
-    v.alpha = quotients(column_products(v.p, v.r, loop), v.pq);
+    const std::vector<Point> found = v.products({{v.p, v.q}, {v.p, v.r}}, loop);
+    v.pq = found[0];
+    v.alpha = quotients(found[1], v.pq);
     for_each(loop, static_cast<Index>(x.rows()), [&](Index i) {
         x.row(i) += v.p.row(i).cwiseProduct(v.alpha);
         v.r.row(i) -= v.q.row(i).cwiseProduct(v.alpha);
@@ -106,15 +116,15 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         return (norms.array() <= limits.array()).all();
     };
     const auto norms_as_measured = [&] {
-        const Point norms = column_norms(v.r, loop);
+        const Point norms = v.norms(v.r, loop);
         const Point doubt = safety * drift.cwiseProduct(measured);
         if (!is_below(norms, goals()) || is_below(norms.cwiseMax(doubt), wanted))
             return norms;
         measure(x, v.z);
         for_each(loop, static_cast<Index>(x.rows()), [&](Index i) { v.r.row(i) -= v.z.row(i); });
-        drift = quotients(column_norms(v.r, loop), measured).cwiseMax(least_drift);
+        drift = quotients(v.norms(v.r, loop), measured).cwiseMax(least_drift);
         v.r.swap(v.z);
-        return measured = column_norms(v.r, loop);
+        return measured = v.norms(v.r, loop);
     };
     Point norms = norms_as_measured();
     StoppingCriterion criterion(stop, most_left, largest_ratio(norms, v.b_norms));
@@ -124,11 +134,11 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         do {
             precondition(v.r, v.z);
             // Conjugate to the direction before even where the residual has just been measured.
-            const Point beta = -quotients(column_products(v.z, v.q, loop), v.pq);
+            const Point beta = -quotients(v.products({{v.z, v.q}}, loop).front(), v.pq);
             for_each(loop, static_cast<Index>(x.rows()),
                      [&](Index i) { v.p.row(i) = v.z.row(i) + v.p.row(i).cwiseProduct(beta); });
             advance(multiply, x, v, loop);
-        } while (++iterations < most && !is_below(column_norms(v.r, loop), goals()));
+        } while (++iterations < most && !is_below(v.norms(v.r, loop), goals()));
         const Point before = std::exchange(norms, norms_as_measured());
         criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));
         // Rounding can spoil the directions so much that they lead nowhere: new ones then.

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
+#include <initializer_list>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 
@@ -38,6 +41,25 @@ inline Eigen::RowVector3d column_products(const Points& a, const Points& b, cons
 inline Eigen::RowVector3d column_norms(const Points& a, const Loop& loop)
 {
     return column_products(a, a, loop).cwiseSqrt();
+}
+
+/// Two vectors for each of three columns.
+struct VectorPair {
+    const Points& a;
+    const Points& b;
+};
+
+/// How the inner products of pairs of vectors are made, those of each column of A with the same of B; all of them at
+/// once. Always in the same order of additions.
+using InnerProducts = std::function<std::vector<Point>(std::initializer_list<VectorPair> pairs, const Loop& loop)>;
+
+/// One pair after the other, by column_products.
+inline std::vector<Point> inner_products(std::initializer_list<VectorPair> pairs, const Loop& loop)
+{
+    std::vector<Point> products;
+    for (const auto& [a, b] : pairs)
+        products.emplace_back(column_products(a, b, loop));
+    return products;
 }
 
 /// The Euclidean norm over all three columns.

@@ -202,6 +202,44 @@ TEST_CASE("ranks do not wait for each other in a circle where memory is scarce")
     check_bits(example, 40, {1, 2, 5, 8});
 }
 
+TEST_CASE("observers see each step on all ranks, and can work together")
+{
+    const PolygonMesh mesh = make_mixed_polygons(600);
+    FlowOptions options = by_sweeps(Laplacian::Fujiwara, 1e-3);
+    options.cut.subdomains = 6;
+    PolygonMesh moved = mesh;
+    std::vector<Points> expected;
+    const FlowReport report =
+        mean_curvature_flow(moved, options, [&](const StepState& state) { expected.push_back(state.positions); });
+    options.cut.subdomains = 0;
+    const Index n_sub_meshes = report.cut.n_sub_meshes();
+    const auto part_at = [&](int rank) { return test::part_of(mesh, report.cut.labels, n_sub_meshes, rank, 3); };
+    run_on_threads(3, [&](Communicator& communicator) {
+        MeshPart part = part_at(communicator.rank());
+        const Points before = part.mesh.vertices;
+        int steps = 0;
+        distributed_mean_curvature_flow(communicator, part, options, [&](const RankStepState& state) {
+            CHECK(state.step == ++steps);
+            CHECK(state.part.labels == part.labels);
+            const std::vector<Index> numbers(part.vertex_numbers.begin(), part.vertex_numbers.end());
+            CHECK(test::same_bits(state.part.mesh.vertices, expected[steps - 1](numbers, Eigen::all)));
+            CHECK(test::same_bits(part.mesh.vertices, before));
+            CHECK(state.talk.gather_all(std::vector<int>{steps}) == std::vector<int>(3, steps));
+        });
+        CHECK(steps == options.steps);
+    });
+    check_refusal<OutputError>(
+        [&](Communicator& communicator) {
+            MeshPart part = part_at(communicator.rank());
+            distributed_mean_curvature_flow(communicator, part, options, [&](const RankStepState& state) {
+                if (state.step == 2 && communicator.rank() == 1)
+                    throw OutputError("the disk is full");
+                state.talk.gather_all(std::vector<int>{state.step});
+            });
+        },
+        3, "rank 1 on this process: the disk is full");
+}
+
 TEST_CASE("a failure on one rank ends all with one message")
 {
     const PolygonMesh mesh = make_triangles(600);
