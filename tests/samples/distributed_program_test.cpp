@@ -1,0 +1,198 @@
+// smooth-distributed on ranks of MPI, beside smooth.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/samples/workshop.h"
+
+using namespace seamflow;
+using test::Workshop;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// @returns the exit status. @param n ranks.
+int on_ranks(const Workshop& w, int n, const std::string& arguments)
+{
+    return w.run("timeout 100 " MPIRUN " -n " + std::to_string(n) + " " SMOOTH_DISTRIBUTED " " + arguments);
+}
+
+/// What the program itself said on standard error, without its name: MPI says something, too.
+std::vector<std::string> messages(const Workshop& w, const std::string& program)
+{
+    std::vector<std::string> found;
+    std::ifstream file(w.directory / "said");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with(program + ": "))
+            found.push_back(line.substr(program.size() + 2));
+    return found;
+}
+
+template <class Value>
+Value number_at(std::string_view bytes, std::size_t offset)
+{
+    Value value;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+/// The count of an element in the header of a PLY file.
+std::size_t count_in(const std::string& content, const std::string& element)
+{
+    return std::stoul(content.substr(content.find("element " + element) + element.size() + 9));
+}
+
+/// Writes the labels of a file of --parts.
+void write_labels_of(const fs::path& parts, const fs::path& labels)
+{
+    const std::string content = test::content_of(parts);
+    const std::string end = "end_header\n";
+    std::size_t offset = content.find(end) + end.size() + 24 * count_in(content, "vertex");
+    std::ofstream file(labels);
+    for (std::size_t left = count_in(content, "face"); left > 0; --left) {
+        offset += 1 + 4 * std::size_t{number_at<std::uint8_t>(content, offset)} + 3;
+        file << number_at<std::int32_t>(content, offset) << '\n';
+        offset += 4;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("the file is the same for any number of ranks, and that of smooth with the same cut")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 3000") == 0);
+    for (const std::string name : {"mesh.obj", "ball.ply"}) {
+        CAPTURE(name);
+        const std::string options = " --time-step-edges 3 --steps 3 --converge never --threads 1";
+        const std::string extension = name.substr(4);
+        REQUIRE(on_ranks(w, 1, name + " 1" + extension + options + " --subdomains 9 --parts cut.ply") == 0);
+        write_labels_of(w.directory / "cut.ply", w.directory / "labels");
+        const std::string expected = test::content_of(w.directory / ("1" + extension));
+        const std::string cut = test::content_of(w.directory / "cut.ply");
+        REQUIRE(w.smooth(name + " s" + extension + options + " --labels labels") == 0);
+        CHECK((test::content_of(w.directory / ("s" + extension)) == expected));
+        for (const int n : {2, 3, 5}) {
+            CAPTURE(n);
+            REQUIRE(on_ranks(w, n, name + " n" + extension + options + " --subdomains 9 --parts cut.ply") == 0);
+            CHECK((test::content_of(w.directory / ("n" + extension)) == expected));
+            CHECK((test::content_of(w.directory / "cut.ply") == cut));
+            REQUIRE(on_ranks(w, n, name + " n" + extension + options + " --labels labels") == 0);
+            CHECK((test::content_of(w.directory / ("n" + extension)) == expected));
+        }
+    }
+}
+
+TEST_CASE("vertices that are fixed stay, on whichever rank they are")
+{
+    const Workshop w;
+    REQUIRE(w.run("sh -c 'seq 100 3 700 > stay; seq 0 2000 | awk \"{print int(\\$1 / 80)}\" > labels'") == 0);
+    REQUIRE(w.run("sh -c 'head -n $(grep -c ^f mesh.obj) labels > cut'") == 0);
+    const std::string options = " --radius 2% --fix stay --labels cut --converge never --threads 1";
+    REQUIRE(w.smooth("mesh.obj s.obj" + options) == 0);
+    REQUIRE(on_ranks(w, 3, "mesh.obj n.obj" + options) == 0);
+    CHECK((test::content_of(w.directory / "n.obj") == test::content_of(w.directory / "s.obj")));
+}
+
+TEST_CASE("the report tells of every rank, and rank 0 alone prints")
+{
+    const Workshop w;
+    REQUIRE(on_ranks(w, 3, "mesh.obj n.off --radius 2% --steps 2 --subdomains 6 --report r.json --verbose") == 0);
+    for (const std::string line : {"input ", "amount ", "step 1 of 2 ", "step 2 of 2 ", "cut ", "time ", "result "})
+        CHECK(w.count_lines("said", line) == 1);
+    const test::Json report = w.json("r.json");
+    CHECK(report["subdomains"] == 6);
+    CHECK(report["steps"].size() == 2);
+    REQUIRE(report["ranks"].size() == 3);
+    for (const test::Json& rank : report["ranks"]) {
+        CHECK(rank["vertices"] > 0);
+        CHECK(rank["messages"] > 0);
+    }
+    REQUIRE(w.smooth("mesh.obj s.off --radius 2% --steps 2 --report s.json") == 0);
+    for (const std::string name : {"mean_edge", "diagonal", "time_step", "radius"})
+        CHECK(report[name] == w.json("s.json")[name]);
+}
+
+TEST_CASE("what cannot be done is said once, with the exit status of smooth, and nothing is written")
+{
+    const Workshop w;
+    std::ofstream(w.directory / "far.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n";
+    std::ofstream(w.directory / "nan.obj") << "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n";
+    std::ofstream(w.directory / "short.ply") << "ply\nformat ascii 1.0\nelement vertex 3\n";
+    std::ofstream(w.directory / "empty.stl");
+    std::ofstream(w.directory / "letters") << "0\none\n";
+    for (const std::string arguments :
+         {"far.obj n.obj --radius 1%", "nan.obj n.obj --radius 1%", "short.ply n.ply --radius 1%",
+          "empty.stl n.stl --radius 1%", "missing.obj n.obj --radius 1%", "mesh.xyz n.obj --radius 1%",
+          "mesh.obj n.obj --radius 1% --labels letters", "mesh.obj n.obj --radius 1% --fix letters",
+          "mesh.obj nowhere/n.obj --radius 1%", "mesh.obj n.stl --radius 1%", "mesh.obj n.obj --radius 0",
+          "mesh.obj n.obj --radius 1% --time-step 1", "mesh.obj n.obj --radius 1% --steps -1"}) {
+        CAPTURE(arguments);
+        const int status = w.smooth(arguments);
+        CHECK(status > 0);
+        const auto expected = messages(w, "smooth");
+        CHECK(on_ranks(w, 3, arguments) == status);
+        CHECK(messages(w, "smooth-distributed") == expected);
+        CHECK(!w.has("n.obj"));
+    }
+}
+
+TEST_CASE("options of smooth that ranks do not know are refused by name")
+{
+    const Workshop w;
+    for (const std::string option :
+         {"--html p.html", "--boundary free", "--keep-edges 30", "--reference", "--rescale area", "--strict",
+          "--scheme explicit", "--checkpoint c", "--trace t.json", "--preset fair"}) {
+        CAPTURE(option);
+        CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 1% " + option) == 2);
+        const auto said = messages(w, "smooth-distributed");
+        REQUIRE(said.size() == 1);
+        CHECK(said.front().starts_with("smooth-distributed has no " + option.substr(0, option.find(' ')) + ": "));
+    }
+    CHECK(on_ranks(w, 2, "mesh.obj n.obj") == 2);
+    REQUIRE(messages(w, "smooth-distributed").size() == 1);
+    CHECK(messages(w, "smooth-distributed").front().starts_with("say how much to smooth by --time-step"));
+    CHECK(!w.has("n.obj"));
+}
+
+TEST_CASE("a rank that is killed ends the others, and the file that was there stays")
+{
+    const Workshop w;
+    std::ofstream(w.directory / "n.obj") << "as it was\n";
+    std::ofstream(w.directory / "rank.sh")
+        << "echo $$ >pid.$OMPI_COMM_WORLD_RANK\n"
+           "exec " SMOOTH_DISTRIBUTED " mesh.obj n.obj --radius 1% --steps 1000000 --subdomains 6 --threads 1\n";
+    std::ofstream(w.directory / "kill.sh") << "timeout 100 " MPIRUN " -n 3 sh rank.sh >out 2>&1 &\n"
+                                              "until [ -s pid.1 ] && grep -q amount out; do sleep 0.1; done\n"
+                                              "kill -9 $(cat pid.1)\n"
+                                              "wait $!\n";
+    const int status = w.run("sh kill.sh");
+    CHECK(status > 0);
+    CHECK(status != 124);
+    CHECK((test::content_of(w.directory / "n.obj") == "as it was\n"));
+}
+
+TEST_CASE("nasty files of the corpus end as with smooth")
+{
+    const char* const folder = std::getenv("SEAMFLOW_CORPUS");
+    if (folder == nullptr)
+        return;
+    const Workshop w;
+    for (const auto& entry : fs::directory_iterator(fs::path(folder) / "nasty")) {
+        const std::string file = entry.path().string();
+        CAPTURE(file);
+        const std::string options = " n" + entry.path().extension().string() +
+                                    " --time-step-edges 1 --subdomains 3 --converge never --threads 1";
+        const int status = w.smooth("'" + file + "'" + options);
+        const auto expected = messages(w, "smooth");
+        CHECK(on_ranks(w, 3, "'" + file + "'" + options) == status);
+        CHECK(messages(w, "smooth-distributed") == expected);
+    }
+}
