@@ -280,6 +280,56 @@ test("plots have a curve for all that was measured", async () => {
     await opened.close();
 });
 
+test("no two curves of a plot have one name", async () => {
+    const opened = await open(page("sphere"));
+    for (const id of ["distances", "displacements", "times"]) {
+        const names = await opened.locator(`#${id} .u-label`).allTextContents();
+        assert.equal(new Set(names).size, names.length, names.join());
+    }
+    await opened.close();
+});
+
+test("one step is told in numbers, and charts without anything in them are not shown", async () => {
+    const one = await open(page("round"));
+    assert.equal(await one.locator("#distances canvas, #displacements canvas, #times canvas").count(), 0);
+    const { steps } = await one.evaluate(() => JSON.parse(document.getElementById("facts").textContent).flows[0].report);
+    const shown = await one.locator("#displacements dd").allTextContents();
+    assert.equal(shown.length, 4);
+    for (const [k, name] of ["normal_mean", "normal_max", "tangential_mean", "tangential_max"].entries())
+        assert.ok(Math.abs(Number(shown[k]) - steps[0][name]) <= 0.05 * steps[0][name], `${name}: ${shown[k]}`);
+    assert.equal(await one.locator("#times dd").count(), 1);
+    await one.close();
+    const none = await open(page("none"));
+    for (const id of ["distances", "displacements", "times"])
+        assert.ok(await none.locator(`#${id}`).isHidden(), id);
+    for (const width of await none.locator("#phases i").evaluateAll((bars) => bars.map((bar) => bar.style.width)))
+        assert.notEqual(width, "0%");
+    await none.close();
+});
+
+test("words are explained to the mouse, the keyboard and screen readers", async () => {
+    const opened = await open(page("sphere"));
+    const tip = opened.locator("#tip");
+    const word = (text) => opened.locator("[data-meaning]", { hasText: new RegExp(`^${text}$`) }).first();
+    assert.ok(await tip.isHidden());
+    for (const [text, meaning] of [["Γ", /interface/], ["V_max", /largest distance/i], ["undecomposed", /one piece/]]) {
+        await word(text).hover();
+        assert.match(await tip.textContent(), meaning);
+        assert.ok(await tip.isVisible());
+        assert.equal(await word(text).getAttribute("aria-describedby"), "tip");
+        await opened.mouse.move(5, 5);
+        assert.ok(await tip.isHidden(), text);
+        await word(text).focus();
+        assert.ok(await tip.isVisible());
+        await opened.keyboard.press("Escape");
+        assert.ok(await tip.isHidden());
+    }
+    const box = async () => (await opened.locator("#surfaces label").last().hover(), tip.boundingBox());
+    assert.ok((await box()).x >= 0);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
 test("a page of a figure has all its flows", async () => {
     const opened = await open(join(out, "figures", "texture.html"));
     const flows = await opened.locator("#flow option").count();
@@ -307,7 +357,7 @@ test("a page of a figure opens on a decomposed flow, under its texture", async (
     assert.match(await opened.locator("#summary").textContent(), /2 sub-meshes/);
     assert.match(await opened.locator("#legend").textContent(), /^Texture/);
     assert.match(await opened.locator("#facts-table").textContent(), /smooth texture-input\.ply out\.ply --laplacian fujiwara/);
-    const times = () => opened.locator("#times .u-label").allTextContents();
+    const times = () => opened.locator("#times dt").allTextContents();
     assert.ok((await times()).includes("decomposed"));
     await bare(opened);
     await changes(opened, "no texture", () => opened.selectOption("#colour", "plain"), 0.05);

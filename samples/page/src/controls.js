@@ -2,6 +2,7 @@
 
 import { digits, element } from "./facts.js";
 import { colourOfClass, colourOfLabel, css, cssRamp } from "./palette.js";
+import { explain } from "./words.js";
 
 const byId = (id) => document.getElementById(id);
 
@@ -110,4 +111,5 @@ export function showLegend(flow, chosen, range) {
         parts.push(...rampLegend(chosen.colour, meaning, range));
     }
     legend.replaceChildren(...parts);
+    explain(legend);
 }

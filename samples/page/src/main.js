@@ -7,6 +7,7 @@ import { element, showFacts, summary } from "./facts.js";
 import { colourOfClass, colourOfLabel, ramp } from "./palette.js";
 import { Plots } from "./plots.js";
 import { View } from "./view.js";
+import { explain, showMeanings } from "./words.js";
 
 const byId = (id) => document.getElementById(id);
 
@@ -96,6 +97,8 @@ async function chooseFlow(index) {
     offer(flow(), chosen);
     byId("summary").textContent = summary(facts.mesh, flow().report);
     showFacts(byId("facts-table"), flow());
+    explain(byId("summary"));
+    explain(byId("facts-table"));
     plots.show(flow().report);
     if (view !== null) {
         const [corners, perFace, ofFaces] = await Promise.all([
@@ -113,6 +116,7 @@ async function chooseFlow(index) {
 }
 
 function listen() {
+    showMeanings(byId("tip"));
     const on = (id, event, act) =>
         byId(id).addEventListener(event, ({ target }) => {
             act(target);
