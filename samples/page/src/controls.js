@@ -64,6 +64,10 @@ export function reflect(flow, chosen) {
     byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour);
     byId("range").value = chosen.range;
     byId("edges").checked = chosen.edges;
+    byId("flat").checked = chosen.flat;
+    byId("wipe").checked = chosen.wipe;
+    byId("divider").hidden = !chosen.wipe;
+    byId("right-side").textContent = chosen.surface === "undecomposed" ? "Undecomposed" : step === 0 ? "Input" : `After step ${step}`;
 }
 
 function swatches(entries) {
