@@ -88,6 +88,7 @@ async function seen(opened, selector = "#frame") {
         context.drawImage(image, 0, 0);
         const pixels = new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer);
         globalThis.pictures ??= [];
+        (globalThis.widths ??= []).push(image.width);
         return { number: pictures.push(pixels) - 1, colours: new Set(pixels).size };
     }, png);
 }
@@ -100,6 +101,17 @@ const difference = (a, b) =>
             return old.length === now.length ? old.reduce((sum, pixel, k) => sum + (pixel !== now[k]), 0) / old.length : 1;
         },
         [a.number, b.number],
+    );
+
+/** The part of the pixels that are not the same between two parts of the pictures' width. */
+const differenceWithin = (a, b, from, to) =>
+    reader.evaluate(
+        ([first, second, left, right]) => {
+            const [old, now, width] = [pictures[first], pictures[second], widths[first]];
+            const inside = old.map((pixel, k) => (k % width >= left * width && k % width < right * width ? Number(pixel !== now[k]) : 0));
+            return inside.reduce((sum, other) => sum + other, 0) / old.length;
+        },
+        [a.number, b.number, from, to],
     );
 
 /** Looks at a page until its difference from an earlier picture is as wanted: a busy machine draws late. */
@@ -141,7 +153,7 @@ async function looksLike(opened, old) {
 }
 
 /** The surface alone, without what lies over it. */
-const bare = (opened) => opened.addStyleTag({ content: "#legend, #reset { visibility: hidden; }" });
+const bare = (opened) => opened.addStyleTag({ content: "#legend, #tools { visibility: hidden; }" });
 
 const choose = (opened, surface) => opened.locator(`[name="surface"][value="${surface}"]`).check();
 
@@ -179,6 +191,8 @@ test("every switch changes what is seen", async () => {
     await opened.selectOption("#colour", "plain");
     await changes(opened, "edges", () => opened.check("#edges"));
     await changes(opened, "no edges", () => opened.uncheck("#edges"));
+    await changes(opened, "flat shading", () => opened.check("#flat"));
+    await changes(opened, "smooth shading", () => opened.uncheck("#flat"));
     await changes(opened, "before", () => choose(opened, "before"));
     await changes(opened, "after", () => choose(opened, "after"));
     await opened.selectOption("#colour", "curvature");
@@ -201,6 +215,214 @@ test("the slider goes through the steps, and what is drawn comes again", async (
     await setStep(opened, 2);
     assert.ok(await opened.locator('[value="after"]').isChecked());
     await opened.close();
+});
+
+test("a wipe shows before on its left and after on its right, in the steps that are played, too", async () => {
+    const opened = await open(page("sphere"));
+    await bare(opened);
+    await opened.addStyleTag({ content: "#divider { opacity: 0; }" });
+    const after = await seenAtRest(opened);
+    await choose(opened, "before");
+    const before = await seenAtRest(opened);
+    await opened.check("#wipe");
+    assert.ok(await opened.locator('[value="after"]').isChecked());
+    const parts = async (now) => [await differenceWithin(now, before, 0, 0.48), await differenceWithin(now, after, 0.52, 1), await differenceWithin(now, after, 0, 0.48)];
+    const half = await parts(await seenAtRest(opened));
+    assert.deepEqual(half.slice(0, 2), [0, 0]);
+    assert.ok(half[2] > 0.005, half.join());
+    const divider = opened.locator("#divider");
+    await divider.focus();
+    await opened.keyboard.press("End");
+    assert.equal(await divider.getAttribute("aria-valuenow"), "100");
+    await looksLike(opened, before);
+    await opened.keyboard.press("Home");
+    await looksLike(opened, after);
+    const { x, y, width, height } = await opened.locator("#frame").boundingBox();
+    await opened.mouse.move(x + 4, y + height / 2);
+    await opened.mouse.down();
+    await opened.mouse.move(x + width / 2, y + height / 2, { steps: 4 });
+    await opened.mouse.up();
+    assert.equal(await divider.getAttribute("aria-valuenow"), "50");
+    await setStep(opened, 1);
+    const first = await parts(await seenAtRest(opened));
+    assert.equal(first[0], 0);
+    assert.ok(first[1] > 0.005, first.join());
+    await choose(opened, "before");
+    assert.ok(await divider.isHidden());
+    await looksLike(opened, before);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("play goes through all steps to the last, and stops when it is told to", async () => {
+    const opened = await open(page("sphere"));
+    const names = () => opened.evaluate(() => globalThis.names.splice(0));
+    await opened.evaluate(() => {
+        globalThis.names = [];
+        const name = document.getElementById("step-name");
+        new MutationObserver(() => names.at(-1) !== name.textContent && names.push(name.textContent)).observe(name, { childList: true });
+    });
+    await opened.locator("#play").click();
+    await opened.waitForFunction(() => document.getElementById("play").ariaLabel.startsWith("Play"));
+    assert.deepEqual(await names(), ["Input", "Step 1 of 4", "Step 2 of 4", "Step 3 of 4", "Step 4 of 4"]);
+    await opened.keyboard.press("p");
+    assert.match(await opened.locator("#play").getAttribute("aria-label"), /^Pause/);
+    await setStep(opened, 2);
+    assert.match(await opened.locator("#play").getAttribute("aria-label"), /^Play/);
+    await opened.waitForTimeout(1500);
+    assert.equal(await opened.locator("#step-name").textContent(), "Step 2 of 4");
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("keys do what the list of them says, which ? opens and Esc closes", async () => {
+    const opened = await open(page("sphere"));
+    const help = opened.locator("#help");
+    assert.ok(await help.isHidden());
+    await opened.keyboard.press("?");
+    assert.ok(await help.isVisible());
+    assert.equal(await help.locator("kbd").count(), await help.locator("dd").count());
+    const step = await opened.locator("#step-name").textContent();
+    await opened.keyboard.press(",");
+    assert.equal(await opened.locator("#step-name").textContent(), step);
+    await opened.keyboard.press("Escape");
+    assert.ok(await help.isHidden());
+    await opened.locator("#ask").click();
+    assert.ok(await help.isVisible());
+    await opened.keyboard.press("Escape");
+    const up = await opened.locator("#up").inputValue();
+    const checks = {
+        b: () => opened.locator('[value="before"]').isChecked(),
+        u: () => opened.locator('[value="undecomposed"]').isChecked(),
+        a: () => opened.locator('[value="after"]').isChecked(),
+        w: () => opened.locator("#divider").isVisible(),
+        e: () => opened.locator("#edges").isChecked(),
+        f: () => opened.locator("#flat").isChecked(),
+        ",": async () => (await opened.locator("#step-name").textContent()) === "Step 3 of 4",
+        ".": async () => (await opened.locator("#step-name").textContent()) === "Step 4 of 4",
+        c: async () => (await opened.locator("#colour").inputValue()) !== "plain",
+        z: async () => (await opened.locator("#up").inputValue()) !== up,
+    };
+    for (const [key, isDone] of Object.entries(checks)) {
+        assert.ok(key === "." || key === "a" || !(await isDone()), key);
+        await opened.keyboard.press(key);
+        await settled(opened);
+        assert.ok(await isDone(), key);
+    }
+    await opened.locator("#colour").focus();
+    await opened.keyboard.press("w");
+    assert.ok(await opened.locator("#divider").isVisible(), "a key within a list is the list's");
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("the view is saved as a picture under the name of the mesh", async () => {
+    const opened = await open(page("mixed"));
+    await bare(opened);
+    const saving = opened.waitForEvent("download");
+    await opened.evaluate(() => document.getElementById("picture").click());
+    const download = await saving;
+    assert.equal(download.suggestedFilename(), "mixed.png");
+    const png = readFileSync(await download.path());
+    const saved = await reader.evaluate(async (base64) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${base64}`;
+        await image.decode();
+        const canvas = new OffscreenCanvas(image.width, image.height);
+        const context = canvas.getContext("2d");
+        context.drawImage(image, 0, 0);
+        const pixels = context.getImageData(0, 0, image.width, image.height).data;
+        return { width: image.width, colours: new Set(new Uint32Array(pixels.buffer)).size, corner: [...pixels.slice(0, 4)] };
+    }, png.toString("base64"));
+    assert.equal(saved.width, await opened.locator("#canvas").evaluate((canvas) => canvas.width));
+    assert.ok(saved.colours > 50, String(saved.colours));
+    assert.deepEqual(saved.corner, [255, 255, 255, 255]);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("any axis can be upwards", async () => {
+    const opened = await open(page("mixed"));
+    await bare(opened);
+    assert.deepEqual(await opened.locator("#up option").allTextContents(), ["+X", "−X", "+Y", "−Y", "+Z", "−Z"]);
+    const first = await opened.locator("#up").inputValue();
+    const old = await seenAtRest(opened);
+    const others = (await opened.locator("#up option").allTextContents()).filter((name) => name !== first);
+    for (const name of others)
+        await changes(opened, name, () => opened.locator("#up").evaluate((list, value) => ((list.value = value), list.dispatchEvent(new Event("change"))), name));
+    await opened.locator("#up").evaluate((list, value) => ((list.value = value), list.dispatchEvent(new Event("change"))), first);
+    await looksLike(opened, old);
+    await opened.close();
+});
+
+test("a mesh stands on its flat base, else as its format has it", async () => {
+    const { guessUp } = await import(new URL("../../samples/page/src/upright.js", import.meta.url));
+    /** A box whose side at the end of an axis is flat, with the centres of all others pulled in. */
+    const box = (axis, end, size) => {
+        const points = [];
+        for (let corner = 0; corner < 8; ++corner)
+            points.push([0, 1, 2].map((k) => ((corner >> k) & 1) * 65535));
+        const corners = [];
+        for (let k = 0; k < 3; ++k)
+            for (const side of [0, 1]) {
+                const [a, b, c, d] = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([u, v]) => (side << k) | (u << (k + 1) % 3) | (v << (k + 2) % 3));
+                const centre = [0, 1, 2].map((other) => (other === k ? (k === axis && side === end ? side * 65535 : 32768 + (side ? 9000 : -9000)) : 32768));
+                const m = points.push(centre) - 1;
+                corners.push(a, b, m, b, c, m, c, d, m, d, a, m);
+            }
+        return [Uint16Array.from(points.flatMap((point) => [...point, 0])), size, Uint32Array.from(corners)];
+    };
+    for (let axis = 0; axis < 3; ++axis)
+        for (const name of ["a.obj", "a.stl"]) {
+            assert.deepEqual(guessUp(...box(axis, 0, [1, 1, 1]), name), { axis, sign: 1 });
+            assert.deepEqual(guessUp(...box(axis, 1, [1, 1, 1]), name), { axis, sign: -1 });
+        }
+    const round = (size, name) => guessUp(...box(3, 0, size), name);
+    assert.deepEqual(round([1, 1, 1], "a.obj.gz"), { axis: 1, sign: 1 });
+    for (const name of ["a.ply", "a.stl", "a.off"])
+        assert.deepEqual(round([1, 1, 1], name), { axis: 2, sign: 1 });
+    assert.deepEqual(round([1, 0.3, 1], "a.ply"), { axis: 1, sign: 1 });
+    assert.deepEqual(round([1, 2, 1], "a.ply"), { axis: 1, sign: 1 });
+    assert.deepEqual(guessUp(new Uint16Array(4), [0, 0, 0], new Uint32Array(0), "a.ply"), { axis: 2, sign: 1 });
+});
+
+test("shading is smooth but for creases, and sub-meshes leave no seams in it", async () => {
+    const source = new URL("../../samples/page/src/", import.meta.url);
+    const { drawableTriangles } = await import(new URL("faces.js", source));
+    const { creases, vertexNormals } = await import(new URL("normals.js", source));
+    // A ridge of two squares that meet at vertices 1 and 2, whose outer sides are `drop` lower.
+    const ridge = (drop) => Uint16Array.from([0, 0, 1000 - drop, 0, 1000, 0, 1000, 0, 1000, 1000, 1000, 0, 0, 1000, 1000 - drop, 0, 2000, 0, 1000 - drop, 0, 2000, 1000, 1000 - drop, 0]);
+    const corners = Uint32Array.from([0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2]);
+    const labels = Uint32Array.from([0, 0, 1, 1]);
+    for (const [drop, isCrease] of [[300, false], [500, true]]) {
+        const { groups, share } = creases(corners, ridge(drop), [1, 1, 1], 6);
+        assert.equal(share, isCrease ? 2 / 6 : 0);
+        const { index, smooth, smoothOf, vertexOf } = drawableTriangles(corners, groups, labels, 6);
+        const normals = vertexNormals(smooth.corners, smooth.vertexOf, ridge(drop), [1, 1, 1]);
+        const atRidge = Array.from(index).filter((v) => vertexOf[v] === 1).map((v) => normals.slice(4 * smoothOf[v], 4 * smoothOf[v] + 3).join());
+        assert.equal(atRidge.length, 3);
+        assert.equal(new Set(atRidge).size, isCrease ? 2 : 1);
+        const [x, , z] = normals.slice(0, 3);
+        assert.ok(Math.abs(-x / z - drop / 1000) < (isCrease ? 1e-3 : 1), `${x} ${z}`);
+    }
+});
+
+test("on a phone a finger that moves up scrolls past the surface, and sideways turns it", async () => {
+    const phone = await browser.newContext({ viewport: { width: 400, height: 800 }, hasTouch: true, isMobile: true });
+    const opened = await open(page("sphere"), { within: { newPage: () => phone.newPage() } });
+    await bare(opened);
+    const session = await phone.newCDPSession(opened);
+    const { x, y, width, height } = await opened.locator("#canvas").boundingBox();
+    const swipe = (xDistance, yDistance) =>
+        session.send("Input.synthesizeScrollGesture", { x: x + width / 2, y: y + height / 2, xDistance, yDistance, gestureSourceType: "touch", speed: 900 });
+    await seenAtRest(opened);
+    await swipe(0, -200);
+    assert.ok((await opened.evaluate(() => scrollY)) > 100);
+    await opened.evaluate(() => scrollTo(0, 0));
+    await changes(opened, "a finger sideways", () => swipe(-120, 0), 0.05);
+    assert.equal(await opened.evaluate(() => scrollY), 0);
+    assert.deepEqual(opened.complaints, []);
+    await phone.close();
 });
 
 test("the surface is turned, brought nearer, moved, and put back", async () => {
@@ -280,6 +502,56 @@ test("plots have a curve for all that was measured", async () => {
     await opened.close();
 });
 
+test("no two curves of a plot have one name", async () => {
+    const opened = await open(page("sphere"));
+    for (const id of ["distances", "displacements", "times"]) {
+        const names = await opened.locator(`#${id} .u-label`).allTextContents();
+        assert.equal(new Set(names).size, names.length, names.join());
+    }
+    await opened.close();
+});
+
+test("one step is told in numbers, and charts without anything in them are not shown", async () => {
+    const one = await open(page("round"));
+    assert.equal(await one.locator("#distances canvas, #displacements canvas, #times canvas").count(), 0);
+    const { steps } = await one.evaluate(() => JSON.parse(document.getElementById("facts").textContent).flows[0].report);
+    const shown = await one.locator("#displacements dd").allTextContents();
+    assert.equal(shown.length, 4);
+    for (const [k, name] of ["normal_mean", "normal_max", "tangential_mean", "tangential_max"].entries())
+        assert.ok(Math.abs(Number(shown[k]) - steps[0][name]) <= 0.05 * steps[0][name], `${name}: ${shown[k]}`);
+    assert.equal(await one.locator("#times dd").count(), 1);
+    await one.close();
+    const none = await open(page("none"));
+    for (const id of ["distances", "displacements", "times"])
+        assert.ok(await none.locator(`#${id}`).isHidden(), id);
+    for (const width of await none.locator("#phases i").evaluateAll((bars) => bars.map((bar) => bar.style.width)))
+        assert.notEqual(width, "0%");
+    await none.close();
+});
+
+test("words are explained to the mouse, the keyboard and screen readers", async () => {
+    const opened = await open(page("sphere"));
+    const tip = opened.locator("#tip");
+    const word = (text) => opened.locator("[data-meaning]", { hasText: new RegExp(`^${text}$`) }).first();
+    assert.ok(await tip.isHidden());
+    for (const [text, meaning] of [["Γ", /interface/], ["V_max", /largest distance/i], ["undecomposed", /one piece/]]) {
+        await word(text).hover();
+        assert.match(await tip.textContent(), meaning);
+        assert.ok(await tip.isVisible());
+        assert.equal(await word(text).getAttribute("aria-describedby"), "tip");
+        await opened.mouse.move(5, 5);
+        assert.ok(await tip.isHidden(), text);
+        await word(text).focus();
+        assert.ok(await tip.isVisible());
+        await opened.keyboard.press("Escape");
+        assert.ok(await tip.isHidden());
+    }
+    const box = async () => (await opened.locator("#surfaces label").last().hover(), tip.boundingBox());
+    assert.ok((await box()).x >= 0);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
 test("a page of a figure has all its flows", async () => {
     const opened = await open(join(out, "figures", "texture.html"));
     const flows = await opened.locator("#flow option").count();
@@ -307,7 +579,7 @@ test("a page of a figure opens on a decomposed flow, under its texture", async (
     assert.match(await opened.locator("#summary").textContent(), /2 sub-meshes/);
     assert.match(await opened.locator("#legend").textContent(), /^Texture/);
     assert.match(await opened.locator("#facts-table").textContent(), /smooth texture-input\.ply out\.ply --laplacian fujiwara/);
-    const times = () => opened.locator("#times .u-label").allTextContents();
+    const times = () => opened.locator("#times dt").allTextContents();
     assert.ok((await times()).includes("decomposed"));
     await bare(opened);
     await changes(opened, "no texture", () => opened.selectOption("#colour", "plain"), 0.05);

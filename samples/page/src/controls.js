@@ -2,6 +2,7 @@
 
 import { digits, element } from "./facts.js";
 import { colourOfClass, colourOfLabel, css, cssRamp } from "./palette.js";
+import { explain } from "./words.js";
 
 const byId = (id) => document.getElementById(id);
 
@@ -63,6 +64,10 @@ export function reflect(flow, chosen) {
     byId("range-choice").hidden = !["distance", "curvature"].includes(chosen.colour);
     byId("range").value = chosen.range;
     byId("edges").checked = chosen.edges;
+    byId("flat").checked = chosen.flat;
+    byId("wipe").checked = chosen.wipe;
+    byId("divider").hidden = !chosen.wipe;
+    byId("right-side").textContent = chosen.surface === "undecomposed" ? "Undecomposed" : step === 0 ? "Input" : `After step ${step}`;
 }
 
 function swatches(entries) {
@@ -110,4 +115,5 @@ export function showLegend(flow, chosen, range) {
         parts.push(...rampLegend(chosen.colour, meaning, range));
     }
     legend.replaceChildren(...parts);
+    explain(legend);
 }

@@ -56,6 +56,51 @@ export function withFlatLabels(corners, labels, n) {
     return { index, doubled: Uint32Array.from(doubled), labels: allLabels };
 }
 
+/**
+ * Doubles the vertices whose corners differ in a code.
+ * @param corners three vertices per triangle, of n. @param codes one per corner.
+ * @returns corners of the doubled vertices; vertexOf: of each of these the one it is a copy of, the first n themselves;
+ *     codes: one for each.
+ */
+export function withCodes(corners, codes, n) {
+    const vertexOf = Array.from({ length: n }, (_, v) => v);
+    const ofVertex = new Float64Array(n).fill(-1);
+    const further = [];
+    const next = new Map();
+    const result = corners.map((v, k) => {
+        let own = v;
+        for (;;) {
+            const code = own < n ? ofVertex[own] : further[own - n];
+            if (code === codes[k])
+                return own;
+            if (code < 0) {
+                ofVertex[own] = codes[k];
+                return own;
+            }
+            if (!next.has(own)) {
+                next.set(own, vertexOf.length);
+                vertexOf.push(v);
+                further.push(codes[k]);
+            }
+            own = next.get(own);
+        }
+    });
+    return { corners: result, vertexOf: Uint32Array.from(vertexOf), codes: [...ofVertex.map((code) => Math.max(code, 0)), ...further] };
+}
+
+/**
+ * The triangles as they are drawn.
+ * @param groups of corners, see creases. @param labels one per triangle.
+ * @returns index: three vertices per triangle; vertexOf, smoothOf: the vertex of the mesh, and that of smooth shading,
+ *     which each of them is; labels: of each; smooth: corners and vertexOf of the vertices of smooth shading.
+ */
+export function drawableTriangles(corners, groups, labels, n) {
+    const smooth = withCodes(corners, groups, n);
+    const flat = withFlatLabels(smooth.corners, labels, smooth.vertexOf.length);
+    const smoothOf = Uint32Array.from({ length: flat.labels.length }, (_, v) => (v < smooth.vertexOf.length ? v : flat.doubled[v - smooth.vertexOf.length]));
+    return { index: flat.index, labels: flat.labels, smoothOf, vertexOf: smoothOf.map((v) => smooth.vertexOf[v]), smooth };
+}
+
 /** The edges of the mesh, two vertices each. @param bits one per triangle, bit k: its side from corner k is one. */
 export function edgesOf(corners, bits) {
     let count = 0;

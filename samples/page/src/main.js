@@ -2,11 +2,17 @@
 
 import { offer, rangeOf, reflect, showLegend } from "./controls.js";
 import { facts, remembering, unpacked16, unpacked32, unpackedBytes } from "./data.js";
-import { edgesOf, heightsOf, labelsOfTriangles, withFlatLabels } from "./faces.js";
+import { drawableTriangles, edgesOf, heightsOf, labelsOfTriangles } from "./faces.js";
 import { element, showFacts, summary } from "./facts.js";
+import { creases, sizesOf, vertexNormals } from "./normals.js";
 import { colourOfClass, colourOfLabel, ramp } from "./palette.js";
+import { Player } from "./player.js";
 import { Plots } from "./plots.js";
+import { listenToKeys } from "./shortcuts.js";
+import { guessUp } from "./upright.js";
 import { View } from "./view.js";
+import { Wipe } from "./wipe.js";
+import { explain, showMeanings } from "./words.js";
 
 const byId = (id) => document.getElementById(id);
 
@@ -18,37 +24,58 @@ const cornersOnce = remembering(1, (block) => unpacked32(block, 3));
 const texture = remembering(1, async (block) => heightsOf(await positionsIn(block)));
 
 /** The last state at first. */
-const chosen = { flow: 0, state: Infinity, surface: "after", colour: "plain", edges: false, range: "step" };
+const chosen = { flow: 0, state: Infinity, surface: "after", colour: "plain", edges: false, flat: false, wipe: false, range: "step" };
 const flow = () => facts.flows[chosen.flow];
 const state = () => flow().states[chosen.state];
 
 let view = null;
-let labels = null;
+let triangles = null;
 let turn = 0;
 
-/** The state whose surface is shown. */
-function surface() {
+/** The states' surfaces that are shown: on the right that which is chosen, on the left of a wipe the input. */
+function surfaces() {
+    const input = flow().states[0].surface;
     if (chosen.surface === "before")
-        return flow().states[0].surface;
-    return (chosen.surface === "undecomposed" && state().undecomposed) || state().surface;
+        return { right: input };
+    const right = (chosen.surface === "undecomposed" && state().undecomposed) || state().surface;
+    return chosen.wipe ? { right, left: input } : { right };
 }
+
+/** What an asynchronous function makes of each entry. */
+const ofEach = async (entries, make) => Object.fromEntries(await Promise.all(Object.entries(entries).map(async ([key, value]) => [key, await make(value, key)])));
 
 async function colour() {
     if (chosen.colour === "plain")
         return () => view.colourPlainly();
     if (chosen.colour === "sub-mesh")
-        return () => view.colourByLabel((v) => colourOfLabel(labels[v]));
+        return () => view.colourByLabel((v) => colourOfLabel(triangles.labels[v]));
     if (chosen.colour === "class")
-        return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colours[labels[v]] ?? 0));
+        return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colours[triangles.labels[v]] ?? 0));
     if (chosen.colour === "texture") {
-        const heights = await texture(facts.flows[0].states[0].surface.positions.block);
-        return () => view.colourByTexture(heights, ramp("texture"));
+        const numbers = await texture(facts.flows[0].states[0].surface.positions.block);
+        const values = await ofEach(surfaces(), async () => ({ numbers, largest: 1 }));
+        return () => view.colourByTexture(values, ramp("texture"));
     }
-    const field = chosen.colour === "curvature" ? surface().curvature : state().distance;
-    const numbers = await valuesIn(field.block);
     const { end } = rangeOf(flow(), chosen);
-    return () => view.colourByValue(numbers, end > 0 ? (field.largest ?? 0) / end : 0, ramp(chosen.colour));
+    const values = await ofEach(surfaces(), async ({ curvature }, side) => {
+        const field = chosen.colour === "curvature" ? curvature : side === "left" ? flow().states[0].distance : state().distance;
+        return { numbers: await valuesIn(field.block), largest: end > 0 ? (field.largest ?? 0) / end : 0 };
+    });
+    return () => view.colourByValue(values, ramp(chosen.colour));
 }
+
+/** Where the surface must not be shaded smoothly: at the creases of the input, or if it is too rough, of the last state. */
+async function creasesOfAll(corners) {
+    const { states } = facts.flows[0];
+    const of = async ({ surface: { positions } }) => creases(corners, await positionsIn(positions.block), sizesOf(positions), facts.mesh.vertices);
+    const input = await of(states[0]);
+    return input.share > 0.25 && states.length > 1 ? of(states.at(-1)) : input;
+}
+const creasesOnce = remembering(1, async (block) => (await creasesOfAll(await cornersOnce(block))).groups);
+
+const normalsOf = remembering(4, async (positions) =>
+    vertexNormals(triangles.smooth.corners, triangles.smooth.vertexOf, await positionsIn(positions.block), sizesOf(positions)),
+);
 
 /** Makes the edges when they are asked for first. */
 async function edges() {
@@ -69,26 +96,43 @@ async function show() {
         byId("stage").setAttribute("aria-busy", "false");
         return;
     }
-    const { positions } = surface();
-    const [places, paint] = await Promise.all([positionsIn(positions.block), colour(), edges()]);
+    const [places, paint] = await Promise.all([
+        ofEach(surfaces(), async ({ positions }) => ({
+            box: positions,
+            points: await positionsIn(positions.block),
+            normals: chosen.flat ? null : await normalsOf(positions),
+        })),
+        colour(),
+        edges(),
+    ]);
     if (mine !== turn)
         return;
-    view.setPositions(places, positions);
+    for (const [side, { box, points, normals }] of Object.entries(places))
+        view.setPositions(side, points, normals, box);
     paint();
+    view.wipeAt(places.left === undefined ? null : wipe.part);
     view.showEdges(chosen.edges);
     byId("message").textContent = facts.mesh.faces > 0 ? "" : "The mesh has no faces to show.";
     requestAnimationFrame(() => requestAnimationFrame(() => mine === turn && byId("stage").setAttribute("aria-busy", "false")));
 }
 
-/** Shows the state nearest to a step. */
-function chooseStep(step) {
-    const far = flow().states.map((other) => Math.abs(other.step - step));
-    chosen.state = far.indexOf(Math.min(...far));
+/** Shows one of the states. */
+function chooseState(index) {
+    chosen.state = Math.min(Math.max(index, 0), flow().states.length - 1);
     if (chosen.surface === "before")
         chosen.surface = "after";
-    show();
+    return show();
 }
 
+/** Shows the state nearest to a step. */
+function chooseStep(step) {
+    player.stop();
+    const far = flow().states.map((other) => Math.abs(other.step - step));
+    chooseState(far.indexOf(Math.min(...far)));
+}
+
+const player = new Player(byId("play"), { state: () => chosen.state, states: () => flow().states.length, choose: chooseState });
+const wipe = new Wipe(byId("divider"), (part) => view?.wipeAt(part));
 const plots = new Plots({ step: () => state().step, choose: chooseStep });
 
 async function chooseFlow(index) {
@@ -96,36 +140,75 @@ async function chooseFlow(index) {
     offer(flow(), chosen);
     byId("summary").textContent = summary(facts.mesh, flow().report);
     showFacts(byId("facts-table"), flow());
+    explain(byId("summary"));
+    explain(byId("facts-table"));
     plots.show(flow().report);
     if (view !== null) {
-        const [corners, perFace, ofFaces] = await Promise.all([
+        const [corners, groups, perFace, ofFaces] = await Promise.all([
             cornersOnce(facts.mesh.corners),
+            creasesOnce(facts.mesh.corners),
             unpacked32(facts.mesh.per_face, 1),
             unpacked32(flow().labels, 1),
         ]);
         if (index !== chosen.flow)
             return;
-        const triangles = withFlatLabels(corners, labelsOfTriangles(ofFaces, perFace, facts.mesh.triangles), facts.mesh.vertices);
-        labels = triangles.labels;
+        triangles = drawableTriangles(corners, groups, labelsOfTriangles(ofFaces, perFace, facts.mesh.triangles), facts.mesh.vertices);
         view.setTriangles(triangles);
     }
     await show();
 }
 
+/** Saves what is seen, under the name of the mesh. */
+async function savePicture() {
+    const style = getComputedStyle(document.documentElement);
+    const href = URL.createObjectURL(await view.picture(style.getPropertyValue("--panel").trim(), style.getPropertyValue("--accent").trim()));
+    const name = facts.title.replace(/\.(obj|off|ply|stl)(\.gz)?$/i, "").replace(/[^\p{L}\p{N}._-]+/gu, "_");
+    element("a", { href, download: `${name}.png` }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 60000);
+}
+
 function listen() {
+    showMeanings(byId("tip"));
     const on = (id, event, act) =>
         byId(id).addEventListener(event, ({ target }) => {
             act(target);
             show();
         });
-    on("surfaces", "change", ({ value }) => (chosen.surface = value));
+    on("surfaces", "change", ({ value }) => {
+        chosen.surface = value;
+        chosen.wipe &&= value !== "before";
+    });
+    on("wipe", "change", ({ checked }) => {
+        chosen.wipe = checked;
+        if (checked && chosen.surface === "before")
+            chosen.surface = "after";
+    });
     on("colour", "change", ({ value }) => (chosen.colour = value));
     on("edges", "change", ({ checked }) => (chosen.edges = checked));
+    on("flat", "change", ({ checked }) => (chosen.flat = checked));
     on("range", "change", ({ value }) => (chosen.range = value));
+    byId("up").addEventListener("change", ({ target }) => view?.setUp(ups[target.value]));
     byId("reset").addEventListener("click", () => view?.reset());
+    byId("picture").addEventListener("click", () => view && savePicture());
     byId("step").addEventListener("input", ({ target }) => chooseStep(flow().states[target.value].step));
     byId("flow").addEventListener("change", ({ target }) => chooseFlow(Number(target.value)));
+    listenToKeys(byId("help"), (by) => chooseStep(flow().states[Math.min(Math.max(chosen.state + by, 0), flow().states.length - 1)].step));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plots.show(flow().report));
+}
+
+const ups = Object.fromEntries([0, 1, 2].flatMap((axis) => [1, -1].map((sign) => [`${sign > 0 ? "+" : "−"}${"XYZ"[axis]}`, { axis, sign }])));
+
+/** Stands the surface upright, as far as that can be guessed. */
+async function standUpright() {
+    const { states, report } = facts.flows[0];
+    const { positions } = states[0].surface;
+    const [points, corners] = await Promise.all([positionsIn(positions.block), cornersOnce(facts.mesh.corners)]);
+    const { axis, sign } = guessUp(points, positions.upper.map((x, k) => x - positions.lower[k]), corners, report.input);
+    const guess = Object.keys(ups).find((name) => ups[name].axis === axis && ups[name].sign === sign);
+    byId("up").replaceChildren(...Object.keys(ups).map((value) => element("option", { value }, value)));
+    byId("up").value = guess;
+    view.fitTo(points, positions);
+    view.setUp(ups[guess]);
 }
 
 /** A page with several flows is about what a cut does, and what becomes of the texture. */
@@ -146,6 +229,8 @@ async function start() {
         byId("message").textContent = "The surface takes WebGL 2, which this browser does not offer here.";
     }
     listen();
+    if (view !== null)
+        await standUpright();
     const first = chooseFirst();
     byId("flow").value = first;
     await chooseFlow(first);

@@ -2,6 +2,7 @@
 
 import uPlot from "uplot";
 import { digits, element, seconds } from "./facts.js";
+import { explain } from "./words.js";
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -52,13 +53,19 @@ class Plot {
      * @param places step() is the one shown; choose(step) shows another.
      */
     constructor(section, { title, unit, curves, logarithmic, format }, places) {
-        const drawable = (value) => value !== null && value !== undefined && (!logarithmic || value > 0);
+        const isOne = curves[0].values.length === 1;
+        const drawable = (value) => Number.isFinite(value) && (isOne || !logarithmic || value > 0);
         const shown = curves.filter((curve) => curve.values.some(drawable));
         section.hidden = shown.length === 0;
         if (section.hidden)
             return;
-        const holder = element("div", { className: "plot" });
+        const holder = element("div", { className: isOne ? "numbers" : "plot" });
         section.replaceChildren(element("h2", {}, title, " ", element("small", {}, unit)), holder);
+        if (isOne) {
+            holder.append(...shown.map(({ name, values }) => element("dl", {}, element("dt", {}, name), element("dd", {}, format(values[0])))));
+            explain(section);
+            return;
+        }
         const steps = shown[0].values.map((_, k) => k + 1);
         const options = {
             width: holder.clientWidth || 320,
@@ -102,6 +109,7 @@ class Plot {
         this.#plot = new uPlot(options, data, holder);
         this.#step = places.step;
         tellStep(this.#plot, places.step());
+        explain(section);
         this.#plot.over.addEventListener("click", () => {
             if (this.#plot.cursor.idx !== null)
                 places.choose(steps[this.#plot.cursor.idx]);
@@ -129,8 +137,11 @@ class Plot {
 const column = (steps, key) => steps.map((step) => step[key] ?? null);
 
 const kinds = {
-    distances: (steps) => ({
-        title: `${steps.some((step) => step.v_mean !== undefined) ? "Distance" : "Estimated distance"} to the undecomposed flow`,
+    distances: (steps, { subdomains }) => ({
+        title:
+            subdomains === 1
+                ? "Estimated error of the solution"
+                : `${steps.some((step) => step.v_mean !== undefined) ? "Distance" : "Estimated distance"} to the undecomposed flow`,
         unit: "mean edges",
         logarithmic: true,
         format: (value) => digits(value, 2),
@@ -138,23 +149,23 @@ const kinds = {
             { name: "V_mean", values: column(steps, "v_mean"), colour: 1 },
             { name: "V_RMS", values: column(steps, "v_rms"), colour: 2 },
             { name: "V_max", values: column(steps, "v_max"), colour: 3 },
-            { name: "V_max, estimated", values: column(steps, "estimated_v_max"), colour: 4, dash: [5, 4] },
+            { name: subdomains === 1 ? "largest" : "V_max, estimated", values: column(steps, "estimated_v_max"), colour: 4, dash: [5, 4] },
         ],
     }),
     displacements: (steps) => ({
-        title: "Displacement in each step",
+        title: steps.length === 1 ? "Displacement" : "Displacement in each step",
         unit: "mean edges of the input",
         logarithmic: true,
         format: (value) => digits(value, 2),
         curves: [
             { name: "normal, mean", values: column(steps, "normal_mean"), colour: 1 },
-            { name: "largest", values: column(steps, "normal_max"), colour: 1, dash: [5, 4] },
+            { name: "normal, largest", values: column(steps, "normal_max"), colour: 1, dash: [5, 4] },
             { name: "tangential, mean", values: column(steps, "tangential_mean"), colour: 2 },
-            { name: "largest", values: column(steps, "tangential_max"), colour: 2, dash: [5, 4] },
+            { name: "tangential, largest", values: column(steps, "tangential_max"), colour: 2, dash: [5, 4] },
         ],
     }),
     times: (steps, { subdomains, keep_edges: angle }) => ({
-        title: "Time of each step",
+        title: steps.length === 1 ? "Time of the step" : "Time of each step",
         unit: "wall clock",
         format: seconds,
         curves: [
@@ -177,13 +188,17 @@ function bars(entries, className) {
 
 function showPhases(section, report) {
     const all = report.seconds;
-    const wall = [["read", all.read], ["cut", all.cut], ["analyse", all.analyse], ["all steps", all.step], ["write", all.write]];
-    if (all.interface > 0)
-        wall.splice(4, 0, ["of these, Γ", all.interface]);
+    const wall = [["read", all.read], ["cut", all.cut], ["analyse", all.analyse], ["all steps", all.step], ["write", all.write]].filter(
+        ([, value]) => value > 0,
+    );
+    if (all.interface > 0 && report.subdomains > 1)
+        wall.splice(-1, 0, ["of these, Γ", all.interface]);
     const summed = ["assemble", "factorise", "solve", "correct"].map((phase) => [phase, all[phase]]);
+    section.hidden = wall.length === 0;
     section.replaceChildren(element("h2", {}, "Time by phase ", element("small", {}, "wall clock")), bars(wall, ""));
     if (summed.some(([, value]) => value > 0))
         section.append(element("h2", {}, "In the steps ", element("small", {}, "summed over all threads")), bars(summed, "summed"));
+    explain(section);
 }
 
 /** All plots of a flow. */
