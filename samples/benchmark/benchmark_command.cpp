@@ -6,6 +6,8 @@
 #include <system_error>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
 #include "samples/common/flow_choices.h"
@@ -103,12 +105,21 @@ void require_consistent(const CLI::App& app, const BenchmarkCommand& command)
 void prepare_simulation(const CLI::App& app, std::string_view threads, BenchmarkCommand& command)
 {
     command.mode = BenchmarkMode::SimulateThreads;
-    command.options.simulated_threads = threads_named(threads);
+    command.options.simulated_threads = numbers_named(threads, "--simulate-threads");
     FlowOptions& flow = command.options.flow;
     if (app.count("--threads") == 0)
         flow.resources.threads = 1;
     if (!flow.resources.memory_limit)
         flow.resources.memory_limit = std::numeric_limits<std::size_t>::max();
+}
+
+/// Ranks share sweeps.
+void prepare_ranks(std::string_view ranks, BenchmarkCommand& command)
+{
+    command.mode = BenchmarkMode::SimulateRanks;
+    command.simulated_ranks = numbers_named(ranks, "--simulate-ranks");
+    AccuracyOptions& accuracy = command.options.flow.accuracy;
+    accuracy.approach = accuracy.tolerance ? Approach::Converged : Approach::Sweep;
 }
 
 /// A single value takes the place of an axis.
@@ -162,7 +173,7 @@ std::vector<Method> peers_named(std::string_view word)
     return peers;
 }
 
-std::vector<int> threads_named(std::string_view word)
+std::vector<int> numbers_named(std::string_view word, std::string_view option)
 {
     std::vector<int> threads;
     if (word == "all") {
@@ -177,7 +188,7 @@ std::vector<int> threads_named(std::string_view word)
                 static_cast<int>(parse_integer(word.substr(begin, end - begin), 1, ResourceOptions::most_threads)));
         }
     } catch (const OptionError& error) {
-        throw OptionError(std::string("--simulate-threads: ") + error.what() + "; or all");
+        throw OptionError(fmt::format("{}: {}; or all", option, error.what()));
     }
     return threads;
 }
@@ -188,6 +199,7 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
                  "benchmark");
     std::string peers;
     std::string simulated_threads;
+    std::string simulated_ranks;
     command.options.flow.time_step = 1.0;
     command.options.flow.steps = 5;
     add_mesh_options(app, command);
@@ -195,7 +207,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     app.add_option("--peers", peers,
                    "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is "
                    "named: sweep,converged,our-cg,undecomposed [all but the last four; with --grid cholmod,cg,amg, "
-                   "with --whole-run cholmod,cg; none with --scaling, --threads-sweep and --simulate-threads]")
+                   "with --whole-run cholmod,cg; none with --scaling, --threads-sweep, --simulate-threads and "
+                   "--simulate-ranks]")
         ->type_name("LIST");
     auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
                                             {{"auto", Reference::Automatic},
@@ -227,6 +240,16 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes("--peers")
         ->excludes(export_folder)
         ->type_name("LIST");
+    app.add_option(
+           "--simulate-ranks", simulated_ranks,
+           "ours, shared by each of these numbers of ranks, threads of one process: what they have to do and to "
+           "say, and what follows for large meshes by a model")
+        ->excludes(scaling)
+        ->excludes(sweep)
+        ->excludes("--simulate-threads")
+        ->excludes("--peers")
+        ->excludes(export_folder)
+        ->type_name("LIST");
     app.add_option("--grid", command.grid.files,
                    "who is the fastest at equal accuracy, set-up included: triangles, quads, hexagons and mixed "
                    "polygons (or --kind) of 10^4, 10^5, … vertices, and these meshes; dt 1, 5, 50 and 500 (or "
@@ -235,6 +258,7 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes(scaling)
         ->excludes(sweep)
         ->excludes("--simulate-threads")
+        ->excludes("--simulate-ranks")
         ->excludes("--mesh")
         ->excludes(export_folder)
         ->type_name("[FILE ...]");
@@ -246,6 +270,7 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes(sweep)
         ->excludes("--grid")
         ->excludes("--simulate-threads")
+        ->excludes("--simulate-ranks")
         ->excludes("--peers")
         ->excludes("--conditions")
         ->excludes(export_folder);
@@ -258,6 +283,7 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
             ->excludes("--grid")
             ->excludes("--explain")
             ->excludes("--simulate-threads")
+            ->excludes("--simulate-ranks")
             ->excludes("--conditions")
             ->excludes("--q")
             ->excludes("--memory-limit")
@@ -270,6 +296,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         return end;
     if (app.count("--simulate-threads") > 0)
         prepare_simulation(app, simulated_threads, command);
+    if (app.count("--simulate-ranks") > 0)
+        prepare_ranks(simulated_ranks, command);
     if (app.count("--conditions") > 0)
         command.options.flow.accuracy.approach = Approach::Sweep;
     if (app.count("--grid") > 0)

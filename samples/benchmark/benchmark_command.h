@@ -21,6 +21,8 @@ enum class BenchmarkMode {
     ThreadsSweep,
     /// One mesh, ours, its tasks replayed with numbers of threads that this machine need not have.
     SimulateThreads,
+    /// One mesh, ours, shared by numbers of ranks that this machine need not have.
+    SimulateRanks,
     /// Many meshes, time steps and numbers of steps: who is the fastest.
     Grid,
     /// One mesh, how ours chooses its approach.
@@ -53,6 +55,8 @@ struct BenchmarkCommand {
     CaseOptions options;
     BenchmarkMode mode = BenchmarkMode::Case;
     GridAxes grid;
+    /// For BenchmarkMode::SimulateRanks.
+    std::vector<int> simulated_ranks;
     /// How often what is compared with each other is run, in turns; the least times count.
     int turns = 3;
     /// Files and folders; empty: none.
@@ -65,9 +69,10 @@ struct BenchmarkCommand {
 /// @throws OptionError for another word.
 std::vector<Method> peers_named(std::string_view word);
 
-/// The numbers of threads that a word stands for: "all" (1, 2, 4, … 1024), or numbers with commas between them.
-/// @throws OptionError for another word.
-std::vector<int> threads_named(std::string_view word);
+/// The numbers of threads, or of ranks, that a word stands for: "all" (1, 2, 4, … 1024), or numbers with commas between
+/// them.
+/// @param option its name, for the message. @throws OptionError for another word.
+std::vector<int> numbers_named(std::string_view word, std::string_view option);
 
 /// Parses the command line, makes the folder of --export, and checks that the results can be written.
 /// @returns nothing to go on, or how to end: Success after --help, WrongUsage, said on standard error.

@@ -14,6 +14,7 @@
 #include "samples/benchmark/grid_cell.h"
 #include "samples/benchmark/grid_report.h"
 #include "samples/benchmark/matrix_market.h"
+#include "samples/benchmark/simulated_ranks.h"
 #include "samples/benchmark/whole_run.h"
 #include "samples/common/meshes.h"
 #include "samples/common/report_text.h"
@@ -123,6 +124,14 @@ Json run_simulation(const BenchmarkCommand& command, std::ostream& out)
     print_simulations(out, result.ours.result.simulations);
     out << std::flush;
     return case_json(name_of_mesh(command), command.time_step_edges, options, result);
+}
+
+Json run_ranks(const BenchmarkCommand& command, std::ostream& out)
+{
+    const PolygonMesh mesh = load(command, command.vertices);
+    const SimulatedRanks simulated = simulate_ranks(mesh, options_for(command, mesh).flow, command.simulated_ranks);
+    print_simulated_ranks(out, simulated);
+    return simulated_ranks_json(simulated);
 }
 
 Json run_threads_sweep(const BenchmarkCommand& command, std::ostream& out)
@@ -243,6 +252,8 @@ Json run_benchmark(const BenchmarkCommand& command, std::ostream& out)
         return run_threads_sweep(command, out);
     case BenchmarkMode::SimulateThreads:
         return run_simulation(command, out);
+    case BenchmarkMode::SimulateRanks:
+        return run_ranks(command, out);
     case BenchmarkMode::Grid:
         return run_grid(command, out);
     case BenchmarkMode::Explain:

@@ -204,6 +204,24 @@ TEST_CASE("benchmark replays its tasks with more threads than there are")
     CHECK(w.count_lines("said", "   1024 ") == 1);
 }
 
+TEST_CASE("benchmark counts what ranks say to each other")
+{
+    const Workshop w;
+    REQUIRE(w.run(BENCHMARK " --vertices 5000 --subdomains 30 --steps 2 --simulate-ranks 1,2,6 --json ranks.json") ==
+            0);
+    const Json list = w.json("ranks.json")["simulated_ranks"];
+    REQUIRE(list.size() == 3);
+    CHECK(list[0]["messages"] == 0);
+    CHECK(list[2]["messages"] > list[1]["messages"].get<int>() / 3);
+    CHECK(list[2]["most_vertices"] < 1500);
+    for (const Json& run : list) {
+        CHECK(run["same_bits"] == true);
+        CHECK(run["sub_meshes"] == 30);
+        CHECK(run["most_vertices"].get<double>() >= run["mean_vertices"].get<double>());
+    }
+    CHECK(w.count_lines("said", "a model, not a measurement: ") == 1);
+}
+
 TEST_CASE("benchmark takes all conditions, and a limit of memory")
 {
     const Workshop w;
@@ -272,6 +290,8 @@ TEST_CASE("benchmark refuses wrong usage and unusable files")
                                   "--simulate-threads 1 --peers cg",
                                   "--simulate-threads 1 --scaling",
                                   "--simulate-threads 1 --threads-sweep",
+                                  "--simulate-ranks 0",
+                                  "--simulate-ranks 2 --simulate-threads 2",
                                   "--grid --scaling",
                                   "--grid --mesh mesh.obj",
                                   "--grid --vertices 1000",

@@ -319,11 +319,11 @@ TEST_CASE("a step of ours is replayed with each number of threads that is asked 
 
 TEST_CASE("numbers of threads go by lists")
 {
-    CHECK(threads_named("all") == std::vector{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024});
-    CHECK(threads_named("3") == std::vector{3});
-    CHECK(threads_named("8,1,8") == std::vector{8, 1, 8});
+    CHECK(numbers_named("all", "--simulate-threads") == std::vector{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024});
+    CHECK(numbers_named("3", "--simulate-threads") == std::vector{3});
+    CHECK(numbers_named("8,1,8", "--simulate-threads") == std::vector{8, 1, 8});
     for (const char* word : {"", "0", "1,", ",1", "1025", "-1", "1.5", "1 2", "all,1", "many"})
-        CHECK_THROWS_AS(threads_named(word), OptionError);
+        CHECK_THROWS_AS(numbers_named(word, "--simulate-threads"), OptionError);
 }
 
 TEST_CASE("a simulation records with one thread and without a limit, where nothing else is said")

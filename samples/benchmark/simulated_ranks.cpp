@@ -1,0 +1,144 @@
+#include "samples/benchmark/simulated_ranks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "engine/distributed/deal.h"
+#include "engine/distributed/distributed_cut.h"
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/whole_mesh.h"
+
+namespace seamflow {
+
+namespace {
+
+struct RunOnRanks {
+    Points positions;
+    std::vector<RankReport> reports;
+};
+
+RunOnRanks run_on_ranks(const PolygonMesh& mesh, FlowOptions flow, int n)
+{
+    RunOnRanks run;
+    run.reports.resize(n);
+    flow.resources.threads = 1;
+    run_on_threads(n, [&](Communicator& communicator) {
+        RankSlice slice;
+        MeshPart part;
+        run_together(communicator, [&](Conversation& talk) {
+            slice = hand_out(talk, mesh, 1);
+            cut_together(talk, slice, flow);
+            part = deal(talk, slice);
+        });
+        FlowOptions options = flow;
+        options.cut = {};
+        RankReport report = distributed_mean_curvature_flow(communicator, part, options);
+        run_together(communicator, [&](Conversation& talk) {
+            collect_positions(talk, part, slice);
+            Points positions = gather_positions(talk, slice.vertices);
+            if (talk.rank() == 0)
+                run.positions = std::move(positions);
+        });
+        run.reports[communicator.rank()] = std::move(report);
+    });
+    return run;
+}
+
+RankCounts counts_of(const RunOnRanks& run, const Points& expected)
+{
+    RankCounts counts;
+    counts.ranks = static_cast<int>(run.reports.size());
+    counts.sub_meshes = run.reports.front().sub_meshes;
+    for (const RankReport& rank : run.reports) {
+        counts.most_vertices = std::max(counts.most_vertices, rank.vertices);
+        counts.mean_vertices += static_cast<double>(rank.vertices) / counts.ranks;
+        counts.messages = std::max(counts.messages, rank.steps.back().messages);
+        counts.bytes = std::max(counts.bytes, rank.steps.back().bytes);
+    }
+    counts.same_bits = (run.positions.array() == expected.array()).all();
+    return counts;
+}
+
+/// A network between machines.
+struct Network {
+    const char* name;
+    /// From one to the other, seconds; bytes each second.
+    double latency;
+    double bandwidth;
+};
+
+constexpr Network networks[] = {{"InfiniBand (2 us, 12 GB/s)", 2e-6, 12e9}, {"10 Gbit/s Ethernet", 25e-6, 1.2e9}};
+constexpr int machines = 64;
+constexpr int cores = 64;
+
+/// Seconds that a machine takes to tell others of a step, of m vertices.
+double network_seconds(const RankCounts& counts, const Network& network, double m)
+{
+    const double of_counted =
+        static_cast<double>(counts.messages) * network.latency + static_cast<double>(counts.bytes) / network.bandwidth;
+    return of_counted * std::sqrt(m / counts.mean_vertices);
+}
+
+}  // namespace
+
+SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, const std::vector<int>& ranks)
+{
+    SimulatedRanks simulated;
+    const RunOnRanks alone = run_on_ranks(mesh, flow, 1);
+    std::vector<double> seconds;
+    for (const RankStepReport& step : alone.reports.front().steps)
+        seconds.push_back(step.seconds);
+    std::ranges::sort(seconds);
+    simulated.seconds_per_vertex = seconds[seconds.size() / 2] / mesh.n_vertices();
+    for (const int n : ranks)
+        simulated.counts.push_back(n == 1 ? counts_of(alone, alone.positions)
+                                          : counts_of(run_on_ranks(mesh, flow, n), alone.positions));
+    return simulated;
+}
+
+void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated)
+{
+    out << "counted, on threads of one process:\n"
+           "  ranks  sub-meshes  most vertices  on average  messages      MB  same bits\n";
+    for (const RankCounts& counts : simulated.counts)
+        out << fmt::format("  {:5}  {:10}  {:13}  {:10.0f}  {:8}  {:6.3f}  {:>9}\n", counts.ranks, counts.sub_meshes,
+                           counts.most_vertices, counts.mean_vertices, counts.messages,
+                           static_cast<double>(counts.bytes) / 1e6, counts.same_bits ? "yes" : "NO");
+    const RankCounts& last = simulated.counts.back();
+    if (last.messages == 0)
+        return;
+    const double per_vertex = simulated.seconds_per_vertex / cores;
+    const double m = 1e9 / machines;
+    out << fmt::format("a model, not a measurement: 1e9 vertices on {} machines of {} cores, a step in {:.3g} us a "
+                       "vertex and core (measured), messages as with {} ranks\n",
+                       machines, cores, 1e6 * simulated.seconds_per_vertex, last.ranks);
+    for (const Network& network : networks) {
+        const double told = network_seconds(last, network, m);
+        // Computing grows with m, telling with its root.
+        const double even = std::pow(told / (m * per_vertex), 2) * m;
+        out << fmt::format(
+            "  {}: {:.3g} s of computing, {:.3g} s of messages; as long as each other at {:.2g} vertices "
+            "a machine\n",
+            network.name, m * per_vertex, told, even);
+    }
+}
+
+nlohmann::ordered_json simulated_ranks_json(const SimulatedRanks& simulated)
+{
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const RankCounts& counts : simulated.counts)
+        list.push_back({{"ranks", counts.ranks},
+                        {"sub_meshes", counts.sub_meshes},
+                        {"most_vertices", counts.most_vertices},
+                        {"mean_vertices", counts.mean_vertices},
+                        {"messages", counts.messages},
+                        {"bytes", counts.bytes},
+                        {"same_bits", counts.same_bits}});
+    return {{"simulated_ranks", list}, {"seconds_per_vertex", simulated.seconds_per_vertex}};
+}
+
+}  // namespace seamflow

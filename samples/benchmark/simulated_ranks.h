@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/options/flow_options.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// What ranks that share a mesh have to do and to say, counted: with more ranks than cores nothing can be timed.
+struct RankCounts {
+    int ranks = 0;
+    Index sub_meshes = 0;
+    /// Vertices of the rank that has most, and of all on average.
+    Index most_vertices = 0;
+    double mean_vertices = 0.0;
+    /// Of one step (the last), of the rank that sends most.
+    std::uint64_t messages = 0;
+    std::uint64_t bytes = 0;
+    /// Whether all positions are those of the first of these runs.
+    bool same_bits = false;
+};
+
+/// What is known of flows on ranks.
+struct SimulatedRanks {
+    std::vector<RankCounts> counts;
+    /// A step of one rank in one thread, seconds a vertex.
+    double seconds_per_vertex = 0.0;
+};
+
+/// Runs the flow once for each number of ranks, which are threads of this process, and before that with one.
+/// @param flow with steps, a time step, and conditions that a distributed flow knows.
+/// @throws what a distributed flow throws.
+SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, const std::vector<int>& ranks);
+
+/// The counts, and what follows from them for large meshes, by a model: a step takes what its vertices take, with all
+/// cores of a machine at work, and then what its messages take, one after the other. What a rank tells others grows
+/// with the square root of its vertices.
+void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated);
+
+/// {"simulated_ranks": [{"ranks", "sub_meshes", "most_vertices", "mean_vertices", "messages", "bytes", "same_bits"},
+/// …], "seconds_per_vertex"}
+nlohmann::ordered_json simulated_ranks_json(const SimulatedRanks& simulated);
+
+}  // namespace seamflow
