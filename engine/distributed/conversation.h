@@ -8,6 +8,7 @@
 #include <functional>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -88,6 +89,11 @@ class Conversation {
     /// @param to_each #ranks. @returns #ranks, in their order.
     std::vector<Bytes> exchange(std::vector<Bytes> to_each);
 
+    /// The same among some of the ranks.
+    /// @param others which others, ascending; each of them names this rank. @param to_each corresponds. @returns the
+    /// same.
+    std::vector<Bytes> exchange_with(std::span<const int> others, std::vector<Bytes> to_each);
+
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);
@@ -108,6 +114,7 @@ class Conversation {
     void sort_in(Message message);
     void require_all_well() const;
     void send(int to, int tag, Bytes bytes);
+    Bytes next_collective(int from);
 
     Communicator* communicator_;
     /// Per rank, what has arrived for collective functions, in order.
