@@ -170,6 +170,20 @@ void Conversation::require_all_well() const
             throw Interruption(outcome->message);
 }
 
+/// Waits for what another rank sends in a collective function.
+Bytes Conversation::next_collective(int from)
+{
+    while (collective_[from].empty()) {
+        require_all_well();
+        if (ended_[from])
+            throw std::logic_error(fmt::format("rank {} has ended before its time", from));
+        take_in(patience_of_wait);
+    }
+    Bytes bytes = std::move(collective_[from].front());
+    collective_[from].pop_front();
+    return bytes;
+}
+
 std::vector<Bytes> Conversation::exchange(std::vector<Bytes> to_each)
 {
     for (int r = 0; r < size(); ++r)
@@ -177,18 +191,19 @@ std::vector<Bytes> Conversation::exchange(std::vector<Bytes> to_each)
             send(r, CollectiveTag, std::move(to_each[r]));
     std::vector<Bytes> from_each(size());
     from_each[rank()] = std::move(to_each[rank()]);
-    for (int r = 0; r < size(); ++r) {
-        if (r == rank())
-            continue;
-        while (collective_[r].empty()) {
-            require_all_well();
-            if (ended_[r])
-                throw std::logic_error(fmt::format("rank {} has ended before its time", r));
-            take_in(patience_of_wait);
-        }
-        from_each[r] = std::move(collective_[r].front());
-        collective_[r].pop_front();
-    }
+    for (int r = 0; r < size(); ++r)
+        if (r != rank())
+            from_each[r] = next_collective(r);
+    return from_each;
+}
+
+std::vector<Bytes> Conversation::exchange_with(std::span<const int> others, std::vector<Bytes> to_each)
+{
+    for (std::size_t i = 0; i < others.size(); ++i)
+        send(others[i], CollectiveTag, std::move(to_each[i]));
+    std::vector<Bytes> from_each;
+    for (const int other : others)
+        from_each.push_back(next_collective(other));
     return from_each;
 }
 

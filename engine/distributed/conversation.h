@@ -8,6 +8,7 @@
 #include <functional>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -114,6 +115,11 @@ class Conversation {
     /// Does on rank 0 what is for all ranks, which wait for it; what it throws all throw alike.
     void at_first_rank(const std::function<void()>& action);
 
+    /// The same among some of the ranks.
+    /// @param others which others, ascending; each of them names this rank. @param to_each corresponds. @returns the
+    /// same.
+    std::vector<Bytes> exchange_with(std::span<const int> others, std::vector<Bytes> to_each);
+
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);
@@ -134,6 +140,7 @@ class Conversation {
     void sort_in(Message message);
     void require_all_well() const;
     void send(int to, int tag, Bytes bytes);
+    Bytes next_collective(int from);
 
     Communicator* communicator_;
     /// Per rank, what has arrived for collective functions, in order.

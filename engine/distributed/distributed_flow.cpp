@@ -1,6 +1,7 @@
 #include "engine/distributed/distributed_flow.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,7 +12,9 @@
 #include "engine/distributed/rank_setup.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
+#include "engine/setup/automatic_choices.h"
 #include "engine/setup/origin_offset.h"
+#include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
@@ -22,16 +25,27 @@ namespace seamflow {
 
 namespace {
 
+bool is_converged(const FlowOptions& options)
+{
+    return options.accuracy.approach == Approach::Converged;
+}
+
 /// @throws OptionError for what a distributed flow does not know.
 void require_for_ranks(const FlowOptions& options)
 {
     const InterfaceOptions& interface = options.interface;
     const char* unknown = nullptr;
-    if (options.accuracy.approach != Approach::Sweep || options.accuracy.tolerance)
-        unknown = "approaches but sweeps (approach has to be sweep, without a tolerance)";
+    if (is_converged(options) && !is_symmetric(options.laplacian))
+        throw OptionError(fmt::format("ranks cannot take converged steps of {}, which are by GMRES: take sweeps "
+                                      "(approach sweep, without a tolerance), or let one process do it",
+                                      name_of(options.laplacian)));
+    if (!is_converged(options) && (options.accuracy.approach != Approach::Sweep || options.accuracy.tolerance))
+        unknown = "approaches but sweeps and converged steps (approach has to be sweep, without a tolerance, or "
+                  "converged)";
     else if (options.scheme != Scheme::BackwardEuler || options.keep_edges)
         unknown = "explicit steps, nor steps that keep edges";
-    else if (interface.conditions != Conditions::AdaptedRobin && interface.conditions != Conditions::AdaptedVentcell)
+    else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
+             interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
     else if (options.motion.boundary != Boundary::Fixed || options.motion.rescale != Rescale::None ||
              options.motion.strict)
@@ -44,6 +58,15 @@ void require_for_ranks(const FlowOptions& options)
     if (unknown != nullptr)
         throw OptionError(
             fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));
+}
+
+/// The options with the tolerance of converged steps, if steps are converged.
+FlowOptions with_tolerance(const FlowOptions& options, const PolygonMesh& mesh)
+{
+    FlowOptions complete = options;
+    if (is_converged(options))
+        complete.accuracy.tolerance = choose_tolerance(mesh, {}, options, false).tolerance;
+    return complete;
 }
 
 /// The vertices of own faces, which alone have moved.
@@ -75,7 +98,7 @@ class RankFlow {
     RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options, const RankObserver& on_step)
         : talk_(talk)
         , part_(part)
-        , options_(options)
+        , options_(with_tolerance(options, part.mesh))
         , on_step_(on_step)
         , progress_(control_)
     {
@@ -89,17 +112,27 @@ class RankFlow {
         const BoundingBox box = gather_box(talk_, part_.mesh);
         const Point offset = origin_offset(box);
         RankMesh mesh = make_rank_mesh(talk_, part_, all, offset, options_);
-        RankExchange exchange(talk_, mesh.part, mesh.known);
-        std::vector<Index> rank_of_all;
-        auto sub_meshes = make_rank_sub_meshes(talk_, mesh, all, options_, exchange, rank_of_all);
-        const std::int64_t n_interface_vertices = sub_meshes.decomposition.n_interface_vertices;
-        SweepStepper stepper(mesh.part.mesh, std::move(sub_meshes), options_, progress_);
+        Decomposition decomposition = decompose_rank_mesh(mesh);
+        const std::int64_t n_interface_vertices = decomposition.n_interface_vertices;
+        std::optional<RankExchange> exchange;
+        std::vector<Index> rank_of_all(all.size(), 0);
+        std::unique_ptr<Stepper> stepper;
+        if (options_.accuracy.tolerance) {
+            stepper = std::make_unique<SchurStepper>(
+                mesh.part.mesh, make_peer_sub_meshes(talk_, mesh, std::move(decomposition), all), options_, progress_);
+        } else {
+            exchange.emplace(talk_, mesh.part, mesh.known);
+            stepper = std::make_unique<SweepStepper>(
+                mesh.part.mesh,
+                make_rank_sub_meshes(talk_, mesh, std::move(decomposition), all, options_, *exchange, rank_of_all),
+                options_, progress_);
+        }
         const UpdateLimit limit(mesh.part.mesh, (box.high - box.low).stableNorm(), options_.accuracy.largest_update);
         describe(mesh, rank_of_all, n_interface_vertices, report);
         report.setup_seconds = watch.seconds();
         std::optional<MeshPart> shown = on_step_ ? std::optional(part_) : std::nullopt;
         for (int step = 1; step <= options_.steps; ++step) {
-            report.steps.push_back(take_step(step, mesh, limit, stepper));
+            report.steps.push_back(take_step(step, mesh, limit, *stepper));
             if (!shown)
                 continue;
             shown->mesh.vertices = positions_of_part(mesh, offset);
@@ -109,7 +142,7 @@ class RankFlow {
     }
 
   private:
-    RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, SweepStepper& stepper)
+    RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, Stepper& stepper)
     {
         const Stopwatch watch;
         const std::uint64_t messages = talk_.n_messages();
@@ -119,7 +152,10 @@ class RankFlow {
             require_within_limit(limit, mesh, stepper.positions());
         });
         mesh.part.mesh.vertices = stepper.positions();
-        return {watch.seconds(), talk_.n_messages() - messages, talk_.n_bytes() - bytes};
+        StepReport of_step;
+        stepper.describe(of_step);
+        return {watch.seconds(), talk_.n_messages() - messages, talk_.n_bytes() - bytes, of_step.iterations,
+                of_step.residual};
     }
 
     void describe(const RankMesh& mesh, const std::vector<Index>& rank_of_all, std::int64_t n_interface_vertices,
@@ -149,7 +185,7 @@ class RankFlow {
 
     Conversation& talk_;
     const MeshPart& part_;
-    const FlowOptions& options_;
+    const FlowOptions options_;
     const RankObserver& on_step_;
     FlowControl control_;
     Progress progress_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/distributed/communicator.h"
@@ -18,6 +19,9 @@ struct RankStepReport {
     /// What the rank has sent to others.
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
+    /// Of a converged step, of all ranks: its iterations, and the residual that they left.
+    std::optional<int> iterations = {};
+    std::optional<double> residual = {};
 };
 
 /// What a distributed flow did.
@@ -48,12 +52,13 @@ struct RankStepState {
 /// Called after each step, on all ranks, in the thread that called the flow. What one throws, all ranks throw.
 using RankObserver = std::function<void(const RankStepState&)>;
 
-/// Mean curvature flow of a mesh that no rank has as a whole, in sweeps over the sub-meshes of all ranks. Each rank
-/// gives some of them with all their faces, and gets their vertices moved. All ranks call this together, with the same
-/// options. The result is, bit for bit, that of mean_curvature_flow with these labels and Approach::Sweep, for any
-/// number of ranks, and of threads of each.
+/// Mean curvature flow of a mesh that no rank has as a whole, in sweeps over the sub-meshes of all ranks, or in
+/// converged steps for which they solve on Γ together. Each rank gives some of them with all their faces, and gets
+/// their vertices moved. All ranks call this together, with the same options. The result is, bit for bit, that of
+/// mean_curvature_flow with these labels and the same approach, for any number of ranks, and of threads of each.
 ///
-/// Not for distributed flows are, so far: approaches but Approach::Sweep; other conditions than the adapted ones;
+/// Not for distributed flows are, so far: approaches but Approach::Sweep and Approach::Converged, and the latter with
+/// Δ_P, whose equations are not symmetric; sweeps with other conditions than the adapted ones;
 /// Scheme::ExplicitEuler; keep_edges; a free boundary; attachment weights; rescale; strict; what ReportOptions asks
 /// for beside `measures`, which count as if they were off. Labels and fixed vertices are those of the part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.

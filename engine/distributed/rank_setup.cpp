@@ -1,12 +1,15 @@
 #include "engine/distributed/rank_setup.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "engine/distributed/rank_peers.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/connected_components.h"
 #include "partition/decomposition/part_of_mesh.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
@@ -141,6 +144,16 @@ std::vector<double> gather_curvatures(Conversation& talk, const RankMesh& mesh, 
     return of_all;
 }
 
+/// Which of all sub-meshes the known ones are.
+std::vector<Index> places_among(const std::vector<OwnedSubMesh>& all, const std::vector<KnownSubMesh>& known)
+{
+    std::vector<Index> places;
+    for (const KnownSubMesh& sub_mesh : known)
+        places.push_back(static_cast<Index>(std::ranges::lower_bound(all, sub_mesh.number, {}, &OwnedSubMesh::number) -
+                                            all.begin()));
+    return places;
+}
+
 /// A window that is large enough for both directions, whatever crosses Γ: as if every sub-mesh needed what all around
 /// it find. Ranks whose sub-meshes stand in this order, each with a window of at least this size, do not wait for each
 /// other in a circle: who is solved waits for factorisations of lower places than those that wait for it.
@@ -216,17 +229,22 @@ RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const std::vect
     return mesh;
 }
 
-RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, const std::vector<OwnedSubMesh>& all,
-                                   const FlowOptions& options, ForeignSubMeshes& foreign,
-                                   std::vector<Index>& rank_of_all)
+Decomposition decompose_rank_mesh(RankMesh& mesh)
 {
-    std::vector<Index> places;
-    for (const KnownSubMesh& sub_mesh : mesh.known)
-        places.push_back(static_cast<Index>(std::ranges::lower_bound(all, sub_mesh.number, {}, &OwnedSubMesh::number) -
-                                            all.begin()));
-    RankSubMeshes result;
-    result.decomposition =
+    Decomposition decomposition =
         decompose_part(mesh.part.mesh, mesh.topology, mesh.part.labels, mesh.is_own, run_in_parallel);
+    for (std::size_t s = 0; s < mesh.known.size(); ++s)
+        mesh.known[s].n_vertices = decomposition.sub_meshes[s].n_vertices;
+    return decomposition;
+}
+
+RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
+                                   const std::vector<OwnedSubMesh>& all, const FlowOptions& options,
+                                   ForeignSubMeshes& foreign, std::vector<Index>& rank_of_all)
+{
+    const std::vector<Index> places = places_among(all, mesh.known);
+    RankSubMeshes result;
+    result.decomposition = std::move(decomposition);
     result.n_of_all_ranks = all.size();
     result.foreign = &foreign;
     const auto adjacency = gather_adjacency(talk, mesh, places, result.decomposition, all.size());
@@ -242,6 +260,19 @@ RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, con
             result.factor_order.push_back(static_cast<Index>(found - places.begin()));
     result.least_window = sufficient_window(adjacency, rank_of_all, order);
     return result;
+}
+
+PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
+                                   const std::vector<OwnedSubMesh>& all)
+{
+    std::vector<Index> holders;
+    for (const OwnedSubMesh& sub_mesh : all)
+        holders.push_back(sub_mesh.rank);
+    return {std::move(decomposition),
+            std::make_unique<RankPeers>(talk, std::move(holders), places_among(all, mesh.known)),
+            [known = mesh.known](Index s, const std::function<void()>& body) {
+                run_for_sub_mesh(known[s], known[s].number, body);
+            }};
 }
 
 }  // namespace seamflow

@@ -8,6 +8,7 @@
 #include "engine/distributed/rank_exchange.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/options/flow_options.h"
+#include "engine/steppers/schur_stepper.h"
 #include "engine/steppers/sweep_stepper.h"
 #include "partition/topology.h"
 
@@ -42,11 +43,20 @@ struct RankMesh {
 RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const std::vector<OwnedSubMesh>& all,
                         const Point& offset, const FlowOptions& options);
 
-/// Decomposes what a rank knows, and agrees with the others on the order of the sweep.
+/// Decomposes what a rank knows.
+/// @param mesh receives how many vertices each sub-mesh has.
+Decomposition decompose_rank_mesh(RankMesh& mesh);
+
+/// Agrees with the other ranks on the order of the sweep.
 /// @param all see gather_sub_meshes. @param foreign is put into the result.
 /// @param rank_of_all receives the place of each of them in the sweep.
-RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, const std::vector<OwnedSubMesh>& all,
-                                   const FlowOptions& options, ForeignSubMeshes& foreign,
-                                   std::vector<Index>& rank_of_all);
+RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
+                                   const std::vector<OwnedSubMesh>& all, const FlowOptions& options,
+                                   ForeignSubMeshes& foreign, std::vector<Index>& rank_of_all);
+
+/// What converged steps need, which ranks take together.
+/// @param talk must outlive the result. @param all see gather_sub_meshes.
+PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
+                                   const std::vector<OwnedSubMesh>& all);
 
 }  // namespace seamflow

@@ -10,6 +10,7 @@
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
+#include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
@@ -21,29 +22,53 @@ constexpr double width_without_coarse_space = 8.0;
 /// What back substitution in single precision leaves of a residual, at most.
 constexpr double left_by_single = 1e-4;
 
-Balancing balancing_for(const PolygonMesh& mesh, Index n_parts, double time_step)
+/// The area of all sub-meshes of all peers.
+double area_of_all(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers)
 {
-    return width_in_diffusion_lengths(total_area(mesh), n_parts, time_step) < width_without_coarse_space
+    std::vector<double> areas(at(peers.n_places()), 0.0);
+    for_each(run_in_parallel, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
+        if (peers.is_own(s))
+            for (const Index f : decomposition.sub_meshes[s].faces)
+                areas[peers.places()[s]] += area(mesh.face(f), mesh.vertices);
+    });
+    return SumTree(peers).add_up(areas, 1).front();
+}
+
+Balancing balancing_for(const Decomposition& decomposition, const PolygonMesh& mesh, InterfacePeers& peers,
+                        double time_step)
+{
+    const double area = area_of_all(decomposition, mesh, peers);
+    return width_in_diffusion_lengths(area, peers.n_places(), time_step) < width_without_coarse_space
                ? Balancing::Coarse
                : Balancing::None;
+}
+
+/// Those of one that has all.
+PeerSubMeshes alone(Decomposition decomposition)
+{
+    auto peers = std::make_unique<OnePeer>(static_cast<Index>(decomposition.sub_meshes.size()));
+    return {std::move(decomposition), std::move(peers), {}};
 }
 
 }  // namespace
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const FlowOptions& options, Progress& progress)
-    : SchurStepper(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()), mesh, options, progress)
+    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop())), options, progress)
 {
 }
 
-SchurStepper::SchurStepper(Decomposition decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+SchurStepper::SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options,
                            Progress& progress)
-    : ConvergedStepper(mesh, static_cast<Index>(decomposition.sub_meshes.size()), options,
-                       static_cast<double>(decomposition.sub_meshes.size()), progress)
-    , parts_(decomposition.sub_meshes.size())
-    , equation_(decomposition,
-                balancing_for(mesh, static_cast<Index>(decomposition.sub_meshes.size()), options.time_step))
+    : ConvergedStepper(mesh, static_cast<Index>(sub_meshes.decomposition.sub_meshes.size()), options,
+                       static_cast<double>(sub_meshes.decomposition.sub_meshes.size()), progress)
+    , peers_(std::move(sub_meshes.peers))
+    , run_for_(std::move(sub_meshes.run_for))
+    , parts_(sub_meshes.decomposition.sub_meshes.size())
+    , equation_(sub_meshes.decomposition, balancing_for(sub_meshes.decomposition, mesh, *peers_, options.time_step),
+                *peers_)
 {
+    Decomposition& decomposition = sub_meshes.decomposition;
     factors_.precision = options.resources.precision;
     interface_.n_vertices = decomposition.n_interface_vertices;
     interface_.complements.resize(parts_.size());
@@ -51,6 +76,14 @@ SchurStepper::SchurStepper(Decomposition decomposition, const PolygonMesh& mesh,
     make_systems(decomposition, mesh, options, progress);
     limit_factors(options);
     make_graph();
+}
+
+void SchurStepper::run_for(Index s, const std::function<void()>& body) const
+{
+    if (run_for_)
+        run_for_(s, body);
+    else
+        run_for_sub_mesh(parts_[s].sub_mesh, s, body);
 }
 
 /// What is needed of sub-meshes later moves to where it is needed; the rest is no more when all are analysed.
@@ -61,14 +94,19 @@ void SchurStepper::make_systems(Decomposition& decomposition, const PolygonMesh&
     progress.expect(static_cast<double>(parts_.size()));
     for_each(run_in_parallel, static_cast<Index>(parts_.size()), [&](Index s) {
         progress.require_going_on();
+        progress.count();
+        if (!is_own(s))
+            return;
         SubMesh sub_mesh = std::move(decomposition.sub_meshes[s]);
-        run_for_sub_mesh(sub_mesh, s, [&] {
+        OwnVertices& own = parts_[s].sub_mesh;
+        own.faces = std::move(sub_mesh.faces);
+        own.n_vertices = sub_mesh.n_vertices;
+        run_for(s, [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
             parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian, terms);
         });
-        parts_[s].sub_mesh = {std::move(sub_mesh.faces), sub_mesh.n_vertices, std::move(sub_mesh.local_to_global),
-                              std::move(sub_mesh.owned)};
-        progress.count();
+        own.local_to_global = std::move(sub_mesh.local_to_global);
+        own.owned = std::move(sub_mesh.owned);
     });
 }
 
@@ -77,9 +115,16 @@ void SchurStepper::limit_factors(const FlowOptions& options)
 {
     std::vector<std::size_t> bytes;
     for (const Part& part : parts_)
-        bytes.push_back(factors_.precision == Precision::Single ? part.system->factor_bytes<float>()
-                                                                : part.system->factor_bytes<double>());
+        if (part.system)
+            bytes.push_back(factors_.precision == Precision::Single ? part.system->factor_bytes<float>()
+                                                                    : part.system->factor_bytes<double>());
     factors_.plan = choose_kept_factors(bytes, options.resources.memory_limit, workspaces_.size());
+    std::vector<std::uint8_t> whole(parts_.size(), 1);
+    auto next = factors_.plan.whole.begin();
+    for (std::size_t s = 0; s < parts_.size(); ++s)
+        if (parts_[s].system)
+            whole[s] = *next++;
+    factors_.plan.whole = std::move(whole);
     factors_.passing.emplace(factors_.plan.bytes_per_place);
     if (options.resources.memory_limit)
         factors_.memory = std::pmr::new_delete_resource();
@@ -91,11 +136,13 @@ void SchurStepper::make_graph()
 {
     const auto add_task = [&](TaskKind phase, Index s, void (SchurStepper::*task)(Index)) {
         return graph_.add_task({phase, s, TaskPriority::Normal},
-                               [this, s, task] { run_for_sub_mesh(parts_[s].sub_mesh, s, [&] { (this->*task)(s); }); });
+                               [this, s, task] { run_for(s, [&] { (this->*task)(s); }); });
     };
     std::vector<StepGraph::Node> passing_condensed;
     std::vector<StepGraph::Node> passing_substituted;
     for (Index s = 0; s < static_cast<Index>(parts_.size()); ++s) {
+        if (!is_own(s))
+            continue;
         const auto condensed = add_task(TaskKind::Condense, s, &SchurStepper::condense);
         const auto substituted = add_task(TaskKind::BackSubstitute, s, &SchurStepper::back_substitute);
         graph_.add_dependency(root_, condensed);
@@ -137,13 +184,13 @@ void SchurStepper::fetch_increments(Index s, Points& increments) const
 template <class Action>
 void SchurStepper::for_each_part(const Loop& loop, Action&& action)
 {
-    const auto act = [&](Index s) { run_for_sub_mesh(parts_[s].sub_mesh, s, [&] { action(s); }); };
+    const auto act = [&](Index s) { run_for(s, [&] { action(s); }); };
     std::vector<Index> passing;
     for (Index s = 0; s < static_cast<Index>(parts_.size()); ++s)
         if (!is_kept(s))
             passing.push_back(s);
     for_each(loop, static_cast<Index>(parts_.size()), [&](Index s) {
-        if (is_kept(s))
+        if (is_own(s) && is_kept(s))
             act(s);
     });
     for_each(loop, factors_.plan.n_places, [&](Index place) {
@@ -284,26 +331,28 @@ void SchurStepper::refine(Index s, const Points& update)
 }
 
 /// @returns what is left on Γ.
-const Points& SchurStepper::refine_all(const Points& update, const Loop& loop)
+Points& SchurStepper::refine_all(const Points& update, const Loop& loop)
 {
     for_each_part(loop, [&](Index s) { refine(s, update); });
     interface_.reached = update;
     return interface_.condensed;
 }
 
+/// At any peer.
 bool SchurStepper::has_single() const
 {
-    return std::any_of(parts_.begin(), parts_.end(),
-                       [](const Part& part) { return part.precision == Precision::Single; });
+    const bool here = std::ranges::any_of(parts_, [](const Part& part) { return part.precision == Precision::Single; });
+    return peers_->largest({here ? 1.0 : 0.0}).front() > 0.0;
 }
 
-/// The largest in each column.
+/// The largest in each column, of all peers.
 Point SchurStepper::interior_residual() const
 {
     Point largest = Point::Zero();
     for (const Part& part : parts_)
         largest = largest.cwiseMax(part.residual);
-    return largest;
+    const std::vector<double> of_all = peers_->largest({largest[0], largest[1], largest[2]});
+    return {of_all[0], of_all[1], of_all[2]};
 }
 
 /// Refines the interiors until the back substitution that is still to come leaves no more than the tolerance. Mostly
@@ -326,11 +375,21 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
 }
 
 /// Whether Γ moves no more than rounding of positions would: what is left of such residuals says nothing.
-bool SchurStepper::is_at_rest() const
+bool SchurStepper::is_at_rest(const Loop& loop) const
 {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-    return interface_.update.size() > 0 &&
-           interface_.update.cwiseAbs().maxCoeff() <= rounding * before_->cwiseAbs().maxCoeff();
+    std::vector<double> farthest(parts_.size(), 0.0);
+    for_each(loop, static_cast<Index>(parts_.size()), [&](Index s) {
+        for (Index v = 0; v < parts_[s].sub_mesh.n_vertices; ++v)
+            farthest[s] =
+                std::max(farthest[s], before_->row(parts_[s].sub_mesh.local_to_global[v]).cwiseAbs().maxCoeff());
+    });
+    // Without Γ nothing is known.
+    constexpr double unknown = -1.0;
+    const double moved = interface_.update.size() > 0 ? interface_.update.cwiseAbs().maxCoeff() : unknown;
+    const double position = parts_.empty() ? 0.0 : std::ranges::max(farthest);
+    const std::vector<double> of_all = peers_->largest({moved, position});
+    return of_all[0] != unknown && of_all[0] <= rounding * of_all[1];
 }
 
 /// @returns stagnation also where refinement of the interiors stagnates.
@@ -340,9 +399,9 @@ InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, cons
     const Point first = interior_residual();
     InterfaceResult result = equation_.solve(
         interface_.complements, interface_.condensed,
-        [&](const Points& update) -> const Points& { return refine_all(update, loop); }, interface_.guess, stop,
-        interface_.update, loop);
-    if (is_at_rest()) {
+        [&](const Points& update) -> Points& { return refine_all(update, loop); },
+        interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, loop);
+    if (is_at_rest(loop)) {
         result.residual = std::min(result.residual, stop.tolerance);
         result.stagnated = false;
     } else if (has_single() && !refine_interiors(stop.tolerance, first, loop)) {
@@ -355,6 +414,7 @@ InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, cons
 InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Loop& loop)
 {
     interface_.guess.swap(interface_.update);
+    interface_.has_guess = std::exchange(interface_.has_update, true);
     const InterfaceResult result = solve_on_interface(stop, loop);
     if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
         return result;
@@ -388,6 +448,7 @@ void SchurStepper::save(StepMemory& memory) const
 void SchurStepper::restore_further(StepMemoryReader& memory)
 {
     interface_.update = memory.array_or_none(equation_.copies().n_vertices());
+    interface_.has_update = interface_.update.rows() > 0;
 }
 
 void SchurStepper::describe(FlowReport& report) const
@@ -396,6 +457,9 @@ void SchurStepper::describe(FlowReport& report) const
     report.resources.live_factors = factors_.plan.n_live();
     report.resources.factor_memory_bytes = factors_.passing->bytes();
     for (std::size_t s = 0; s < parts_.size(); ++s) {
+        if (!parts_[s].system)
+            continue;
+        describe_sub_mesh(parts_[s].sub_mesh, 0, 0.0, report);
         const NeumannSystem& system = *parts_[s].system;
         const bool is_single = parts_[s].precision == Precision::Single;
         report.resources.single_factors += is_single ? 1 : 0;
@@ -403,7 +467,7 @@ void SchurStepper::describe(FlowReport& report) const
             report.resources.factor_memory_bytes +=
                 is_single ? system.factor_bytes<float>() : system.factor_bytes<double>();
     }
-    describe_parts(parts_, {}, report);
+    describe_steps({}, report);
 }
 
 }  // namespace seamflow

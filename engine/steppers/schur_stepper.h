@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -12,9 +13,19 @@
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
 #include "solvers/interface/interface_equation.h"
+#include "solvers/interface/interface_peers.h"
 #include "solvers/systems/neumann_system.h"
 
 namespace seamflow {
+
+/// The sub-meshes of one of those that take steps together.
+struct PeerSubMeshes {
+    /// Its own ones as a whole, and what it knows of the others around them (see decompose_part).
+    Decomposition decomposition;
+    std::unique_ptr<InterfacePeers> peers;
+    /// Runs something for a sub-mesh; failures come out with its name. Empty: with its number here.
+    std::function<void(Index s, const std::function<void()>& body)> run_for;
+};
 
 /// Takes the undecomposed backward Euler step itself, sub-mesh by sub-mesh, for symmetric Laplacians: every sub-mesh
 /// condenses its equations to Γ, what remains is the equation of the Schur complement there, and then back substitution
@@ -37,6 +48,10 @@ class SchurStepper final : public ConvergedStepper {
     SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  Progress& progress);
 
+    /// The same for the sub-meshes of one of several peers, which construct their steppers, and take steps, together.
+    /// @param mesh the part of the mesh that this peer knows; positions() are Vᵏ⁺¹ in its own sub-meshes alone.
+    SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
+
     void save(StepMemory& memory) const override;
     using ConvergedStepper::describe;
     void describe(FlowReport& report) const override;
@@ -51,6 +66,7 @@ class SchurStepper final : public ConvergedStepper {
     };
     struct Part {
         OwnVertices sub_mesh;
+        /// None of a foreign sub-mesh, for which nothing is done.
         std::unique_ptr<NeumannSystem> system;
         /// That of its factor in this step, or Automatic until it is known.
         Precision precision = Precision::Automatic;
@@ -75,14 +91,17 @@ class SchurStepper final : public ConvergedStepper {
         std::vector<DenseFactor> complements;
         /// What each sub-mesh has of the right-hand side, and later of what is left of it.
         Points condensed;
-        /// Vᵏ⁺¹ - Vᵏ, and that of the step before, which has no rows in the first step.
+        /// Vᵏ⁺¹ - Vᵏ, if a step has been taken, and that of the step before, if there was one.
         Points update;
         Points guess;
+        bool has_update = false;
+        bool has_guess = false;
         /// The update at which the interiors are, and `condensed`.
         Points reached;
     };
 
-    SchurStepper(Decomposition decomposition, const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
+    void run_for(Index s, const std::function<void()>& body) const;
+    [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
     void make_systems(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
                       Progress& progress);
     void limit_factors(const FlowOptions& options);
@@ -104,14 +123,16 @@ class SchurStepper final : public ConvergedStepper {
     void refine(Index s, const Points& update);
     [[nodiscard]] bool has_single() const;
     [[nodiscard]] Point interior_residual() const;
-    [[nodiscard]] bool is_at_rest() const;
+    [[nodiscard]] bool is_at_rest(const Loop& loop) const;
     bool refine_interiors(double tolerance, const Point& first, const Loop& loop);
-    const Points& refine_all(const Points& update, const Loop& loop);
+    Points& refine_all(const Points& update, const Loop& loop);
     InterfaceResult solve_on_interface(const IterationStop& stop, const Loop& loop);
     InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) override;
     void back_substitute(Index s);
     void restore_further(StepMemoryReader& memory) override;
 
+    std::unique_ptr<InterfacePeers> peers_;
+    std::function<void(Index, const std::function<void()>&)> run_for_;
     FactorStore factors_;
     std::vector<Part> parts_;
     InterfaceEquation equation_;

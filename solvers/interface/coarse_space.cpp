@@ -103,42 +103,80 @@ SEAMFLOW_WIDE void multiply_by_itself(const Eigen::MatrixXd& columns, Eigen::Mat
 
 }  // namespace
 
-CoarseSpace::CoarseSpace(const InterfaceCopies& copies)
+CoarseSpace::CoarseSpace(const InterfaceCopies& copies, InterfacePeers& peers)
     : copies_(copies)
+    , peers_(peers)
     , shares_(copies.n_sub_meshes())
 {
     find_functions();
-    list_functions();
     analyse();
     products_with_y_.resize(static_cast<Eigen::Index>(functions_at_.values.size()), 3);
+    sums_.resize(size(), 3);
     coefficients_.resize(size(), 3);
 }
 
 void CoarseSpace::find_functions()
 {
-    function_.resize(copies_.n_copies());
-    Index n_functions = 0;
-    std::map<std::vector<Index>, std::vector<Index>> stretches;
+    std::vector<Stretch> here;
+    std::vector<std::vector<Index>> vertices_of;
+    std::map<std::vector<Index>, std::vector<Index>> found;
     // Vertices with the same first sub-mesh follow each other.
     for (Index begin = 0, end = 0; begin < copies_.n_vertices(); begin = end) {
         const auto first_at = [this](Index v) { return copies_.sub_mesh[copies_.of_vertex[v].front()]; };
-        stretches.clear();
+        found.clear();
         for (; end < copies_.n_vertices() && first_at(end) == first_at(begin); ++end) {
             std::vector<Index> sharing;
             for (const Index copy : copies_.of_vertex[end])
-                sharing.push_back(copies_.sub_mesh[copy]);
-            stretches[std::move(sharing)].push_back(end);
+                sharing.push_back(peers_.places()[copies_.sub_mesh[copy]]);
+            found[std::move(sharing)].push_back(end);
         }
-        for (const auto& [sharing, vertices] : stretches) {
-            const bool is_single = vertices.size() == 1;
-            for (const Index v : vertices)
-                for (std::size_t k = 0; k < sharing.size(); ++k)
-                    function_[copies_.of_vertex[v][k]] = n_functions + (is_single ? 0 : static_cast<Index>(k));
-            n_functions += is_single ? 1 : static_cast<Index>(sharing.size());
+        for (auto& [sharing, vertices] : found) {
+            here.push_back({sharing, vertices.size() == 1});
+            vertices_of.push_back(std::move(vertices));
         }
     }
-    copies_in_ = inverse_lists(function_, n_functions);
+    const std::vector<Stretch> stretches = stretches_of_all(here);
+    function_.resize(copies_.n_copies());
     values_at_.resize(function_.size());
+    Index n_functions = 0;
+    auto next = stretches.begin();
+    const auto pass = [&] { n_functions += (next++)->n_functions(); };
+    for (std::size_t i = 0; i < here.size(); ++i, pass()) {
+        while (next->sharing != here[i].sharing)
+            pass();
+        for (const Index v : vertices_of[i])
+            for (std::size_t k = 0; k < here[i].sharing.size(); ++k)
+                function_[copies_.of_vertex[v][k]] = n_functions + (here[i].is_single ? 0 : static_cast<Index>(k));
+    }
+    while (next != stretches.end())
+        pass();
+    copies_in_ = inverse_lists(function_, n_functions);
+    list_functions(stretches);
+    divide_terms(stretches);
+}
+
+/// Those of all peers, ascending: each tells of those that begin with a sub-mesh of its own.
+/// @param here ascending.
+std::vector<CoarseSpace::Stretch> CoarseSpace::stretches_of_all(const std::vector<Stretch>& here) const
+{
+    std::vector<double> own;
+    for (const Stretch& stretch : here)
+        if (peers_.holders()[stretch.sharing.front()] == peers_.self()) {
+            own.push_back(stretch.is_single ? 1.0 : 0.0);
+            own.push_back(static_cast<double>(stretch.sharing.size()));
+            own.insert(own.end(), stretch.sharing.begin(), stretch.sharing.end());
+        }
+    std::vector<Stretch> all;
+    for (const std::vector<double>& numbers : peers_.gather(own))
+        for (auto number = numbers.begin(); number != numbers.end();) {
+            Stretch& stretch = all.emplace_back();
+            stretch.is_single = *number++ != 0.0;
+            stretch.sharing.resize(static_cast<std::size_t>(*number++));
+            for (Index& place : stretch.sharing)
+                place = static_cast<Index>(*number++);
+        }
+    std::ranges::stable_sort(all, {}, &Stretch::sharing);
+    return all;
 }
 
 /// The first copy of a vertex has the constant.
@@ -156,28 +194,48 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Loop& loo
     });
 }
 
-void CoarseSpace::list_functions()
+void CoarseSpace::list_functions(const std::vector<Stretch>& stretches)
 {
-    std::vector<Index> found;
-    for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
-        found.clear();
-        for (Index copy = copies_.first[s]; copy < copies_.first[s + 1]; ++copy)
-            for (const Index other : copies_.of_vertex[copies_.vertex[copy]])
-                found.push_back(function_[other]);
-        sort_unique(found);
-        functions_at_.values.insert(functions_at_.values.end(), found.begin(), found.end());
-        functions_at_.close();
+    functions_at_ = make_lists(peers_.n_places(), [&](auto&& add) {
+        Index f = 0;
+        for (const Stretch& stretch : stretches) {
+            for (const Index place : stretch.sharing)
+                for (Index k = 0; k < stretch.n_functions(); ++k)
+                    add(place, f + k);
+            f += stretch.n_functions();
+        }
+    });
+    terms_of_ = inverse_lists(functions_at_.values, size());
+}
+
+void CoarseSpace::divide_terms(const std::vector<Stretch>& stretches)
+{
+    const std::vector<Index>& holders = peers_.holders();
+    told_.resize(holders.empty() ? 0 : at(*std::ranges::max_element(holders)) + 1);
+    std::vector<std::uint8_t> is_begun(at(size()), 0);
+    Index f = 0;
+    for (const Stretch& stretch : stretches) {
+        const Index holder = holders[stretch.sharing.front()];
+        const bool is_finished =
+            std::ranges::all_of(stretch.sharing, [&](Index place) { return holders[place] == holder; });
+        for (const Index end = f + stretch.n_functions(); f < end; ++f) {
+            (is_finished ? told_[holder].finished : told_[holder].begun).push_back(f);
+            is_begun[f] = is_finished ? 0 : 1;
+        }
     }
-    places_ = inverse_lists(functions_at_.values, size());
+    for (Index place = 0; place < peers_.n_places(); ++place)
+        for (Index term = functions_at_.offsets[place]; term < functions_at_.offsets[place + 1]; ++term)
+            if (is_begun[functions_at_.values[term]] != 0)
+                told_[holders[place]].terms.push_back(term);
 }
 
 /// Two unknowns have an entry where one sub-mesh has both of their functions.
 std::vector<MatrixEntry> CoarseSpace::entries() const
 {
     std::vector<MatrixEntry> entries;
-    for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
-        for (const Index f : functions_at_[s])
-            for (const Index g : functions_at_[s])
+    for (Index place = 0; place < functions_at_.size(); ++place)
+        for (const Index f : functions_at_[place])
+            for (const Index g : functions_at_[place])
                 if (energy_.unknown_of[f] <= energy_.unknown_of[g])
                     entries.push_back({energy_.unknown_of[g], energy_.unknown_of[f]});
     return entries;
@@ -207,7 +265,10 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
     if (size() == 0)
         return;
     set_functions(weights, loop);
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_functions(s, complements[s]); });
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        if (peers_.is_own(s))
+            multiply_functions(s, complements[s]);
+    });
     assemble();
     energy_.factor.reset();
     energy_.factor = energy_.solver->factorise<double>(energy_.values, energy_.memory, energy_.workspace);
@@ -216,7 +277,7 @@ void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<co
 /// With S = R Rᵀ, the share of E is (Rᵀ Z)ᵀ (Rᵀ Z), which rounding cannot make indefinite.
 void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
 {
-    const auto functions = functions_at_[s];
+    const auto functions = functions_at_[peers_.places()[s]];
     Share& share = shares_[s];
     const std::size_t room = DenseFactor::room(copies_.n_in(s));
     const std::size_t n_columns = (functions.size() + 2) / 3 * 3;
@@ -239,19 +300,30 @@ void CoarseSpace::multiply_functions(Index s, const DenseFactor& schur)
     share.energy *= share.scale;
 }
 
-/// In the order of `entries`.
+/// In the order of `entries`; alike at all peers.
 void CoarseSpace::assemble()
 {
-    std::fill(energy_.values.begin(), energy_.values.end(), 0.0);
-    auto slot = energy_.slots.begin();
-    for (Index s = 0; s < copies_.n_sub_meshes(); ++s) {
-        const auto functions = functions_at_[s];
+    const auto for_entries_at = [&](Index place, auto&& action) {
+        const auto functions = functions_at_[place];
         for (std::size_t f = 0; f < functions.size(); ++f)
             for (std::size_t g = 0; g < functions.size(); ++g)
                 if (energy_.unknown_of[functions[f]] <= energy_.unknown_of[functions[g]])
-                    energy_.values[*slot++] +=
-                        shares_[s].energy(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
-    }
+                    action(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g));
+    };
+    std::vector<double> own;
+    for (Index s = 0; s < copies_.n_sub_meshes(); ++s)
+        if (peers_.is_own(s))
+            for_entries_at(peers_.places()[s],
+                           [&](Eigen::Index f, Eigen::Index g) { own.push_back(shares_[s].energy(f, g)); });
+    const InterfacePeers::Numbers of_all = peers_.gather(own);
+    std::vector<std::vector<double>::const_iterator> next;
+    for (const std::vector<double>& numbers : of_all)
+        next.push_back(numbers.begin());
+    std::fill(energy_.values.begin(), energy_.values.end(), 0.0);
+    auto slot = energy_.slots.begin();
+    for (Index place = 0; place < functions_at_.size(); ++place)
+        for_entries_at(
+            place, [&](Eigen::Index, Eigen::Index) { energy_.values[*slot++] += *next[peers_.holders()[place]]++; });
     // Where all weights are the same, a function is none.
     for (const Index diagonal : energy_.diagonal_slots)
         energy_.values[diagonal] =
@@ -262,15 +334,27 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
 {
     if (!energy_.factor)
         return;
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) { multiply_transposed(s, y); });
-    for_each(loop, size(), [&](Index f) {
+    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        if (peers_.is_own(s))
+            multiply_transposed(s, y);
+    });
+    const auto begin = [&](Index f) {
         Point sum = Point::Zero();
         for (const Index copy : copies_in_[f])
             sum += values_at_[copy] * residual.row(copies_.vertex[copy]);
-        for (const Index place : places_[f])
-            sum -= products_with_y_.row(place);
-        coefficients_.row(energy_.unknown_of[f]) = sum;
-    });
+        sums_.row(f) = sum;
+    };
+    if (at(peers_.self()) < told_.size()) {
+        const Told& own = told_[peers_.self()];
+        for_each(loop, static_cast<Index>(own.finished.size()), [&](Index i) {
+            begin(own.finished[i]);
+            subtract_terms(own.finished[i]);
+        });
+        std::ranges::for_each(own.begun, begin);
+    }
+    exchange_terms();
+    for (Index f = 0; f < size(); ++f)
+        coefficients_.row(energy_.unknown_of[f]) = sums_.row(f);
     energy_.factor->solve(coefficients_, coefficients_, energy_.workspace);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
@@ -278,10 +362,46 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
     });
 }
 
+void CoarseSpace::subtract_terms(Index f)
+{
+    Point sum = sums_.row(f);
+    for (const Index term : terms_of_[f])
+        sum -= products_with_y_.row(term);
+    sums_.row(f) = sum;
+}
+
+/// Completes the sums for all functions.
+void CoarseSpace::exchange_terms()
+{
+    const auto for_rows_of = [&](std::size_t peer, auto&& action) {
+        for (const Index f : told_[peer].finished)
+            action(sums_.row(f));
+        for (const Index f : told_[peer].begun)
+            action(sums_.row(f));
+        for (const Index term : told_[peer].terms)
+            action(products_with_y_.row(term));
+    };
+    std::vector<double> own;
+    if (at(peers_.self()) < told_.size())
+        for_rows_of(at(peers_.self()), [&](auto&& row) { own.insert(own.end(), row.data(), row.data() + 3); });
+    const InterfacePeers::Numbers of_all = peers_.gather(own);
+    for (std::size_t peer = 0; peer < told_.size(); ++peer) {
+        const double* next = of_all[peer].data();
+        for_rows_of(peer, [&](auto&& row) {
+            row = Eigen::Map<const Point>(next);
+            next += 3;
+        });
+    }
+    for (const Told& told : told_)
+        for (const Index f : told.begun)
+            subtract_terms(f);
+}
+
 /// A sub-mesh's share of Zᵀ S y.
 void CoarseSpace::multiply_transposed(Index s, const Points& y)
 {
     const Index n = copies_.n_in(s);
+    const Index of_all = peers_.places()[s];
     const auto room = static_cast<Eigen::Index>(DenseFactor::room(n));
     if (s + 1 < copies_.n_sub_meshes())
         for (std::size_t i = 0; i < std::min(shares_[s + 1].product.size(), products_ahead); i += cache_line)
@@ -291,10 +411,10 @@ void CoarseSpace::multiply_transposed(Index s, const Points& y)
     for (Index i = 0; i < n; ++i)
         local.row(i) = y.row(copies_.vertex[copies_.first[s] + i]);
     const float* product = shares_[s].product.data();
-    for (Index place = functions_at_.offsets[s]; place < functions_at_.offsets[s + 1]; ++place) {
+    for (Index term = functions_at_.offsets[of_all]; term < functions_at_.offsets[of_all + 1]; ++term) {
         Point share;
         multiply_column(product, local, share);
-        products_with_y_.row(place) = shares_[s].scale * share;
+        products_with_y_.row(term) = shares_[s].scale * share;
         product += room;
     }
 }

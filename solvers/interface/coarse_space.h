@@ -23,21 +23,22 @@ namespace seamflow {
 /// Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
 class CoarseSpace {
   public:
-    /// @param copies must outlive the space.
+    /// All peers construct it together, each with the functions of all.
+    /// @param copies, peers must outlive the space.
     /// @throws ComputationError if the analysis fails.
-    explicit CoarseSpace(const InterfaceCopies& copies);
+    CoarseSpace(const InterfaceCopies& copies, InterfacePeers& peers);
     CoarseSpace(const CoarseSpace&) = delete;
     CoarseSpace& operator=(const CoarseSpace&) = delete;
 
     /// Number of unknowns.
     [[nodiscard]] Index size() const { return copies_in_.size(); }
 
-    /// Makes S Z and factorises E.
-    /// @param complements one per sub-mesh.
+    /// Makes S Z and factorises E; all peers call this together.
+    /// @param complements one per sub-mesh; those of foreign ones are not used.
     /// @param weights one per copy, positive, those of a vertex adding up to 1.
     void prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Loop& loop);
 
-    /// y becomes y + Z E⁻¹ Zᵀ (residual - S y).
+    /// y becomes y + Z E⁻¹ Zᵀ (residual - S y); all peers call this together.
     /// @param residual, y one row per vertex of Γ.
     void correct(const Points& residual, Points& y, const Loop& loop);
 
@@ -56,6 +57,21 @@ class CoarseSpace {
         /// None where there are no functions, or E is not definite to rounding.
         std::optional<LdlFactor<double>> factor;
     };
+    /// A stretch of Γ: the places of the sub-meshes that share it.
+    struct Stretch {
+        std::vector<Index> sharing;
+        bool is_single = false;
+
+        [[nodiscard]] Index n_functions() const { return is_single ? 1 : static_cast<Index>(sharing.size()); }
+    };
+    /// What a peer tells others when all terms of Zᵀ (r - S y) are put together: the sums for functions on stretches of
+    /// which all sub-meshes are its own; those that it begins, for functions on other stretches; and the terms of its
+    /// sub-meshes for these.
+    struct Told {
+        std::vector<Index> finished;
+        std::vector<Index> begun;
+        std::vector<Index> terms;
+    };
     /// What a sub-mesh adds.
     struct Share {
         /// To S Z: a column with DenseFactor::room for each function there, and zeros to make their number a multiple
@@ -68,29 +84,37 @@ class CoarseSpace {
     };
 
     void find_functions();
-    void list_functions();
+    [[nodiscard]] std::vector<Stretch> stretches_of_all(const std::vector<Stretch>& here) const;
+    void list_functions(const std::vector<Stretch>& stretches);
+    void divide_terms(const std::vector<Stretch>& stretches);
     void analyse();
     [[nodiscard]] std::vector<MatrixEntry> entries() const;
     void set_functions(std::span<const double> weights, const Loop& loop);
     void multiply_functions(Index s, const DenseFactor& schur);
     void multiply_transposed(Index s, const Points& y);
     void assemble();
+    void subtract_terms(Index f);
+    void exchange_terms();
 
     const InterfaceCopies& copies_;
+    InterfacePeers& peers_;
     /// Per copy: the function that it belongs to, and what it adds to that at its vertex.
     std::vector<Index> function_;
     std::vector<double> values_at_;
-    /// Per function its copies, in ascending order.
+    /// Per function those of its copies that are known here, in ascending order: all or none.
     IndexLists copies_in_;
-    /// Per sub-mesh: the functions on its part of Γ, in ascending order.
+    /// Per place: the functions on this sub-mesh's part of Γ, in ascending order.
     IndexLists functions_at_;
     /// Per function: where it stands among the values of `functions_at_`.
-    IndexLists places_;
+    IndexLists terms_of_;
     Energy energy_;
     /// Per sub-mesh.
     std::vector<Share> shares_;
-    /// Per value of `functions_at_`, the sub-mesh's share of Zᵀ S y.
+    /// Per value of `functions_at_`, the sub-mesh's share of Zᵀ S y; per function, Zᵀ (r - S y), as far as it is known.
     Points products_with_y_;
+    Points sums_;
+    /// Per peer.
+    std::vector<Told> told_;
     Columns coefficients_;
 };
 

@@ -1,26 +1,70 @@
 #include "solvers/interface/interface_copies.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace seamflow {
+
+namespace {
+
+/// A vertex of Γ as the first whole sub-mesh knows it.
+struct FoundVertex {
+    Index in_lowest;
+    Index s;
+    Index i;
+};
+
+/// What the whole sub-meshes know, by the lowest sub-mesh of each vertex.
+std::vector<std::vector<FoundVertex>> find_vertices(const std::vector<SubMesh>& sub_meshes)
+{
+    std::vector<std::vector<FoundVertex>> found(sub_meshes.size());
+    const auto is_whole = [&](Index t) { return sub_meshes[t].interface.size() > 0; };
+    for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s) {
+        const SubMeshInterface& interface = sub_meshes[s].interface;
+        for (Index i = 0; i < interface.size(); ++i)
+            if (const auto sharing = interface.sharing[i]; *std::ranges::find_if(sharing, is_whole) == s)
+                found[sharing.front()].push_back({interface.index_in_sharing[i].front(), s, i});
+    }
+    for (auto& vertices : found)
+        std::ranges::sort(vertices, {}, &FoundVertex::in_lowest);
+    return found;
+}
+
+/// The local indices of each sub-mesh's copies, ascending.
+std::vector<std::vector<Index>> find_copies(const std::vector<SubMesh>& sub_meshes,
+                                            const std::vector<std::vector<FoundVertex>>& found)
+{
+    std::vector<std::vector<Index>> copies(sub_meshes.size());
+    for (const auto& vertices : found)
+        for (const auto& [in_lowest, s, i] : vertices) {
+            const SubMeshInterface& interface = sub_meshes[s].interface;
+            for (std::size_t k = 0; k < interface.sharing[i].size(); ++k)
+                copies[interface.sharing[i][k]].push_back(interface.index_in_sharing[i][k]);
+        }
+    for (auto& indices : copies)
+        std::ranges::sort(indices);
+    return copies;
+}
+
+}  // namespace
 
 InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
 {
     const auto& sub_meshes = decomposition.sub_meshes;
-    for (const SubMesh& part : sub_meshes)
-        first.push_back(first.back() + part.interface.size());
+    const auto found = find_vertices(sub_meshes);
+    const auto copies = find_copies(sub_meshes, found);
+    for (const auto& indices : copies)
+        first.push_back(first.back() + static_cast<Index>(indices.size()));
     vertex.assign(n_copies(), -1);
     sub_mesh.assign(n_copies(), -1);
-    for (Index s = 0; s < n_sub_meshes(); ++s) {
-        const auto& interface = sub_meshes[s].interface;
-        for (Index i = 0; i < interface.size(); ++i) {
-            if (interface.sharing[i].front() != s)
-                continue;
+    for (const auto& vertices : found) {
+        for (const auto& [in_lowest, s, i] : vertices) {
+            const SubMeshInterface& interface = sub_meshes[s].interface;
             for (std::size_t k = 0; k < interface.sharing[i].size(); ++k) {
                 const Index t = interface.sharing[i][k];
-                const auto& others = sub_meshes[t].interface.vertices;
-                const auto place = std::lower_bound(others.begin(), others.end(), interface.index_in_sharing[i][k]);
-                const Index copy = first[t] + static_cast<Index>(place - others.begin());
+                const auto place = std::ranges::lower_bound(copies[t], interface.index_in_sharing[i][k]);
+                const Index copy = first[t] + static_cast<Index>(place - copies[t].begin());
                 vertex[copy] = of_vertex.size();
                 sub_mesh[copy] = t;
                 of_vertex.values.push_back(copy);
@@ -28,6 +72,48 @@ InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
             of_vertex.close();
         }
         first_vertex.push_back(of_vertex.size());
+    }
+}
+
+SharedCopies::SharedCopies(const InterfaceCopies& copies, InterfacePeers& peers)
+    : peers_(&peers)
+{
+    struct Shared {
+        std::vector<Index> given;
+        std::vector<Index> taken;
+    };
+    std::map<Index, Shared> with;
+    for (const Index copy : copies.of_vertex.values) {
+        const auto holder_of = [&](Index c) { return peers.holder_of(copies.sub_mesh[c]); };
+        if (!peers.is_own(copies.sub_mesh[copy]))
+            with[holder_of(copy)].taken.push_back(copy);
+        else
+            for (const Index other : copies.of_vertex[copies.vertex[copy]])
+                if (!peers.is_own(copies.sub_mesh[other]))
+                    with[holder_of(other)].given.push_back(copy);
+    }
+    for (auto& [other, shared] : with) {
+        sort_unique(shared.given);
+        sort_unique(shared.taken);
+        others_.push_back(other);
+        given_.push_back(std::move(shared.given));
+        taken_.push_back(std::move(shared.taken));
+    }
+}
+
+void SharedCopies::complete(double* values, std::size_t width)
+{
+    InterfacePeers::Numbers to_each(others_.size());
+    for (std::size_t p = 0; p < others_.size(); ++p)
+        for (const Index copy : given_[p])
+            to_each[p].insert(to_each[p].end(), values + at(copy) * width, values + at(copy + 1) * width);
+    const InterfacePeers::Numbers from_each = peers_->exchange(others_, to_each);
+    for (std::size_t p = 0; p < others_.size(); ++p) {
+        auto next = from_each[p].begin();
+        for (const Index copy : taken_[p]) {
+            std::copy_n(next, width, values + at(copy) * width);
+            next += static_cast<std::ptrdiff_t>(width);
+        }
     }
 }
 

@@ -4,10 +4,12 @@
 
 #include "partition/decomposition/decomposition.h"
 #include "partition/index_lists.h"
+#include "solvers/interface/interface_peers.h"
 
 namespace seamflow {
 
 /// The vertices of Γ, and their copies in the sub-meshes: sub-mesh after sub-mesh, in each in the order of its own Γ.
+/// Of a sub-mesh that is not there as a whole (see decompose_part) there are those copies that whole ones share.
 struct InterfaceCopies {
     /// @param decomposition without overlap.
     explicit InterfaceCopies(const Decomposition& decomposition);
@@ -28,6 +30,25 @@ struct InterfaceCopies {
     std::vector<Index> sub_mesh;
     /// Per vertex of Γ its copies, in ascending order of the sub-meshes.
     IndexLists of_vertex;
+};
+
+/// What peers tell each other of their copies: of every vertex that two of them have, each knows all copies.
+class SharedCopies {
+  public:
+    /// @param peers must outlive this.
+    SharedCopies(const InterfaceCopies& copies, InterfacePeers& peers);
+
+    /// Fills in the copies of foreign sub-meshes; all peers call this together.
+    /// @param values #copies times `width` numbers, one copy after the other, those of own sub-meshes filled in.
+    void complete(double* values, std::size_t width);
+
+  private:
+    InterfacePeers* peers_;
+    /// The peers that share vertices with this one, ascending; and for each of them the copies that it is given, and
+    /// those that it gives, ascending: both sides have the same order.
+    std::vector<Index> others_;
+    std::vector<std::vector<Index>> given_;
+    std::vector<std::vector<Index>> taken_;
 };
 
 }  // namespace seamflow

@@ -9,12 +9,14 @@
 
 namespace seamflow {
 
-InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing)
-    : copies_(decomposition)
+InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfacePeers& peers)
+    : peers_(&peers)
+    , copies_(decomposition)
+    , shared_(copies_, peers)
     , weights_(copies_.n_copies())
     , residual_copies_(copies_.n_copies(), 3)
     , right_hand_side_(copies_.n_vertices(), 3)
-    , sums_(copies_)
+    , sums_(copies_, peers)
     , vectors_(copies_.n_vertices(), [this](std::initializer_list<VectorPair> pairs, const Loop& loop) {
         return sums_.products(pairs, loop);
     })
@@ -26,11 +28,11 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
     }
     products_.assign(n_numbers);
     if (balancing == Balancing::Coarse)
-        coarse_.emplace(copies_);
+        coarse_.emplace(copies_, peers);
 }
 
-InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, const Points& right_hand_sides,
-                                         const Residuals& residuals, const Points& guess, const IterationStop& stop,
+InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, Points& right_hand_sides,
+                                         const Residuals& residuals, const Points* guess, const IterationStop& stop,
                                          Points& x, const Loop& loop)
 {
     x.setZero(copies_.n_vertices(), 3);
@@ -47,7 +49,7 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
         r.array().rowwise() /= unit.array();
     };
     if (stop.iterations > 0)
-        start(multiply, guess.array().rowwise() / unit.array(), x, loop);
+        start(multiply, guess, unit, x, loop);
     InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, loop)};
     require_finite_result(std::isfinite(result.residual));
     precondition(vectors_.r, vectors_.z);
@@ -59,29 +61,34 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
 /// Each column has its own unit while it is solved for, so that squares of its rows do not overflow.
 Point InterfaceEquation::measure_right_hand_side()
 {
-    Point unit = Point::Ones();
+    Point largest = Point::Zero();
     if (right_hand_side_.rows() > 0)
-        unit = Point(right_hand_side_.cwiseAbs().colwise().maxCoeff()).unaryExpr(&power_of_two_near);
+        largest = right_hand_side_.cwiseAbs().colwise().maxCoeff();
+    const std::vector<double> of_all = peers_->largest({largest[0], largest[1], largest[2]});
+    const Point unit = Point(of_all[0], of_all[1], of_all[2]).unaryExpr(&power_of_two_near);
     right_hand_side_.array().rowwise() /= unit.array();
     return unit;
 }
 
 /// The length of the next iteration if it were as long as the last one, without being made conjugate.
-double InterfaceEquation::estimate_distance(const Point& unit) const
+double InterfaceEquation::estimate_distance(const Point& unit)
 {
     double largest = 0.0;
     for (Index v = 0; v < copies_.n_vertices(); ++v)
         largest = std::max(largest, vectors_.z.row(v).cwiseProduct(vectors_.alpha).cwiseProduct(unit).norm());
-    return largest;
+    return peers_->largest({largest}).front();
 }
 
 /// By the diagonals of the Schur complements.
 void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, const Loop& loop)
 {
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        if (!peers_->is_own(s))
+            return;
         const std::vector<double>& diagonal = complements[s].diagonal();
         std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[s]);
     });
+    shared_.complete(weights_.data(), 1);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         double sum = 0.0;
         for (const Index copy : copies_.of_vertex[v])
@@ -92,8 +99,9 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
 }
 
 /// The shares may cancel each other almost wholly: only their sum is used.
-void InterfaceEquation::sum_copies(const Points& copies, Points& sums, const Loop& loop)
+void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Loop& loop)
 {
+    shared_.complete(copies.data(), 3);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])
@@ -105,14 +113,15 @@ void InterfaceEquation::sum_copies(const Points& copies, Points& sums, const Loo
 /// Moves the coarse unknowns to where they have to be: only from there on is the preconditioner symmetric. Then goes as
 /// far along the guess as pays.
 template <class Multiply>
-void InterfaceEquation::start(const Multiply& multiply, const Points& guess, Points& x, const Loop& loop)
+void InterfaceEquation::start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x,
+                              const Loop& loop)
 {
     if (coarse_) {
         coarse_->correct(vectors_.r, vectors_.p, loop);
         advance(multiply, x, vectors_, loop);
     }
-    if (guess.size() > 0) {
-        vectors_.p = guess;
+    if (guess != nullptr) {
+        vectors_.p = guess->array().rowwise() / unit.array();
         if (coarse_)
             coarse_->correct(vectors_.r, vectors_.p, loop);
         advance(multiply, x, vectors_, loop);
@@ -151,6 +160,8 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[copy] : 1.0; };
     for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+        if (!peers_->is_own(s))
+            return;
         if (s + 1 < copies_.n_sub_meshes())
             complements[s + 1].prefetch();
         const Index n = copies_.n_in(s);
@@ -192,6 +203,7 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
             rows[3 * i + 2] = factor[2] * result.z[i];
         }
     });
+    shared_.complete(residual_copies_.data(), 3);
     for_each(loop, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])

@@ -10,6 +10,7 @@
 #include "solvers/direct/dense_factor.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
+#include "solvers/interface/interface_peers.h"
 #include "solvers/interface/interface_result.h"
 #include "solvers/interface/interface_sums.h"
 #include "solvers/krylov/conjugate_gradients.h"
@@ -39,36 +40,38 @@ class InterfaceEquation {
   public:
     /// @param decomposition without overlap; needed only during the call.
     /// @throws ComputationError if an analysis fails.
-    InterfaceEquation(const Decomposition& decomposition, Balancing balancing);
+    /// @param peers those that solve it together; must outlive the equation. All of them construct it together.
+    InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfacePeers& peers);
     InterfaceEquation(const InterfaceEquation&) = delete;
     InterfaceEquation& operator=(const InterfaceEquation&) = delete;
 
     [[nodiscard]] const InterfaceCopies& copies() const { return copies_; }
 
-    /// What the step leaves on Γ at an x, the interiors following it: each sub-mesh's share, one row per copy.
-    using Residuals = std::function<const Points&(const Points& x)>;
+    /// What the step leaves on Γ at an x, the interiors following it: each own sub-mesh's share, one row per copy. The
+    /// other rows are filled in where it is.
+    using Residuals = std::function<Points&(const Points& x)>;
 
-    /// Solves.
-    /// @param complements one per sub-mesh.
-    /// @param right_hand_sides one row per copy: each sub-mesh's share g_i.
+    /// Solves; all peers call this together.
+    /// @param complements one per sub-mesh; those of foreign ones are not used.
+    /// @param right_hand_sides one row per copy: each own sub-mesh's share g_i. The other rows are filled in.
     /// @param residuals is called now and then.
     /// @param stop residual relative to that of x = 0, in the Euclidean norm, for each of x, y and z.
-    /// @param guess one row per vertex of Γ: a direction in which the solution may be expected, or no rows.
+    /// @param guess one row per vertex of Γ: a direction in which the solution may be expected; null: none is known.
     /// @param x receives the solution, one row per vertex of Γ.
     /// @returns the largest residual of x, y and z; as distance the largest row of the preconditioned residual, scaled
     ///          like the last iteration.
     /// @throws ComputationError if the right-hand side or the result is not finite.
-    InterfaceResult solve(std::span<const DenseFactor> complements, const Points& right_hand_sides,
-                          const Residuals& residuals, const Points& guess, const IterationStop& stop, Points& x,
+    InterfaceResult solve(std::span<const DenseFactor> complements, Points& right_hand_sides,
+                          const Residuals& residuals, const Points* guess, const IterationStop& stop, Points& x,
                           const Loop& loop);
 
   private:
     void weigh_copies(std::span<const DenseFactor> complements, const Loop& loop);
-    void sum_copies(const Points& copies, Points& sums, const Loop& loop);
+    void sum_copies(Points& copies, Points& sums, const Loop& loop);
     template <class Multiply>
-    void start(const Multiply& multiply, const Points& guess, Points& x, const Loop& loop);
+    void start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x, const Loop& loop);
     Point measure_right_hand_side();
-    [[nodiscard]] double estimate_distance(const Point& unit) const;
+    [[nodiscard]] double estimate_distance(const Point& unit);
     void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product, const Loop& loop);
     void precondition(std::span<const DenseFactor> complements, const Points& residual, Points& preconditioned,
                       const Loop& loop);
@@ -76,7 +79,9 @@ class InterfaceEquation {
     void on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted, Points& target,
                  const Loop& loop, Apply&& apply);
 
+    InterfacePeers* peers_;
     InterfaceCopies copies_;
+    SharedCopies shared_;
     std::optional<CoarseSpace> coarse_;
     /// Per copy.
     std::vector<double> weights_;

@@ -4,26 +4,79 @@
 
 namespace seamflow {
 
-void add_along_tree(std::vector<double>& rows, std::size_t width)
+SumTree::SumTree(InterfacePeers& peers)
+    : peers_(&peers)
 {
-    const std::size_t n = width > 0 ? rows.size() / width : 0;
-    for (std::size_t stride = 1; stride < n; stride *= 2)
-        for (std::size_t s = 0; s + stride < n; s += 2 * stride)
-            for (std::size_t i = 0; i < width; ++i)
-                rows[s * width + i] += rows[(s + stride) * width + i];
+    constexpr Index several = -1;
+    // Who has all of the rows that have been added to one.
+    std::vector<Index> holders = peers.holders();
+    const auto n = static_cast<Index>(holders.size());
+    told_.resize(n > 0 ? at(*std::ranges::max_element(holders)) + 1 : 0);
+    const auto tell = [&](Index row) {
+        if (holders[row] != several)
+            told_[holders[row]].push_back(row);
+    };
+    for (Index stride = 1; stride < n; stride *= 2)
+        for (Index to = 0; to + stride < n; to += 2 * stride) {
+            const Index from = to + stride;
+            if (holders[to] == holders[from] && holders[to] != several) {
+                if (holders[to] == peers.self())
+                    own_.push_back({to, from});
+                continue;
+            }
+            tell(to);
+            tell(from);
+            last_.push_back({to, from});
+            holders[to] = several;
+        }
+    if (n > 0)
+        tell(0);
 }
 
-InterfaceSums::InterfaceSums(const InterfaceCopies& copies)
+void SumTree::add(const std::vector<Addition>& additions, std::vector<double>& rows, std::size_t width)
+{
+    for (const auto& [to, from] : additions)
+        for (std::size_t i = 0; i < width; ++i)
+            rows[at(to) * width + i] += rows[at(from) * width + i];
+}
+
+std::vector<double> SumTree::add_up(std::vector<double>& rows, std::size_t width)
+{
+    if (rows.empty())
+        return std::vector<double>(width, 0.0);
+    const auto begin_of = [&](Index row) { return rows.begin() + static_cast<std::ptrdiff_t>(at(row) * width); };
+    add(own_, rows, width);
+    std::vector<double> own;
+    if (at(peers_->self()) < told_.size())
+        for (const Index row : told_[peers_->self()])
+            own.insert(own.end(), begin_of(row), begin_of(row + 1));
+    const InterfacePeers::Numbers all = peers_->gather(own);
+    for (std::size_t peer = 0; peer < told_.size(); ++peer) {
+        auto next = all[peer].begin();
+        for (const Index row : told_[peer]) {
+            std::copy_n(next, width, begin_of(row));
+            next += static_cast<std::ptrdiff_t>(width);
+        }
+    }
+    add(last_, rows, width);
+    return {begin_of(0), begin_of(1)};
+}
+
+InterfaceSums::InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peers)
     : copies_(&copies)
+    , peers_(&peers)
+    , tree_(peers)
 {
 }
 
 std::vector<Point> InterfaceSums::products(std::initializer_list<VectorPair> pairs, const Loop& loop)
 {
     const std::size_t width = 3 * pairs.size();
-    rows_.resize(at(copies_->n_sub_meshes()) * width);
+    rows_.resize(at(peers_->n_places()) * width);
     for_each(loop, copies_->n_sub_meshes(), [&](Index s) {
-        double* row = rows_.data() + at(s) * width;
+        if (!peers_->is_own(s))
+            return;
+        double* row = rows_.data() + at(peers_->places()[s]) * width;
         for (const auto& [a, b] : pairs) {
             Point sum = Point::Zero();
             for (Index v = copies_->first_vertex[s]; v < copies_->first_vertex[s + 1]; ++v)
@@ -32,13 +85,11 @@ std::vector<Point> InterfaceSums::products(std::initializer_list<VectorPair> pai
             row += 3;
         }
     });
-    if (rows_.empty())
-        rows_.assign(width, 0.0);
-    add_along_tree(rows_, width);
-    std::vector<Point> sums;
+    const std::vector<double> sums = tree_.add_up(rows_, width);
+    std::vector<Point> products;
     for (std::size_t i = 0; i < width; i += 3)
-        sums.emplace_back(rows_[i], rows_[i + 1], rows_[i + 2]);
-    return sums;
+        products.emplace_back(sums[i], sums[i + 1], sums[i + 2]);
+    return products;
 }
 
 }  // namespace seamflow

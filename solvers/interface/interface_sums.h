@@ -4,28 +4,55 @@
 #include <vector>
 
 #include "solvers/interface/interface_copies.h"
+#include "solvers/interface/interface_peers.h"
 #include "solvers/krylov/sums.h"
 
 namespace seamflow {
 
-/// Adds up one row per sub-mesh along a binary tree of their numbers: 0 and 1, 2 and 3 and so on, then the sums of two
-/// such pairs, and so on. So the order of additions depends on the number of sub-meshes alone, and whoever has some
-/// sub-meshes that follow each other can add up most of theirs.
-/// @param rows #sub-meshes times `width` numbers, one row after the other; those of the first row become the sums.
-void add_along_tree(std::vector<double>& rows, std::size_t width);
+/// Adds up one row per sub-mesh along a binary tree of their places: 0 and 1, 2 and 3 and so on, then the sums of two
+/// such pairs, and so on. So the order of additions depends on the number of sub-meshes alone, whoever has them. Peers
+/// add up what they have the whole of, which is most where their sub-meshes follow each other, and tell each other the
+/// rest.
+class SumTree {
+  public:
+    /// @param peers must outlive the tree.
+    explicit SumTree(InterfacePeers& peers);
+
+    /// All peers call this together.
+    /// @param rows #places times `width` numbers, one row after the other, those of this peer's sub-meshes filled in.
+    ///        They are used up.
+    /// @returns the sums: `width` numbers.
+    std::vector<double> add_up(std::vector<double>& rows, std::size_t width);
+
+  private:
+    struct Addition {
+        Index to;
+        Index from;
+    };
+    static void add(const std::vector<Addition>& additions, std::vector<double>& rows, std::size_t width);
+
+    InterfacePeers* peers_;
+    /// Those for which this peer has all; those that come after.
+    std::vector<Addition> own_;
+    std::vector<Addition> last_;
+    /// Per peer, the rows at which it has come to what others need.
+    std::vector<std::vector<Index>> told_;
+};
 
 /// The inner products of vectors with one row per vertex of Γ: each sub-mesh adds up the vertices of which it has the
-/// first copy, in their order; the rest is done by add_along_tree.
+/// first copy, in their order; the rest is done by a SumTree.
 class InterfaceSums {
   public:
-    /// @param copies must outlive this.
-    explicit InterfaceSums(const InterfaceCopies& copies);
+    /// @param copies, peers must outlive this.
+    InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peers);
 
-    /// See InnerProducts.
+    /// See InnerProducts; all peers call this together.
     std::vector<Point> products(std::initializer_list<VectorPair> pairs, const Loop& loop);
 
   private:
     const InterfaceCopies* copies_;
+    const InterfacePeers* peers_;
+    SumTree tree_;
     std::vector<double> rows_;
 };
 

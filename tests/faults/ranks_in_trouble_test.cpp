@@ -23,11 +23,11 @@ struct SharedFlow {
     std::vector<MeshPart> before;
     std::vector<MeshPart> parts;
 
-    SharedFlow()
+    explicit SharedFlow(Approach approach)
     {
         options.time_step = 1e-3;
         options.steps = 3;
-        options.accuracy.approach = Approach::Sweep;
+        options.accuracy.approach = approach;
         options.resources.threads = 1;
         const PolygonMesh mesh = test::small_mesh();
         PolygonMesh cut = mesh;
@@ -85,7 +85,19 @@ struct SharedFlow {
 
 TEST_CASE("every allocation of a flow that ranks share")
 {
-    SharedFlow flow;
+    SharedFlow flow(Approach::Sweep);
+    test::fail_every_allocation({.run = [&] { flow.run(); },
+                                 .result = [&] { return flow.result(); },
+                                 .check_failed = [&] { flow.check_unmoved(); },
+                                 .most_lost = 100,
+                                 .ways = {test::Failing::Once}});
+}
+
+TEST_CASE("allocations of converged steps that ranks share")
+{
+    SharedFlow flow(Approach::Converged);
+    // One step has all kinds of them.
+    flow.options.steps = 1;
     test::fail_every_allocation({.run = [&] { flow.run(); },
                                  .result = [&] { return flow.result(); },
                                  .check_failed = [&] { flow.check_unmoved(); },
@@ -95,25 +107,27 @@ TEST_CASE("every allocation of a flow that ranks share")
 
 TEST_CASE("every task of ranks, in its first run and in its second")
 {
-    SharedFlow flow;
-    for (const int run : {1, 2}) {
-        int task = 1;
-        for (bool has_failed = true; has_failed; ++task) {
-            CAPTURE(task);
-            const test::FailingTask failing(task, run);
-            const std::string thrown = flow.failure();
-            has_failed = failing.has_failed();
-            CHECK(thrown.empty() != has_failed);
-            if (has_failed)
-                flow.check_unmoved();
+    for (const Approach approach : {Approach::Sweep, Approach::Converged}) {
+        SharedFlow flow(approach);
+        for (const int run : {1, 2}) {
+            int task = 1;
+            for (bool has_failed = true; has_failed; ++task) {
+                CAPTURE(task);
+                const test::FailingTask failing(task, run);
+                const std::string thrown = flow.failure();
+                has_failed = failing.has_failed();
+                CHECK(thrown.empty() != has_failed);
+                if (has_failed)
+                    flow.check_unmoved();
+            }
+            CHECK(task > 6);
         }
-        CHECK(task > 6);
     }
 }
 
 TEST_CASE("factorisations of ranks, each with all after it")
 {
-    SharedFlow flow;
+    SharedFlow flow(Approach::Sweep);
     for (int n = 1; n <= 6; ++n) {
         CAPTURE(n);
         const test::FailingFactorisation failing(n, test::FailingFactorisation::After::Fails);

@@ -1,5 +1,7 @@
 // Checks ranks that are processes of MPI; each of them runs this program (mpirun -n R mpi_ranks).
 
+#include <utility>
+
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
@@ -29,10 +31,12 @@ TEST_CASE("ranks of MPI find the bits of one machine")
     FlowOptions options;
     options.time_step = 1e-3;
     options.steps = 4;
-    options.accuracy.approach = Approach::Sweep;
     options.resources.threads = 2;
-    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::VirtualRefinement}) {
+    for (const auto& [laplacian, approach] : {std::pair{Laplacian::Fujiwara, Approach::Sweep},
+                                              {Laplacian::VirtualRefinement, Approach::Sweep},
+                                              {Laplacian::AlexaWardetzky, Approach::Converged}}) {
         options.laplacian = laplacian;
+        options.accuracy.approach = approach;
         options.cut.subdomains = 24;
         PolygonMesh expected = mesh;
         const FlowReport report = mean_curvature_flow(expected, options);

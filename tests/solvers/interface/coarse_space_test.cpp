@@ -65,7 +65,8 @@ TEST_CASE("what is left of the residual after the correction has no part along a
                 weights[copy] /= sum;
             ++stretches[sharing];
         }
-        CoarseSpace coarse(copies);
+        OnePeer all(copies.n_sub_meshes());
+        CoarseSpace coarse(copies, all);
         Index n_functions = 0;
         for (const auto& [sharing, length] : stretches)
             n_functions += length > 1 ? static_cast<Index>(sharing.size()) : 1;

@@ -37,7 +37,8 @@ struct Equation {
 
     Equation(const CutMesh& cut, Laplacian laplacian, double dt, Balancing balancing = Balancing::Coarse)
         : decomposition(test::decompose(cut))
-        , equation(decomposition, balancing)
+        , all(static_cast<Index>(decomposition.sub_meshes.size()))
+        , equation(decomposition, balancing, all)
         , time_step(dt)
         , parts(decomposition.sub_meshes.size())
         , complements(parts.size())
@@ -106,12 +107,12 @@ struct Equation {
             condense(s, shares);
         }
         return equation.solve(
-            complements, right_hand_sides,
-            [&](const Points& at_x) -> const Points& { return shares = residuals(at_x); }, guess, stop, x,
-            run_serially);
+            complements, right_hand_sides, [&](const Points& at_x) -> Points& { return shares = residuals(at_x); },
+            guess.size() > 0 ? &guess : nullptr, stop, x, run_serially);
     }
 
     Decomposition decomposition;
+    OnePeer all;
     InterfaceEquation equation;
     double time_step;
     SolverWorkspace workspace;

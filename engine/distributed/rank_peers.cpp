@@ -1,0 +1,34 @@
+#include "engine/distributed/rank_peers.h"
+
+#include <utility>
+
+#include "engine/distributed/packing.h"
+
+namespace seamflow {
+
+RankPeers::RankPeers(Conversation& talk, std::vector<Index> holders, std::vector<Index> places)
+    : InterfacePeers(talk.rank(), std::move(holders), std::move(places))
+    , talk_(&talk)
+{
+}
+
+InterfacePeers::Numbers RankPeers::gather(const std::vector<double>& own)
+{
+    Numbers all;
+    for (const Bytes& bytes : talk_->gather_to_all(packed(own)))
+        all.push_back(unpacked<double>(bytes));
+    return all;
+}
+
+InterfacePeers::Numbers RankPeers::exchange(std::span<const Index> others, const Numbers& to_each)
+{
+    std::vector<Bytes> bytes;
+    for (const std::vector<double>& numbers : to_each)
+        bytes.push_back(packed(numbers));
+    Numbers from_each;
+    for (const Bytes& received : talk_->exchange_with(others, std::move(bytes)))
+        from_each.push_back(unpacked<double>(received));
+    return from_each;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// Those that solve one equation on Γ together, each of them with some of the sub-meshes, and with memory of its own.
+/// A peer also knows of the sub-meshes around its own, the foreign ones. Its sub-meshes have numbers there; their
+/// places among those of all peers are in the same order. All peers call the functions that are virtual here in the
+/// same order, with what each has to give.
+class InterfacePeers {
+  public:
+    /// Numbers that each peer gives or gets.
+    using Numbers = std::vector<std::vector<double>>;
+
+    /// @param self the number of this peer.
+    /// @param holders per place, the number of the peer that has this sub-mesh.
+    /// @param places per sub-mesh that this peer knows, ascending.
+    InterfacePeers(Index self, std::vector<Index> holders, std::vector<Index> places)
+        : self_(self)
+        , holders_(std::move(holders))
+        , places_(std::move(places))
+    {
+    }
+    InterfacePeers(const InterfacePeers&) = delete;
+    InterfacePeers& operator=(const InterfacePeers&) = delete;
+    virtual ~InterfacePeers() = default;
+
+    [[nodiscard]] Index self() const { return self_; }
+    [[nodiscard]] const std::vector<Index>& holders() const { return holders_; }
+    [[nodiscard]] const std::vector<Index>& places() const { return places_; }
+    [[nodiscard]] Index n_places() const { return static_cast<Index>(holders_.size()); }
+
+    /// The peer that has a sub-mesh of this one's, or whether it is its own.
+    [[nodiscard]] Index holder_of(Index s) const { return holders_[places_[s]]; }
+    [[nodiscard]] bool is_own(Index s) const { return holder_of(s) == self_; }
+
+    /// What every peer gives, in the order of their numbers.
+    virtual Numbers gather(const std::vector<double>& own) = 0;
+
+    /// Gives numbers to some other peers, and takes what each of them has for this one.
+    /// @param others ascending; they name this one, too. @param to_each corresponds. @returns the same.
+    virtual Numbers exchange(std::span<const Index> others, const Numbers& to_each) = 0;
+
+    /// The largest of what the peers give, number by number; all of them call this together.
+    std::vector<double> largest(std::vector<double> own)
+    {
+        for (const std::vector<double>& numbers : gather(own))
+            std::ranges::transform(own, numbers, own.begin(), [](double a, double b) { return std::max(a, b); });
+        return own;
+    }
+
+  private:
+    Index self_;
+    std::vector<Index> holders_;
+    std::vector<Index> places_;
+};
+
+/// One that has all sub-meshes.
+class OnePeer final : public InterfacePeers {
+  public:
+    explicit OnePeer(Index n_sub_meshes)
+        : InterfacePeers(0, std::vector<Index>(at(n_sub_meshes), 0), numbers_below(n_sub_meshes))
+    {
+    }
+
+    Numbers gather(const std::vector<double>& own) override { return {own}; }
+    Numbers exchange(std::span<const Index>, const Numbers&) override { return {}; }
+
+  private:
+    static std::vector<Index> numbers_below(Index n)
+    {
+        std::vector<Index> numbers(at(n));
+        std::iota(numbers.begin(), numbers.end(), 0);
+        return numbers;
+    }
+};
+
+}  // namespace seamflow
