@@ -413,11 +413,18 @@ test("on a phone a finger that moves up scrolls past the surface, and sideways t
     await bare(opened);
     const session = await phone.newCDPSession(opened);
     const { x, y, width, height } = await opened.locator("#canvas").boundingBox();
-    const swipe = (xDistance, yDistance) =>
-        session.send("Input.synthesizeScrollGesture", { x: x + width / 2, y: y + height / 2, xDistance, yDistance, gestureSourceType: "touch", speed: 900 });
+    const swipe = async (dx, dy) => {
+        const at = (part) => [{ x: x + width / 2 + part * dx, y: y + height / 2 + part * dy }];
+        await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(0) });
+        for (let k = 1; k <= 10; ++k) {
+            await session.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(k / 10) });
+            await opened.waitForTimeout(20);
+        }
+        await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    };
     await seenAtRest(opened);
     await swipe(0, -200);
-    assert.ok((await opened.evaluate(() => scrollY)) > 100);
+    await opened.waitForFunction(() => scrollY > 100, null, { timeout: 30000 });
     await opened.evaluate(() => scrollTo(0, 0));
     await changes(opened, "a finger sideways", () => swipe(-120, 0), 0.05);
     assert.equal(await opened.evaluate(() => scrollY), 0);

@@ -51,6 +51,7 @@ export class View {
         this.#controls = new OrbitControls(this.#camera, canvas);
         // A finger that goes up or down scrolls the page; sideways it turns the surface, and two fingers do the rest.
         canvas.style.touchAction = "pan-y";
+        this.#controls.cursorStyle = "grab";
         this.#controls.addEventListener("change", () => this.draw());
         this.#controls.addEventListener("start", () => (this.#untouched = false));
         this.#controls.minDistance = 0.05;
