@@ -143,7 +143,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     if (prepared_->curvature.empty() && options().report.measures)
         curvature_before_ =
             measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, options().laplacian);
-    describe(*prepared_, mesh.mesh(), report);
+    describe(*prepared_, mesh, report);
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
     stepper_ =
         make_stepper(mesh.mesh(), prepared_->topology, prepared_->cut, options(), prepared_->curvature, progress);
@@ -212,7 +212,15 @@ void FlowRun::compare_with_reference(int step, const Rescaling& rescaling, const
             rescale(*reference_, rescaling);
     });
     of_step.reference_seconds = watch.lap();
-    of_step.distance = vertex_distance(mesh_.mesh(), reference_->positions(), stepper_->positions());
+    if (mesh_.n_copies() == 0) {
+        of_step.distance = vertex_distance(mesh_.mesh(), reference_->positions(), stepper_->positions());
+        return;
+    }
+    Points undecomposed = reference_->positions();
+    Points decomposed = stepper_->positions();
+    mesh_.take_along(undecomposed);
+    mesh_.take_along(decomposed);
+    of_step.distance = vertex_distance(mesh_.mesh(), undecomposed, decomposed);
 }
 
 /// An observer sees everything where the given mesh lies.
@@ -222,12 +230,12 @@ void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_s
     const PolygonMesh* separated = stepper_->separated();
     std::optional<Points> undecomposed_there;
     std::optional<PolygonMesh> separated_there;
-    if (mesh_.is_shifted() && undecomposed != nullptr) {
-        mesh_.shift_back(undecomposed_there.emplace(*undecomposed));
+    if (mesh_.is_elsewhere() && undecomposed != nullptr) {
+        mesh_.bring_back(undecomposed_there.emplace(*undecomposed));
         undecomposed = &*undecomposed_there;
     }
-    if (mesh_.is_shifted() && separated != nullptr) {
-        mesh_.shift_back(separated_there.emplace(*separated).vertices);
+    if (mesh_.is_elsewhere() && separated != nullptr) {
+        mesh_.bring_back(separated_there.emplace(*separated));
         separated = &*separated_there;
     }
     on_step({step, mesh_.given_positions(), of_step, separated, undecomposed, [&] { return capture(resume); }});

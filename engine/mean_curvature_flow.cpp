@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/flow_run.h"
+#include "engine/options/smoothed_radius.h"
 #include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/tasks/progress.h"
@@ -38,10 +39,13 @@ void require_ahead(const FlowOptions& options, const FlowState& state)
 
 }  // namespace
 
-FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step,
+FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& asked, const StepObserver& on_step,
                                const FlowControl& control)
 {
-    require_valid(options);
+    require_valid(asked);
+    FlowOptions options = asked;
+    options.time_step = time_step_of(asked, mesh);
+    options.radius.reset();
     const FlowState* const resume = control.resume.get();
     if (resume != nullptr)
         require_ahead(options, *resume);

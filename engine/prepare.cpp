@@ -49,22 +49,27 @@ Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topo
 /// Joins the faces and settles which vertices move.
 void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
 {
+    FlowOptions& options = prepared.options;
+    Topology& topology = prepared.topology;
     const auto look = [&] {
-        prepared.remarks.clear();
         // Part of the topology is made by one thread.
-        run_both(
-            [&] {
-                prepared.topology =
-                    make_constrained_topology(mesh.mesh(), prepared.options, progress.loop(), prepared.remarks);
-            },
-            [&] { prepared.size = size_of(mesh.mesh()); });
+        run_both([&] { topology = make_topology(mesh.mesh(), progress.loop()); },
+                 [&] { prepared.size = size_of(mesh.mesh()); });
+    };
+    const auto constrain_it = [&] {
+        prepared.remarks.clear();
+        constrain(topology, mesh.mesh(), options, progress.loop(), prepared.remarks);
+        prepared.size.vertices -= mesh.n_copies();
     };
     look();
+    mesh.weld_seams(topology, options.motion, progress.loop());
+    constrain_it();
     // The sub-meshes as they are have all faces.
-    if (prepared.options.report.keep_gaps || !mesh.leave_out_repeated_faces(prepared.topology))
+    if (options.report.keep_gaps || !mesh.leave_out_repeated_faces(topology))
         return;
-    prepared.options.cut.labels = mesh.of_faces_left(prepared.options.cut.labels);
+    options.cut.labels = mesh.of_faces_left(options.cut.labels);
     look();
+    constrain_it();
 }
 
 /// METIS has one thread: the others measure in the meantime; where it has nothing to do measuring comes afterwards.
@@ -121,12 +126,12 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
     return prepared;
 }
 
-void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport& report)
+void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
 {
     const FlowOptions& options = prepared.options;
     const Topology& topology = prepared.topology;
-    report.mesh.vertices = mesh.n_vertices();
-    report.mesh.faces = mesh.n_faces();
+    report.mesh.vertices = mesh.mesh().n_vertices();
+    report.mesh.faces = mesh.mesh().n_faces();
     report.time_step = options.time_step;
     report.convergence.approach = options.accuracy.approach;
     report.convergence.tolerance = options.accuracy.tolerance;
@@ -138,7 +143,8 @@ void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport&
     if (report.mesh.non_manifold_vertices > 0)
         report.remarks.push_back(std::to_string(report.mesh.non_manifold_vertices) +
                                  " vertices are held fixed because the mesh is not manifold there.");
-    report.mesh.fixed_vertices = static_cast<Index>(std::count(topology.fixed.begin(), topology.fixed.end(), 1));
+    for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
+        report.mesh.fixed_vertices += topology.moves(mesh.moves_with(v)) ? 0 : 1;
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
         const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
         if (width < needs_of_sweeps.width)

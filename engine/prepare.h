@@ -40,7 +40,7 @@ struct PreparedFlow {
 
 /// Checks a mesh and decides how it is to flow: which faces and vertices take part, whether steps are converged, which
 /// sub-meshes there are.
-/// @param mesh must outlive the result; faces that repeat others are left out.
+/// @param mesh must outlive the result; vertices along seams are joined, faces that repeat others are left out.
 /// @param is_observed whether somebody may ask for the state of the flow.
 /// @param resume the state that the flow is to go on from; nullptr: it begins.
 /// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
@@ -49,6 +49,6 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
                                       const FlowState* resume, Progress& progress);
 
 /// What the report says of that.
-void describe(const PreparedFlow& prepared, const PolygonMesh& mesh, FlowReport& report);
+void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report);
 
 }  // namespace seamflow

@@ -209,7 +209,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     if (change) {
-        run.surface = change->measure(file.mesh, loop);
+        run.surface = change->measure(file.mesh, report.mesh.moved_with, loop);
         remark_on_loss(command.options, run.surface, report.remarks);
     }
     run.seconds = whole.seconds();

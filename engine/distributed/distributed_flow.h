@@ -60,7 +60,8 @@ using RankObserver = std::function<void(const RankStepState&)>;
 /// Not for distributed flows are, so far: approaches but Approach::Sweep and Approach::Converged, and the latter with
 /// Δ_P, whose equations are not symmetric; sweeps with other conditions than the adapted ones;
 /// Scheme::ExplicitEuler; keep_edges; a free boundary; attachment weights; rescale; strict; what ReportOptions asks
-/// for beside `measures`, which count as if they were off. Labels and fixed vertices are those of the part.
+/// for beside `measures`, which count as if they were off; FlowOptions::radius. Vertices along seams stay as they are,
+/// as with an empty MotionOptions::weld. Labels and fixed vertices are those of the part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several

@@ -21,8 +21,8 @@ void require_movable(const Topology& topology, Index n_vertices)
                              [&](Index v) { return !topology.moves(v) && topology.kind[v] != VertexKind::Isolated; });
     if (!held.empty())
         throw InputError(fmt::format(
-            "rescaling moves every vertex, but {} {} held fixed, vertex {} (numbered from 0) among them, {}, or leave "
-            "the size as it comes",
+            "rescaling moves every vertex, but {} {} held fixed, vertex {} (numbered from 0) among them, {}; or leave "
+            "rescaling out and take the low-pass filter (--filter low-pass), with which what is large hardly shrinks",
             held.size(), held.size() == 1 ? "is" : "are", held.front(),
             topology.kind[held.front()] == VertexKind::Boundary
                 ? "which is on the boundary: let the boundary move (--boundary free)"
@@ -44,7 +44,8 @@ void require_closed(const PolygonMesh& mesh, const Topology& topology)
     if (topology.twin[h] < 0)
         throw InputError(
             fmt::format("only a closed surface has a volume to keep, but {} lies on the boundary: close the "
-                        "mesh, or keep its area instead",
+                        "mesh, keep its area instead (--rescale area), or take the low-pass filter (--filter "
+                        "low-pass), with which what is large hardly shrinks",
                         edge));
     throw InputError(
         fmt::format("the volume is that of faces oriented alike, but those at {} are not: orient the mesh, "

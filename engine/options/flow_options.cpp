@@ -29,6 +29,19 @@ bool positive_and_finite(double value)
     return value > 0.0 && std::isfinite(value);
 }
 
+void require_valid_amount(const FlowOptions& options)
+{
+    if (!options.radius) {
+        require(positive_and_finite(options.time_step), "time_step", options.time_step,
+                "positive and finite (length²)");
+        return;
+    }
+    require(positive_and_finite(options.radius->value), "radius", options.radius->value,
+            "positive and finite (a length, or a part of the bounding box's diagonal)");
+    if (options.time_step != 0.0)
+        throw OptionError("time_step and radius both say how much is smoothed: leave one of them out");
+}
+
 void require_valid_schwarz(const FlowOptions& options)
 {
     if (options.interface.sweep == Sweep::Alternating)
@@ -106,10 +119,14 @@ void require_valid_constraints(const FlowOptions& options)
         throw OptionError(fmt::format("boundary is free, but the Laplacian {} has no natural boundary conditions (its "
                                       "rows there are one-sided and unstable): use {}, or leave the boundary fixed",
                                       name_of(options.laplacian), names_of_symmetric_laplacians()));
+    if (options.motion.weld)
+        require(*options.motion.weld >= 0.0 && std::isfinite(*options.motion.weld), "weld", *options.motion.weld,
+                "at least 0 and finite (a length; empty: never)");
     if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
         throw OptionError("rescale is for results whose sub-meshes are joined; keep_gaps leaves them separate");
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
-        throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave one of them out");
+        throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave rescale "
+                          "out; Filter::LowPass, with which what is large hardly shrinks, lets them stay");
 }
 
 bool is_weight(double weight)
@@ -236,7 +253,7 @@ FlowOptions FlowOptions::plain()
 
 void require_valid(const FlowOptions& options)
 {
-    require(positive_and_finite(options.time_step), "time_step", options.time_step, "positive and finite (length²)");
+    require_valid_amount(options);
     require(options.steps >= 0 && options.steps <= FlowOptions::most_steps, "steps", options.steps,
             "at least 0 and at most 1000000000");
     require(options.cut.subdomains >= 0, "subdomains", options.cut.subdomains, "at least 0 (0: chosen)");

@@ -202,8 +202,20 @@ struct AccuracyOptions {
     double largest_update = 1.0;
 };
 
+/// A length in units of the mesh, or as a part of the diagonal of the bounding box of its vertices: {0.01, true} is 1 %
+/// of it.
+struct LengthOnMesh {
+    double value = 0.0;
+    bool of_diagonal = false;
+};
+
 /// Which vertices move, and where to.
 struct MotionOptions {
+    /// Within which distance, in units of length, vertices on the boundary count as at equal places, where two edges of
+    /// the boundary can become one (see weld): there they move as one, and stay separate vertices. So the surface goes
+    /// on across seams of its texture. What moves comes to one place, what is fixed stays where it is. 0: coordinates
+    /// have to be equal. Empty: never. Distributed flows do so never.
+    std::optional<double> weld = 0.0;
     /// Whether the boundary of the mesh moves.
     Boundary boundary = Boundary::Fixed;
     /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are allowed.
@@ -274,8 +286,12 @@ struct FlowOptions {
     FlowEquation flow = FlowEquation::MeanCurvature;
     Filter filter = Filter::Diffusion;
     /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
-    /// positive and finite.
+    /// positive and finite, or 0 where `radius` says how much is smoothed.
     double time_step = 0.0;
+    /// How much all steps together smooth, in place of time_step: bumps of this radius and smaller lose half their
+    /// height or more (see smoothed_radius). Must be positive and finite. FlowReport::time_step is the dt that it
+    /// takes.
+    std::optional<LengthOnMesh> radius = {};
     /// Number of steps, from 0 (which leaves the mesh as it is) to most_steps.
     int steps = 1;
     /// How a step is taken.

@@ -76,6 +76,9 @@ struct MeshReport {
     Index fixed_vertices = 0;
     /// Those held fixed because they lie on an edge of three or more faces, or where two fans of faces touch.
     Index non_manifold_vertices = 0;
+    /// #V: the lowest of the vertices that each moved as one with along seams (see MotionOptions::weld), its own number
+    /// where there are no others. Empty where no vertices did.
+    std::vector<Index> moved_with;
 };
 
 /// One sub-mesh.

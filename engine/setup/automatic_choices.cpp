@@ -77,11 +77,11 @@ bool speaks_of_sweeps(const FlowOptions& options)
 }
 
 /// Whether sweeps would take two sub-meshes at most.
-bool has_few_sub_meshes(const PolygonMesh& mesh, const FlowOptions& options)
+bool has_few_sub_meshes(const MeshSize& size, const FlowOptions& options)
 {
     if (!options.cut.labels.empty())
         return false;
-    return options.cut.subdomains > 0 ? options.cut.subdomains <= 2 : mesh.n_vertices() < 3 * needs_of_sweeps.vertices;
+    return options.cut.subdomains > 0 ? options.cut.subdomains <= 2 : size.vertices < 3 * needs_of_sweeps.vertices;
 }
 
 bool has_polygons(const PolygonMesh& mesh)
@@ -104,7 +104,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
-    if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(mesh, options) ||
+    if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(size, options) ||
         mesh.n_faces() == 0)
         return {};
     if (options.accuracy.approach == Approach::Automatic && !is_plain_flow(options) && !speaks_of_sub_meshes(options))
@@ -154,7 +154,7 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
     if (asked != Approach::Automatic || speaks_of_sub_meshes(options) || !is_symmetric(options.laplacian) ||
         options.scheme == Scheme::ExplicitEuler || options.keep_edges || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
-    const FlowSize flow{.vertices = mesh.n_vertices(),
+    const FlowSize flow{.vertices = size.vertices,
                         .rows = average_rows(mesh, topology, options.laplacian),
                         .time_step = options.time_step,
                         .steps = options.steps};

@@ -49,10 +49,9 @@ std::string remark_on(const std::vector<Index>& held, Laplacian laplacian)
 
 }  // namespace
 
-Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
-                                   std::vector<std::string>& remarks)
+void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+               std::vector<std::string>& remarks)
 {
-    Topology topology = make_topology(mesh, loop);
     if (options.motion.boundary == Boundary::Free)
         free_boundary(topology);
     hold(topology, options.motion.fixed_vertices);
@@ -69,7 +68,6 @@ Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& o
     if (!undefined.empty())
         remarks.push_back(remark_on(undefined, options.laplacian));
     hold(topology, undefined);
-    return topology;
 }
 
 bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)

@@ -10,14 +10,14 @@
 
 namespace seamflow {
 
-/// The topology of the mesh, with the vertices held fixed that the options name and those at which the flow is not
-/// defined.
+/// Holds the vertices fixed that the options name and those at which the flow is not defined.
+/// @param topology of the mesh, as make_topology makes it.
 /// @param remarks gets a sentence about those.
 /// @throws InputError for a number in MotionOptions::fixed_vertices that is none of a vertex; for another number of
 ///         attachment weights than the mesh has vertices; with MotionOptions::strict naming
 ///         the first vertex, edge or face that the flow is not defined at; without it too if it is defined nowhere.
-Topology make_constrained_topology(const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
-                                   std::vector<std::string>& remarks);
+void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+               std::vector<std::string>& remarks);
 
 /// Whether any vertex on the boundary moves.
 bool boundary_moves(const PolygonMesh& mesh, const Topology& topology);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/inspection/mesh_inspection.h"
+#include "partition/weld.h"
 
 namespace seamflow {
 
@@ -21,6 +23,12 @@ std::vector<Index> vertices_without_faces(const PolygonMesh& mesh)
     for (const Index v : mesh.face_vertices)
         has_face[v] = 1;
     return select(run_serially, mesh.n_vertices(), [&](Index v) { return has_face[v] == 0; });
+}
+
+/// Zeros of both signs differ.
+bool have_same_bits(const Point& a, const Point& b)
+{
+    return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
 }
 
 }  // namespace
@@ -35,6 +43,38 @@ FlowingMesh::FlowingMesh(PolygonMesh& given)
     of_isolated_ = given.vertices(isolated_, Eigen::all);
     copy_ = given;
     copy_->vertices.rowwise() -= offset_;
+}
+
+void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Loop& loop)
+{
+    if (!motion.weld)
+        return;
+    std::optional<Weld> welded = weld(mesh(), topology, *motion.weld, loop);
+    if (!welded)
+        return;
+    first_ = std::move(welded->first);
+    const Points& joined = welded->mesh.vertices;
+    const Points& own = mesh().vertices;
+    for (Index v = 0; v < given_->n_vertices(); ++v) {
+        if (first_[v] != v)
+            copies_.push_back(v);
+        if (!have_same_bits(own.row(v), joined.row(first_[v])))
+            apart_.push_back({v, own.row(v), joined.row(first_[v])});
+    }
+    for (Index& v : motion.fixed_vertices)
+        if (v >= 0 && v < given_->n_vertices())
+            v = first_[v];
+    if (motion.attachment_weights.size() == first_.size())
+        for (const Index v : copies_) {
+            double& weight = motion.attachment_weights[first_[v]];
+            weight = std::max(weight, motion.attachment_weights[v]);
+        }
+    remark_on_seams_ = fmt::format(
+        "{} vertices along seams, where {} of edges of one face each lie on each other, moved as one; they are still "
+        "separate vertices.",
+        welded->n_vertices, welded->n_edges == 1 ? "1 pair" : fmt::format("{} pairs", welded->n_edges));
+    topology = std::move(welded->topology);
+    copy_ = std::move(welded->mesh);
 }
 
 bool FlowingMesh::leave_out_repeated_faces(const Topology& topology)
@@ -77,12 +117,44 @@ std::vector<Index> FlowingMesh::of_faces_left(const std::vector<Index>& labels) 
 void FlowingMesh::move_to(const Points& positions)
 {
     copy(run_in_parallel, positions, given_->vertices);
-    if (copy_)
+    if (copy_) {
         copy_->vertices = positions;
-    if (is_shifted())
-        shift_back(given_->vertices);
+        take_along(copy_->vertices);
+    }
+    bring_back(given_->vertices);
 }
 
+void FlowingMesh::take_along(Points& positions) const
+{
+    for (const Index v : copies_)
+        positions.row(v) = positions.row(first_[v]);
+}
+
+void FlowingMesh::bring_back(Points& positions) const
+{
+    take_along(positions);
+    // What has not moved stays; of firsts it is seen before any of them is put where it was itself.
+    std::vector<const Apart*> unmoved;
+    for (const Apart& one : apart_)
+        if (positions.row(one.vertex) == one.joined)
+            unmoved.push_back(&one);
+    for (const Apart* one : unmoved)
+        positions.row(one->vertex) = one->own;
+    if (is_shifted())
+        shift_back(positions);
+}
+
+/// Its first vertices are those of mesh(): their faces get back those that they have in the given mesh.
+void FlowingMesh::bring_back(PolygonMesh& separated) const
+{
+    if (!copies_.empty())
+        for (std::size_t corner = 0; corner < separated.face_vertices.size(); ++corner)
+            if (separated.face_vertices[corner] < given_->n_vertices())
+                separated.face_vertices[corner] = given_->face_vertices[corner];
+    bring_back(separated.vertices);
+}
+
+/// Positions near the origin to where they belong. The difference may not be exact for vertices without faces.
 void FlowingMesh::shift_back(Points& positions) const
 {
     positions.rowwise() += offset_;
@@ -92,8 +164,12 @@ void FlowingMesh::shift_back(Points& positions) const
 
 void FlowingMesh::complete(FlowReport& report) const
 {
-    if (report.separated && is_shifted())
-        shift_back(report.separated->vertices);
+    if (report.separated && is_elsewhere())
+        bring_back(*report.separated);
+    if (!copies_.empty()) {
+        report.mesh.moved_with = first_;
+        report.remarks.push_back(remark_on_seams_);
+    }
     if (number_.empty())
         return;
     const Index n_left_out = given_->n_faces() - mesh().n_faces();

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "engine/options/flow_options.h"
 #include "engine/options/flow_report.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -10,7 +12,8 @@
 namespace seamflow {
 
 /// A mesh in the form in which it flows: as it was given, or as a copy, near the origin where the given one lies far
-/// from it (see origin_offset), and without faces that repeat others. Both move together.
+/// from it (see origin_offset), with vertices along seams joined (see weld), and without faces that repeat others. Both
+/// move together.
 class FlowingMesh {
   public:
     /// @param given must outlive this, which alone moves it.
@@ -18,6 +21,18 @@ class FlowingMesh {
 
     /// The mesh that flows. Its address does not change.
     [[nodiscard]] const PolygonMesh& mesh() const { return copy_ ? *copy_ : *given_; }
+
+    /// Lets vertices along seams move as one. To be called at most once, before anything refers to mesh().
+    /// @param topology of mesh(); becomes that of the mesh with vertices joined.
+    /// @param motion what it says of one of the vertices that are joined, it then says of their first: that this is
+    ///        held, or attached by the largest of their weights.
+    void weld_seams(Topology& topology, MotionOptions& motion, const Loop& loop);
+
+    /// How many vertices of mesh() have become one with others before them, and have no faces any more.
+    [[nodiscard]] Index n_copies() const { return static_cast<Index>(copies_.size()); }
+
+    /// The vertex of mesh() that a vertex of the given mesh moves with.
+    [[nodiscard]] Index moves_with(Index v) const { return first_.empty() ? v : first_[v]; }
 
     /// Leaves out faces that repeat others. A surface whose faces occur twice (to be seen from both sides, say) is
     /// manifold nowhere, but flows like the single one. To be called at most once, before anything refers to mesh().
@@ -35,24 +50,48 @@ class FlowingMesh {
     /// #V by 3: the positions of the given mesh.
     [[nodiscard]] const Points& given_positions() const { return given_->vertices; }
 
-    /// Whether the given mesh lies elsewhere.
-    [[nodiscard]] bool is_shifted() const { return !offset_.isZero(0.0); }
+    /// Whether positions of mesh() differ from those of the given mesh: they lie elsewhere, or vertices are joined.
+    [[nodiscard]] bool is_elsewhere() const { return is_shifted() || !copies_.empty(); }
 
-    /// Positions near the origin to where they belong. Vertices without faces, for which the difference may not be
-    /// exact, are where they were at first, bit for bit: nothing moves them.
+    /// Positions of mesh() to those of the given mesh. Vertices without faces, which nothing moves, are where they were
+    /// at first, bit for bit.
     /// @param positions #V by 3, and any number of further rows.
-    void shift_back(Points& positions) const;
+    void bring_back(Points& positions) const;
+
+    /// The same for sub-meshes that are separate (see FlowReport::separated).
+    void bring_back(PolygonMesh& separated) const;
+
+    /// Puts vertices that have become one with others to these.
+    /// @param positions #V by 3, of mesh().
+    void take_along(Points& positions) const;
 
     /// Makes the report one of the given mesh: faces that were left out have the sub-mesh of the face that they repeat.
     void complete(FlowReport& report) const;
 
   private:
+    /// A vertex that is joined with others from which it is apart.
+    struct Apart {
+        Index vertex;
+        /// Where it is itself, and where those that are joined are, both in mesh() and before the first step.
+        Point own;
+        Point joined;
+    };
+
+    /// Whether the given mesh lies elsewhere.
+    [[nodiscard]] bool is_shifted() const { return !offset_.isZero(0.0); }
+    void shift_back(Points& positions) const;
+
     PolygonMesh* given_;
     Point offset_;
     std::optional<PolygonMesh> copy_;
     /// Where the given mesh lies far away: the vertices without faces, and where they are.
     std::vector<Index> isolated_;
     Points of_isolated_ = Points(0, 3);
+    /// See Weld::first; empty where nothing is joined. Those that are not their own first.
+    std::vector<Index> first_;
+    std::vector<Index> copies_;
+    std::vector<Apart> apart_;
+    std::string remark_on_seams_;
     /// Per face of the given mesh: the number that it, or the one that it repeats, has among those that are left. Empty
     /// where none is repeated.
     std::vector<Index> number_;

@@ -86,15 +86,16 @@ std::string text_of(const PolygonMesh& mesh)
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, flow, filter, time_step, steps, scheme, keep_edges, cut, interface, accuracy, motion,
-                 resources, report] = options;
+    const auto& [laplacian, flow, filter, time_step, radius, steps, scheme, keep_edges, cut, interface, accuracy,
+                 motion, resources, report] = options;
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [boundary, fixed_vertices, strict, attachment, attachment_weights, rescale] = motion;
+    const auto& [weld, boundary, fixed_vertices, strict, attachment, attachment_weights, rescale] = motion;
     const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
-    // These do not change results, or (steps) only where they end.
+    // These do not change results, or (steps) only where they end; a radius has become a time step.
+    static_cast<void>(radius);
     static_cast<void>(steps);
     static_cast<void>(strict);
     static_cast<void>(keep_gaps);
@@ -122,6 +123,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"q", text_of(q)},
         {"overlap", text_of(overlap)},
         {"sweep", text_of(sweep)},
+        {"weld", text_of(weld)},
         {"boundary", text_of(boundary)},
         {"fixed_vertices", text_of(fixed_vertices)},
         {"attachment", text_of(attachment)},

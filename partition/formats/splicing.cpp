@@ -1,6 +1,7 @@
 #include "partition/formats/splicing.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -65,7 +66,21 @@ MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Loop& l
     , before_(std::move(before))
     , topology_(make_topology(mesh, loop))
     , normals_(mesh, topology_)
+    , welded_(weld(mesh, topology_, 0.0, loop))
 {
+    if (welded_)
+        across_seams_.emplace(welded_->mesh, welded_->topology);
+}
+
+std::optional<Point> MovedNormals::around_vertex(Index v, const Point& given) const
+{
+    if (welded_) {
+        const Index first = welded_->first[v];
+        const Point across = (*across_seams_)(first, before_);
+        if (std::abs(given.dot(across)) > std::abs(given.dot(normals_(v, before_))))
+            return on_the_side_of(given, across, (*across_seams_)(first, mesh_.vertices));
+    }
+    return around_vertex(topology_.corners_at(v), given);
 }
 
 std::optional<Point> MovedNormals::around_vertex(std::span<const Index> corners, const Point& given) const

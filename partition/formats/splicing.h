@@ -10,6 +10,7 @@
 #include "partition/io/byte_writer.h"
 #include "partition/io/text_scanner.h"
 #include "partition/metrics/vertex_normals.h"
+#include "partition/weld.h"
 
 namespace seamflow {
 
@@ -68,11 +69,9 @@ class MovedNormals {
     /// @returns nothing if it stays: the faces have not moved, or have no normal now.
     [[nodiscard]] std::optional<Point> around_vertex(std::span<const Index> corners, const Point& given) const;
 
-    /// The same for all corners at vertex v.
-    [[nodiscard]] std::optional<Point> around_vertex(Index v, const Point& given) const
-    {
-        return around_vertex(topology_.corners_at(v), given);
-    }
+    /// The same for all corners at vertex v. Along a seam (see weld) those of all copies count where the normal before
+    /// was more nearly theirs than that of v alone: shading that went on across the seam does so again.
+    [[nodiscard]] std::optional<Point> around_vertex(Index v, const Point& given) const;
 
     /// The same for one face.
     [[nodiscard]] std::optional<Point> of_face(Index f, const Point& given) const;
@@ -87,6 +86,9 @@ class MovedNormals {
     Points before_;
     Topology topology_;
     VertexNormals normals_;
+    /// Where the mesh has seams.
+    std::optional<Weld> welded_;
+    std::optional<VertexNormals> across_seams_;
 };
 
 /// A sentence for the user of a file whose numbers hold less than the results.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,7 @@
 #include "partition/io/byte_scanner.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
+#include "partition/point_numbers.h"
 
 namespace seamflow {
 
@@ -27,7 +27,7 @@ constexpr std::size_t normal_bytes = 12;
 constexpr std::size_t attribute_bytes = 2;
 constexpr std::size_t facet_bytes = normal_bytes + 36 + attribute_bytes;
 
-using Corner = std::array<double, 3>;
+using Corner = PointNumbers::Place;
 
 /// Compares with a keyword in lower case.
 bool is_keyword(std::string_view token, std::string_view keyword)
@@ -39,69 +39,6 @@ bool is_keyword(std::string_view token, std::string_view keyword)
 std::uint64_t declared_facets(std::string_view file)
 {
     return from_bytes<std::uint32_t>(file.data() + title_bytes, std::endian::little);
-}
-
-/// Mixes the bits of the coordinates, zeros positive: multiplication carries them up, the shift brings them down again.
-std::size_t hash_of(const Corner& point)
-{
-    std::uint64_t result = 0;
-    for (const double x : point) {
-        result = (result ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
-        result ^= result >> 32U;
-    }
-    return static_cast<std::size_t>(result);
-}
-
-/// Gives points numbers, equal ones the same, in the order in which they first come. Positive and negative zero are
-/// equal; the point keeps the sign that came first.
-class PointNumbers {
-  public:
-    PointNumbers()
-        : slots_(1024, -1)
-    {
-    }
-
-    Index operator()(const Corner& point);
-
-    [[nodiscard]] const std::vector<Corner>& points() const { return points_; }
-
-  private:
-    [[nodiscard]] std::size_t slot_of(const Corner& point) const;
-    void grow();
-
-    std::vector<Corner> points_;
-    /// A hash table with open addressing: numbers, or -1. Its length is a power of two.
-    std::vector<Index> slots_;
-};
-
-/// The slot that holds the number of this point, or the free one where it belongs.
-std::size_t PointNumbers::slot_of(const Corner& point) const
-{
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = hash_of(point) & mask;
-    while (slots_[slot] >= 0 && points_[static_cast<std::size_t>(slots_[slot])] != point)
-        slot = (slot + 1) & mask;
-    return slot;
-}
-
-void PointNumbers::grow()
-{
-    slots_.assign(2 * slots_.size(), -1);
-    for (std::size_t v = 0; v < points_.size(); ++v)
-        slots_[slot_of(points_[v])] = static_cast<Index>(v);
-}
-
-Index PointNumbers::operator()(const Corner& point)
-{
-    const std::size_t slot = slot_of(point);
-    if (slots_[slot] >= 0)
-        return slots_[slot];
-    const auto number = static_cast<Index>(points_.size());
-    points_.push_back(point);
-    slots_[slot] = number;
-    if (2 * points_.size() > slots_.size())
-        grow();
-    return number;
 }
 
 /// Joins the corners of facets to vertices, and facets to a mesh.

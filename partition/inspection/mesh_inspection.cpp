@@ -5,11 +5,13 @@
 #include <compare>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "partition/connected_components.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
+#include "partition/weld.h"
 
 namespace seamflow {
 
@@ -231,6 +233,10 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
         ++found.counts.faces_by_sides[std::min(mesh.face(f).size() - 3, found.counts.faces_by_sides.size() - 1)];
     found.counts.components = face_components(mesh, topology).count();
     inspect_edges(surface, loop, found);
+    if (const std::optional<Weld> welded = weld(mesh, topology, 0.0, loop)) {
+        found.counts.seam_edges = welded->n_edges;
+        found.counts.seam_vertices = welded->n_vertices;
+    }
     found.edge_lengths = measure_edges(surface);
     measure_box(mesh, found);
     found.defects.vertices_not_finite =

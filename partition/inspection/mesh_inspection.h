@@ -24,6 +24,9 @@ struct ElementCounts {
     Index components = 0;
     /// Edges of one face.
     Index boundary_edges = 0;
+    /// Pairs of those that lie on each other along seams, and the vertices at their ends that are doubled (see weld).
+    Index seam_edges = 0;
+    Index seam_vertices = 0;
 };
 
 /// In units of length; the mean is over half-edges.

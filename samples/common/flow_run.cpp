@@ -1,11 +1,13 @@
 #include "samples/common/flow_run.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "partition/metrics/noise.h"
 #include "partition/topology.h"
+#include "partition/weld.h"
 #include "samples/common/noise_removal.h"
 
 namespace seamflow {
@@ -13,23 +15,19 @@ namespace seamflow {
 namespace {
 
 /// Turns an amount that depends on the noise of the mesh into one that does not.
-void resolve_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
+void resolve_noise(SmoothCommand& command, const PolygonMesh& mesh, const Topology& topology, const Loop& loop,
+                   RunRecord& run)
 {
-    if (!command.amount.slope_of_noise)
-        return;
-    run.noise =
-        run.scale.mean_edge > 0.0 ? estimate_noise(mesh, make_topology(mesh, loop), loop) / run.scale.mean_edge : 0.0;
+    run.noise = run.scale.mean_edge > 0.0 ? estimate_noise(mesh, topology, loop) / run.scale.mean_edge : 0.0;
     const double edges =
         time_step_edges_for_noise(*run.noise, *command.amount.slope_of_noise, command.options.filter == Filter::LowPass,
                                   std::max(command.options.steps, 1));
     command.amount = {.time_step_edges = edges};
 }
 
-/// Where the amount depends on the noise of the mesh, no more is taken off it.
+/// No more is taken off the mesh than its noise.
 void stay_within_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, const RunRecord& run)
 {
-    if (!run.noise)
-        return;
     const double within = time_step_within_noise(mesh, *run.noise * run.scale.mean_edge, command.options, loop) /
                           command.options.time_step;
     // What is printed of it is to be all of it.
@@ -37,6 +35,18 @@ void stay_within_noise(SmoothCommand& command, const PolygonMesh& mesh, const Lo
     command.amount.time_step_edges = edges;
     command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
     command.chosen += fmt::format("--time-step-edges {}", edges);
+}
+
+/// Chooses the amount by the noise of the mesh as it flows.
+void resolve_by_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
+{
+    const Topology topology = make_topology(mesh, loop);
+    const std::optional<double> within = command.options.motion.weld;
+    const std::optional<Weld> welded = within ? weld(mesh, topology, *within, loop) : std::nullopt;
+    const PolygonMesh& flowing = welded ? welded->mesh : mesh;
+    resolve_noise(command, flowing, welded ? welded->topology : topology, loop, run);
+    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
+    stay_within_noise(command, flowing, loop, run);
 }
 
 }  // namespace
@@ -57,12 +67,14 @@ RunRecord begin_record(const SmoothCommand& command)
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
 {
     run.scale = measure_scale(mesh, loop);
-    resolve_noise(command, mesh, loop, run);
     MotionOptions& motion = command.options.motion;
+    motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale)) : std::nullopt;
     if (command.attach)
         motion.attachment = attachment_of(*command.attach, run.scale);
-    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
-    stay_within_noise(command, mesh, loop, run);
+    if (command.amount.slope_of_noise)
+        resolve_by_noise(command, mesh, loop, run);
+    else
+        command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
     if (motion.attachment > 0.0)
         run.attachment = motion.attachment;
     run.has_attachment_weights = !motion.attachment_weights.empty();

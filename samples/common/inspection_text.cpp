@@ -88,8 +88,12 @@ void print_sizes(std::ostream& out, const std::string& file, const MeshInspectio
         << "vertices   " << found.counts.vertices << '\n'
         << "edges      " << found.counts.edges << ", " << found.counts.boundary_edges
         << " of them on the boundary; shortest " << digits_of(found.edge_lengths.shortest) << ", mean "
-        << digits_of(found.edge_lengths.mean) << ", longest " << digits_of(found.edge_lengths.longest) << '\n'
-        << "faces      " << found.counts.faces;
+        << digits_of(found.edge_lengths.mean) << ", longest " << digits_of(found.edge_lengths.longest) << '\n';
+    if (found.counts.seam_edges > 0)
+        out << "seams      " << found.counts.seam_edges << (found.counts.seam_edges == 1 ? " pair" : " pairs")
+            << " of boundary edges lie on each other; smooth moves the " << found.counts.seam_vertices
+            << " vertices along them as one\n";
+    out << "faces      " << found.counts.faces;
     constexpr std::array<const char*, 5> names = {"triangles", "quads", "pentagons", "hexagons", "with more sides"};
     for (std::size_t k = 0; k < names.size(); ++k)
         if (found.counts.faces_by_sides[k] > 0)
@@ -126,7 +130,7 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     printer.print(found.defects.edges_without_length, "edges without length",
                   "with fujiwara smooth cannot move their ends");
     printer.print(found.defects.coincident_vertices, "vertices at the same place as one before them",
-                  "smooth moves each with its own faces: weld them where the surface should not open there");
+                  "smooth moves those along seams as one, and each of the others with its own faces");
     printer.print(found.defects.isolated_vertices, "vertices without faces", "they stay where they are");
     if (found.bits_for_detail < 30)
         printer.print("The mesh lies so far from the origin that its coordinates are coarse against its edges: floats "

@@ -235,6 +235,8 @@ std::string inspection_json(const std::string& file, const FaultLog& faults, con
         {"faces_by_sides", {{"3", sides[0]}, {"4", sides[1]}, {"5", sides[2]}, {"6", sides[3]}, {"more", sides[4]}}},
         {"components", found.counts.components},
         {"boundary_edges", found.counts.boundary_edges},
+        {"seam_edges", found.counts.seam_edges},
+        {"seam_vertices", found.counts.seam_vertices},
         {"shortest_edge", found.edge_lengths.shortest},
         {"mean_edge", found.edge_lengths.mean},
         {"longest_edge", found.edge_lengths.longest},

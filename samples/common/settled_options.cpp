@@ -168,7 +168,9 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         command.options.interface.transmission != FlowOptions::plain().interface.transmission)
         throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
     if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
-        throw OptionError("--rescale moves every vertex, but --fix holds some: leave one of them out");
+        throw OptionError(
+            "--rescale moves every vertex, but --fix holds some: leave --rescale out; --filter low-pass, with "
+            "which what is large hardly shrinks, lets them stay");
     for (const auto& [option, path] : {std::pair{"--trace", command.trace}, {"--task-graph", command.task_graph}})
         if (!path.empty() && command.options.scheme == Scheme::ExplicitEuler)
             throw OptionError(

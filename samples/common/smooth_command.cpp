@@ -73,6 +73,17 @@ std::string describe_presets()
     return text;
 }
 
+void add_weld(CLI::App& app, SmoothCommand& command)
+{
+    const auto parse = [](const std::string& text) -> std::optional<LengthOnMesh> {
+        return text == "never" ? std::nullopt : std::optional(parse_length(text));
+    };
+    add_parsed(
+        app, "--weld", command.weld, parse, "never|LENGTH",
+        "vertices so near to each other move as one where edges of one face each lie on each other, as along "
+        "seams of a texture; in units of length, or in % of the bounding box's diagonal [those at equal places]");
+}
+
 void add_flow_options(CLI::App& app, SmoothCommand& command)
 {
     FlowOptions& options = command.options;
@@ -115,6 +126,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--attach-property", command.attach_property, "the name of that property [weight]")
         ->needs(weights)
         ->type_name("NAME");
+    add_weld(app, command);
     app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or have edges or faces of size 0 where the Laplacian divides, "
                  "instead of holding "

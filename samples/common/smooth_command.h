@@ -47,6 +47,8 @@ struct SmoothCommand {
     std::optional<LengthOnMesh> attach;
     std::filesystem::path attach_weights;
     std::string attach_property = "weight";
+    /// Within which distance vertices along seams move as one; empty: they do not.
+    std::optional<LengthOnMesh> weld = LengthOnMesh{};
     /// The folder of the checkpoint; empty: none is kept.
     std::filesystem::path checkpoint;
     CheckpointPeriod checkpoint_period;

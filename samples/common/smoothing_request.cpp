@@ -16,12 +16,6 @@ namespace seamflow {
 
 namespace {
 
-/// dt / R²: what (1 + dt π²/(2R²))^steps = 2 leaves.
-double step_per_squared_radius(int steps)
-{
-    return 2.0 * std::expm1(std::numbers::ln2 / steps) / (std::numbers::pi * std::numbers::pi);
-}
-
 double require_step(double time_step, const char* option)
 {
     if (std::isnormal(time_step))
@@ -30,16 +24,6 @@ double require_step(double time_step, const char* option)
 }
 
 }  // namespace
-
-double smoothed_radius(double time_step, int steps)
-{
-    return std::sqrt(time_step / step_per_squared_radius(steps));
-}
-
-double time_step_for_radius(double radius, int steps)
-{
-    return radius * radius * step_per_squared_radius(steps);
-}
 
 double time_step_edges_for_noise(double noise, double slope, bool is_low_pass, int steps)
 {
@@ -62,11 +46,16 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
+double length_of(const LengthOnMesh& length, const MeshScale& scale)
+{
+    return length.value * (length.of_diagonal ? scale.diagonal : 1.0);
+}
+
 double attachment_of(const LengthOnMesh& length, const MeshScale& scale)
 {
     if (length.of_diagonal && !std::isnormal(scale.diagonal))
         throw InputError("has no size to measure --attach by; use a length");
-    const double radius = length.value * (length.of_diagonal ? scale.diagonal : 1.0);
+    const double radius = length_of(length, scale);
     const double weight = 1.0 / (radius * radius);
     if (!std::isnormal(weight))
         throw OptionError("--attach is too small or too large: 1/R² is beyond what a double can hold");
@@ -84,11 +73,7 @@ double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int
         return require_step(*request.time_step_edges * scale.mean_edge * scale.mean_edge, "--time-step-edges");
     if (!request.radius)
         return request.time_step;
-    const double radius = request.radius->value * (request.radius->of_diagonal ? scale.diagonal : 1.0);
-    const double time_step = time_step_for_radius(radius, std::max(steps, 1));
-    if (std::isinf(time_step))
-        throw OptionError("--radius is too large: the time step that it takes is beyond what a double can hold");
-    return require_step(time_step, "--radius");
+    return time_step_for_radius(*request.radius, steps, scale.diagonal);
 }
 
 }  // namespace seamflow

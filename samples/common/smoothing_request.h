@@ -3,15 +3,10 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/options/smoothed_radius.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
-
-/// A length in units of the mesh, or as a part of its bounding box's diagonal.
-struct LengthOnMesh {
-    double value = 0.0;
-    bool of_diagonal = false;
-};
 
 /// Reads a positive length: "0.5" in units of length, "2%" of the diagonal.
 /// @throws OptionError saying what was expected.
@@ -26,15 +21,8 @@ struct MeshScale {
 
 MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop = run_serially);
 
-/// How far a flow smooths, as a length on the surface: bumps of this radius are half as high after all steps, smaller
-/// ones lower yet, much larger ones hardly changed. A bump is one of z = a sin(πx/2R) sin(πy/2R), whose height each
-/// backward Euler step divides by 1 + dt π²/(2R²) (to first order in a).
-/// @param time_step in length². @param steps at least 1.
-/// @returns R, in units of length.
-double smoothed_radius(double time_step, int steps);
-
-/// The time step, in length², with which that many steps smooth bumps of radius R: the inverse of smoothed_radius.
-double time_step_for_radius(double radius, int steps);
+/// In units of length.
+double length_of(const LengthOnMesh& length, const MeshScale& scale);
 
 /// w = 1/R² of an attachment that leaves what is larger than R (see MotionOptions::attachment), in 1/length².
 /// @throws InputError for a mesh that has no size to measure by; OptionError for a length whose w no double can hold.

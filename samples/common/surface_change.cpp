@@ -38,41 +38,70 @@ PolygonMesh extract(const PolygonMesh& mesh, const std::vector<Index>& faces, co
     return part;
 }
 
+/// The mesh, and some of its faces, as its vertices move.
+class Surface {
+  public:
+    Surface(const PolygonMesh& mesh, const Loop& loop)
+        : mesh_(mesh)
+        , loop_(loop)
+        , has_volume_(encloses_volume(mesh, loop))
+    {
+        std::vector<char> is_in_sample(at(mesh.n_vertices()));
+        for_each(loop, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
+        const std::vector<Index> faces = select(loop, mesh.n_faces(), [&](Index f) {
+            return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
+        });
+        for (const Index f : faces)
+            sampled_vertices_.insert(sampled_vertices_.end(), mesh.face(f).begin(), mesh.face(f).end());
+        sort_unique(sampled_vertices_);
+        sample_ = extract(mesh, faces, sampled_vertices_);
+    }
+
+    [[nodiscard]] SurfaceLook look(const Points& positions) const
+    {
+        Points sampled(static_cast<Eigen::Index>(sampled_vertices_.size()), 3);
+        for (std::size_t i = 0; i < sampled_vertices_.size(); ++i)
+            sampled.row(static_cast<Eigen::Index>(i)) = positions.row(sampled_vertices_[i]);
+        SurfaceLook look{
+            .area = sum(loop_, mesh_.n_faces(), [&](Index f) { return vector_area(mesh_.face(f), positions).norm(); }),
+            .volume = std::nullopt,
+            .roughness = roughness(sample_, sampled)};
+        if (has_volume_)
+            look.volume = std::abs(volume_of_cones(mesh_, positions, positions.row(mesh_.face(0).front()), loop_));
+        return look;
+    }
+
+  private:
+    const PolygonMesh& mesh_;
+    const Loop& loop_;
+    /// Some of the faces, and which vertices of the mesh theirs are.
+    PolygonMesh sample_;
+    std::vector<Index> sampled_vertices_;
+    bool has_volume_;
+};
+
+/// The faces alone.
+/// @param moved_with see MeshReport; not empty.
+PolygonMesh joined(const PolygonMesh& mesh, const std::vector<Index>& moved_with, const Loop& loop)
+{
+    PolygonMesh faces{.vertices = Points(mesh.n_vertices(), 3),
+                      .face_offsets = mesh.face_offsets,
+                      .face_vertices = std::vector<Index>(mesh.face_vertices.size())};
+    for_each(loop, mesh.n_corners(),
+             [&](Index corner) { faces.face_vertices[corner] = moved_with[mesh.face_vertices[corner]]; });
+    return faces;
+}
+
 }  // namespace
 
 SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop)
     : positions_(mesh.n_vertices(), 3)
-    , has_volume_(encloses_volume(mesh, loop))
 {
     copy(loop, mesh.vertices, positions_);
-    std::vector<char> is_in_sample(at(mesh.n_vertices()));
-    for_each(loop, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
-    const std::vector<Index> faces = select(loop, mesh.n_faces(), [&](Index f) {
-        return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
-    });
-    for (const Index f : faces)
-        sampled_vertices_.insert(sampled_vertices_.end(), mesh.face(f).begin(), mesh.face(f).end());
-    sort_unique(sampled_vertices_);
-    sample_ = extract(mesh, faces, sampled_vertices_);
-    before_ = look_at(mesh, loop);
 }
 
-SurfaceLook SurfaceChangeMeter::look_at(const PolygonMesh& mesh, const Loop& loop) const
-{
-    PolygonMesh sample = sample_;
-    sample.vertices.resize(static_cast<Eigen::Index>(sampled_vertices_.size()), 3);
-    for (std::size_t i = 0; i < sampled_vertices_.size(); ++i)
-        sample.vertices.row(static_cast<Eigen::Index>(i)) = mesh.vertices.row(sampled_vertices_[i]);
-    SurfaceLook look{
-        .area = sum(loop, mesh.n_faces(), [&](Index f) { return vector_area(mesh.face(f), mesh.vertices).norm(); }),
-        .volume = std::nullopt,
-        .roughness = roughness(sample, sample.vertices)};
-    if (has_volume_)
-        look.volume = std::abs(volume_of_cones(mesh, mesh.vertices, mesh.vertices.row(mesh.face(0).front()), loop));
-    return look;
-}
-
-SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const Loop& loop) const
+SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
+                                          const Loop& loop) const
 {
     std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
     for_each_block(loop, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
@@ -82,7 +111,11 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const Loop& l
     LengthSums moved;
     for (const LengthSums& sums : of_block)
         moved.add(sums);
-    return {.before = before_, .after = look_at(mesh, loop), .moved = moved.statistics()};
+    std::optional<PolygonMesh> welded;
+    if (!moved_with.empty())
+        welded = joined(mesh, moved_with, loop);
+    const Surface surface(welded ? *welded : mesh, loop);
+    return {.before = surface.look(positions_), .after = surface.look(mesh.vertices), .moved = moved.statistics()};
 }
 
 }  // namespace seamflow

@@ -31,21 +31,16 @@ struct SurfaceChange {
 /// Compares a surface with what it was. Reads the mesh a few times; the bits do not depend on how loops are run.
 class SurfaceChangeMeter {
   public:
-    /// Notes what there is before it changes.
+    /// Notes where the vertices are before they move.
     SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop);
 
     /// @param mesh the same faces, with the vertices somewhere else.
-    [[nodiscard]] SurfaceChange measure(const PolygonMesh& mesh, const Loop& loop) const;
+    /// @param moved_with see MeshReport::moved_with: the surface goes on where vertices move as one.
+    [[nodiscard]] SurfaceChange measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
+                                        const Loop& loop) const;
 
   private:
-    [[nodiscard]] SurfaceLook look_at(const PolygonMesh& mesh, const Loop& loop) const;
-
     Points positions_;
-    /// Some of the faces, and which vertices of the mesh theirs are.
-    PolygonMesh sample_;
-    std::vector<Index> sampled_vertices_;
-    bool has_volume_;
-    SurfaceLook before_;
 };
 
 }  // namespace seamflow

@@ -127,6 +127,21 @@ class SameBits(WithFolder):
             seamflow.smooth(SimpleNamespace(points=V, cells=[SimpleNamespace(type="tetra", data=np.array(F))]))
 
 
+class Seams(unittest.TestCase):
+    def test_weld(self):
+        V = np.array(CUBE, float)[np.array(SIDES).ravel()]
+        F = np.arange(24).reshape(6, 4)
+        joined, report = seamflow.smooth(V, F, radius=0.5)
+        expected, _ = seamflow.smooth(np.array(CUBE, float), SIDES, radius=0.5)
+        np.testing.assert_array_equal(joined, expected[np.array(SIDES).ravel()])
+        self.assertIn("24 vertices along seams", " ".join(report["remarks"]))
+        apart, _ = seamflow.smooth(V, F, radius=0.5, weld="never")
+        np.testing.assert_array_equal(apart, V)
+        V[0] += 1e-6
+        near, _ = seamflow.smooth(V, F, radius=0.5, weld="0.01%")
+        np.testing.assert_allclose(near, joined, atol=1e-5)
+
+
 class WrongInput(unittest.TestCase):
     def test_sentences(self):
         V = np.array(CUBE, float)
@@ -159,7 +174,7 @@ class WrongInput(unittest.TestCase):
             (ValueError, "mesh: face 0 .* names vertex -1", (V, [[0, 1, -1]]), {}),
             (ValueError, "mesh: face 0 .* has 2 corners", (V, [[0, 1]]), {}),
             (ValueError, "face 1 .* list of whole numbers", (V, [[0, 1, 2], [0, 1, 2.5]]), {}),
-            (ValueError, "mesh: has no size to measure --radius by", (np.zeros((3, 3)), [[0, 1, 2]]), {"radius": "1%"}),
+            (ValueError, "mesh: has no size to measure a radius by", (np.zeros((3, 3)), [[0, 1, 2]]), {"radius": "1%"}),
             (TypeError, "takes V and F, or a mesh", (V,), {}),
         ):
             with self.subTest(sentence=sentence):

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "samples/common/smoothing_request.h"
 #include "tests/support/flows.h"
@@ -49,6 +50,36 @@ TEST_CASE("bumps of the radius lose half their height over all steps, smaller on
                 const double step_factor = 1.0 + (std::pow(2.0, 1.0 / steps) - 1.0) / (part * part);
                 CHECK(left == doctest::Approx(std::pow(step_factor, -steps)).epsilon(0.02));
             }
+}
+
+TEST_CASE("a flow takes a radius in place of a time step")
+{
+    const PolygonMesh mesh = make_noisy_sphere(500);
+    FlowOptions by_step;
+    by_step.steps = 3;
+    by_step.time_step = time_step_for_radius(0.2, 3);
+    FlowOptions by_radius;
+    by_radius.steps = 3;
+    by_radius.radius = {.value = 0.2};
+    PolygonMesh moved = mesh;
+    const FlowReport report = mean_curvature_flow(moved, by_radius);
+    CHECK(report.time_step == by_step.time_step);
+    CHECK(same_bits(moved.vertices, flowed(mesh, by_step)));
+    by_step.time_step = time_step_of({.radius = LengthOnMesh{0.02, true}}, measure_scale(mesh), 3);
+    by_radius.radius = {.value = 0.02, .of_diagonal = true};
+    CHECK(same_bits(flowed(mesh, by_radius), flowed(mesh, by_step)));
+
+    by_radius.time_step = 1.0;
+    CHECK_THROWS_AS(flowed(mesh, by_radius), OptionError);
+    by_radius.time_step = 0.0;
+    by_radius.radius = {.value = -1.0};
+    CHECK_THROWS_WITH_AS(flowed(mesh, by_radius), doctest::Contains("radius is -1"), OptionError);
+    by_radius.radius = {.value = 1e300};
+    CHECK_THROWS_AS(flowed(mesh, by_radius), OptionError);
+    by_radius.radius = {.value = 0.1, .of_diagonal = true};
+    PolygonMesh point = mesh;
+    point.vertices.setZero();
+    CHECK_THROWS_WITH_AS(flowed(point, by_radius), doctest::Contains("the mesh has no size"), InputError);
 }
 
 TEST_CASE("a model of another size, with a time step in its own units, gives the result in that size")

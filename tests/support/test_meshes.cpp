@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace seamflow::test {
 
@@ -177,6 +179,31 @@ PolygonMesh with_faces_flipped(const PolygonMesh& mesh, std::uint32_t seed)
         flipped.add_face(corners);
     }
     return flipped;
+}
+
+PolygonMesh split(const PolygonMesh& mesh, const std::vector<Index>& labels)
+{
+    PolygonMesh parts = mesh;
+    std::map<std::pair<Index, Index>, Index> copies;
+    std::vector<Index> first_label(at(mesh.n_vertices()), -1);
+    std::vector<Index> copied;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        for (Index corner = mesh.face_offsets[f]; corner < mesh.face_offsets[f + 1]; ++corner) {
+            const Index v = mesh.face_vertices[corner];
+            if (first_label[v] < 0)
+                first_label[v] = labels[f];
+            if (first_label[v] == labels[f])
+                continue;
+            const auto [copy, is_new] =
+                copies.try_emplace({v, labels[f]}, mesh.n_vertices() + static_cast<Index>(copied.size()));
+            if (is_new)
+                copied.push_back(v);
+            parts.face_vertices[corner] = copy->second;
+        }
+    parts.vertices.conservativeResize(mesh.n_vertices() + static_cast<Index>(copied.size()), 3);
+    for (std::size_t i = 0; i < copied.size(); ++i)
+        parts.vertices.row(mesh.n_vertices() + static_cast<Index>(i)) = mesh.vertices.row(copied[i]);
+    return parts;
 }
 
 std::vector<NamedMesh> assorted_meshes()

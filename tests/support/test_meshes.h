@@ -45,6 +45,11 @@ PolygonMesh side_by_side(const std::vector<PolygonMesh>& meshes);
 /// The mesh with about every second face turned round, at random.
 PolygonMesh with_faces_flipped(const PolygonMesh& mesh, std::uint32_t seed);
 
+/// The mesh with seams where faces of different labels meet: the faces of the second label at a vertex get a copy of
+/// it, those of the third another one. Copies come after all vertices.
+/// @param labels #F.
+PolygonMesh split(const PolygonMesh& mesh, const std::vector<Index>& labels);
+
 /// A mesh with a name for the messages of tests.
 struct NamedMesh {
     std::string name;

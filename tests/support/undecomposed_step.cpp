@@ -73,9 +73,14 @@ std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const
     PolygonMesh given = mesh;
     FlowingMesh flowing(given);
     std::vector<std::string> remarks;
-    Topology topology = make_constrained_topology(flowing.mesh(), options, run_serially, remarks);
-    if (!options.report.keep_gaps && flowing.leave_out_repeated_faces(topology))
-        topology = make_constrained_topology(flowing.mesh(), options, run_serially, remarks);
+    Topology topology = make_topology(flowing.mesh());
+    FlowOptions of_joined = options;
+    flowing.weld_seams(topology, of_joined.motion, run_serially);
+    constrain(topology, flowing.mesh(), of_joined, run_serially, remarks);
+    if (!options.report.keep_gaps && flowing.leave_out_repeated_faces(topology)) {
+        topology = make_topology(flowing.mesh());
+        constrain(topology, flowing.mesh(), of_joined, run_serially, remarks);
+    }
     PolygonMesh near = flowing.mesh();
     near.vertices = from.rowwise() - offset;
 
@@ -87,13 +92,15 @@ std::optional<UndecomposedStep> undecomposed_step(const PolygonMesh& mesh, const
     UndecomposedStep step{.positions = from};
     if (vertices.moving.empty())
         return step;
-    const Points positions = solve(near, topology, options, vertices, &step.condition);
+    Points positions = solve(near, topology, options, vertices, &step.condition);
+    flowing.take_along(positions);
     step.rounding = 1e-12 * from.cwiseAbs().maxCoeff();
     RandomNumbers random(1);
     for (int i = 0; i < 3; ++i) {
         PolygonMesh other = near;
         perturb(other.vertices, random);
-        const Points perturbed = solve(other, topology, options, vertices, nullptr);
+        Points perturbed = solve(other, topology, options, vertices, nullptr);
+        flowing.take_along(perturbed);
         step.rounding = std::max(step.rounding, 100.0 * (perturbed - positions).cwiseAbs().maxCoeff());
     }
     if (!(step.condition < 1e13) || !std::isfinite(step.rounding))

@@ -84,6 +84,25 @@ TEST_CASE("binary PLY in its own form: normals are those of the surface as it is
     CHECK((rewritten("a.ply", before, stand_up).content == binary_file(std::endian::little, "double", 1.0, 0.0, true)));
 }
 
+TEST_CASE("PLY in its own form: shading that goes on across a seam does so again, and flat shading stays flat")
+{
+    // A roof of two triangles, whose ridge is there twice.
+    const auto roof = [](const std::string& left, const std::string& right) {
+        return "ply\nformat ascii 1.0\nelement vertex 6\nproperty double x\nproperty double y\nproperty double z\n"
+               "property float nx\nproperty float ny\nproperty float nz\nelement face 2\n"
+               "property list uchar int vertex_indices\nend_header\n0 0 1 " +
+               left + "\n1 0 1 " + left + "\n0.5 -1 0 0 -0.7 0.7\n0 0 1 " + right + "\n1 0 1 " + right +
+               "\n0.5 1 0 0 0.7 0.7\n3 0 2 1\n3 4 5 3\n";
+    };
+    const auto lift_eaves = [](Points& points) { points(2, 2) = 1.0; };
+    const std::string smooth = rewritten("a.ply", roof("0 0 1", "0 0 1"), lift_eaves).content;
+    for (const char* ridge : {"\n0 0 1 0 0.4472136 0.8944272\n1 0 1 0 0.4472136 0.8944272\n0.5 -1 1",
+                              "\n0 0 1 0 0.4472136 0.8944272\n1 0 1 0 0.4472136 0.8944272\n0.5 1 0"})
+        CHECK(contains(smooth, ridge));
+    const std::string flat = rewritten("a.ply", roof("0 -0.7 0.7", "0 0.7 0.7"), lift_eaves).content;
+    CHECK(contains(flat, "\n0 0 1 0 0 1\n1 0 1 0 0 1\n0.5 -1 1 0 0 1\n0 0 1 0 0.7 0.7\n"));
+}
+
 TEST_CASE("PLY in its own form: whole numbers become doubles where the result has none")
 {
     const std::string before = binary_file<std::int16_t>(std::endian::big, "short", 1, 0);

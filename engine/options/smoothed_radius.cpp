@@ -1,0 +1,57 @@
+#include "engine/options/smoothed_radius.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/measure/surface_measures.h"
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+/// dt / R²: what (1 + dt π²/(2R²))^steps = 2 leaves.
+double step_per_squared_radius(int steps)
+{
+    return 2.0 * std::expm1(std::numbers::ln2 / steps) / (std::numbers::pi * std::numbers::pi);
+}
+
+}  // namespace
+
+double smoothed_radius(double time_step, int steps)
+{
+    return std::sqrt(time_step / step_per_squared_radius(steps));
+}
+
+double time_step_for_radius(double radius, int steps)
+{
+    return radius * radius * step_per_squared_radius(steps);
+}
+
+double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal)
+{
+    const double length = radius.value * (radius.of_diagonal ? diagonal : 1.0);
+    const double time_step = time_step_for_radius(length, std::max(steps, 1));
+    if (std::isinf(time_step))
+        throw OptionError("the radius is too large: the time step that it takes is beyond what a double can hold");
+    if (!std::isnormal(time_step))
+        throw InputError("has no size to measure a radius by; use a time step");
+    return time_step;
+}
+
+double time_step_of(const FlowOptions& options, const PolygonMesh& mesh)
+{
+    if (!options.radius)
+        return options.time_step;
+    const double diagonal = options.radius->of_diagonal ? extent_of(mesh.vertices) : 1.0;
+    if (!std::isfinite(diagonal))
+        require_valid(mesh);
+    try {
+        return time_step_for_radius(*options.radius, options.steps, diagonal);
+    } catch (const InputError& error) {
+        throw InputError(std::string("the mesh ") + error.what());
+    }
+}
+
+}  // namespace seamflow

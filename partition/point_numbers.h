@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "partition/index.h"
+
+namespace seamflow {
+
+/// Gives points numbers, equal ones the same, in the order in which they first come. Positive and negative zero are
+/// equal; the point keeps the sign that came first. What is no number is equal to nothing.
+class PointNumbers {
+  public:
+    using Place = std::array<double, 3>;
+
+    PointNumbers()
+        : slots_(1024, -1)
+    {
+    }
+
+    /// The number of a point, a new one if it has none.
+    Index operator()(const Place& point);
+
+    /// The number of a point, or -1.
+    [[nodiscard]] Index find(const Place& point) const { return slots_[slot_of(point)]; }
+
+    /// By their numbers.
+    [[nodiscard]] const std::vector<Place>& points() const { return points_; }
+
+  private:
+    [[nodiscard]] std::size_t slot_of(const Place& point) const;
+    void grow();
+
+    std::vector<Place> points_;
+    /// A hash table with open addressing: numbers, or -1. Its length is a power of two.
+    std::vector<Index> slots_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,353 @@
+#include "partition/weld.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "partition/index_lists.h"
+#include "partition/point_numbers.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What has become one: the lowest of each lot stands for it.
+class Lots {
+  public:
+    explicit Lots(Index n)
+        : above_(at(n))
+    {
+        std::iota(above_.begin(), above_.end(), 0);
+    }
+
+    Index lowest(Index i)
+    {
+        while (above_[i] != i)
+            i = above_[i] = above_[above_[i]];
+        return i;
+    }
+
+    void join(Index i, Index j)
+    {
+        const auto [low, high] = std::minmax({lowest(i), lowest(j)});
+        above_[high] = low;
+    }
+
+    /// The lowest of the lot that each is in.
+    std::vector<Index> all_lowest()
+    {
+        for (std::size_t i = 0; i < above_.size(); ++i)
+            above_[i] = above_[above_[i]];
+        return std::move(above_);
+    }
+
+  private:
+    /// Never above its own number, so that one pass in ascending order flattens all.
+    std::vector<Index> above_;
+};
+
+/// Calls `visit` for the cells around one, of each pair of neighbours for one of both.
+template <class Visit>
+void for_half_of_neighbours(const PointNumbers::Place& cell, Visit&& visit)
+{
+    constexpr int n_neighbours = 27;
+    for (int i = n_neighbours / 2 + 1; i < n_neighbours; ++i)
+        visit(PointNumbers::Place{cell[0] + i / 9 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i % 3 - 1});
+}
+
+/// Joins points that are near to each other, or near by way of others.
+/// @returns for each the lowest of those that it is joined with.
+std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, double distance)
+{
+    // So many within a cell are no copies of each other.
+    constexpr Index most_copies = 64;
+    PointNumbers cells;
+    const IndexLists in_cell = [&] {
+        std::vector<Index> cell_of;
+        for (const PointNumbers::Place& p : points)
+            cell_of.push_back(
+                cells({std::floor(p[0] / distance), std::floor(p[1] / distance), std::floor(p[2] / distance)}));
+        return make_lists(static_cast<Index>(cells.points().size()), [&](auto&& add) {
+            for (std::size_t i = 0; i < cell_of.size(); ++i)
+                add(cell_of[i], static_cast<Index>(i));
+        });
+    }();
+    Lots lots(static_cast<Index>(points.size()));
+    const auto join_if_near = [&](Index i, Index j) {
+        const PointNumbers::Place& p = points[i];
+        const PointNumbers::Place& q = points[j];
+        if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) <= distance)
+            lots.join(i, j);
+    };
+    for (Index c = 0; c < in_cell.size(); ++c) {
+        const auto here = in_cell[c];
+        if (here.size() > most_copies)
+            continue;
+        for (std::size_t i = 0; i < here.size(); ++i)
+            for (std::size_t j = i + 1; j < here.size(); ++j)
+                join_if_near(here[i], here[j]);
+        for_half_of_neighbours(cells.points()[c], [&](const PointNumbers::Place& neighbour) {
+            const Index other = cells.find(neighbour);
+            if (other < 0 || in_cell[other].size() > most_copies)
+                return;
+            for (const Index i : here)
+                for (const Index j : in_cell[other])
+                    join_if_near(i, j);
+        });
+    }
+    return lots.all_lowest();
+}
+
+/// The edges of one face.
+class Rims {
+  public:
+    Rims(const PolygonMesh& mesh, const Topology& topology, double distance, const Loop& loop)
+        : mesh_(mesh)
+        , topology_(topology)
+        , distance_(distance)
+    {
+        // Edges of three faces have no twins either.
+        const auto is_on_boundary = [&](Index v) { return topology.kind[v] == VertexKind::Boundary; };
+        halfedges_ = select(loop, mesh.n_corners(), [&](Index h) {
+            return topology.twin[h] < 0 && is_on_boundary(start(h)) && is_on_boundary(end(h));
+        });
+        number_places();
+    }
+
+    /// Two half-edges each, ascending.
+    [[nodiscard]] std::vector<std::array<Index, 2>> pairs() const;
+
+    [[nodiscard]] Index start(Index h) const { return mesh_.face_vertices[h]; }
+    [[nodiscard]] Index end(Index h) const { return mesh_.face_vertices[topology_.next(mesh_, h)]; }
+
+  private:
+    [[nodiscard]] PointNumbers::Place place(Index v) const
+    {
+        return {mesh_.vertices(v, 0), mesh_.vertices(v, 1), mesh_.vertices(v, 2)};
+    }
+
+    [[nodiscard]] bool is_near(Index v, Index w) const
+    {
+        return v == w || place(v) == place(w) ||
+               (distance_ > 0.0 && (mesh_.vertices.row(v) - mesh_.vertices.row(w)).norm() <= distance_);
+    }
+
+    void number_places()
+    {
+        PointNumbers numbers;
+        for (const Index h : halfedges_)
+            places_.push_back({numbers(place(start(h))), numbers(place(end(h)))});
+        n_places_ = static_cast<Index>(numbers.points().size());
+        if (distance_ == 0.0)
+            return;
+        const std::vector<Index> lowest = join_near(numbers.points(), distance_);
+        for (auto& [first, second] : places_) {
+            first = lowest[first];
+            second = lowest[second];
+        }
+    }
+
+    /// Whether the faces of two half-edges that run against each other lie on each other, as far as their next edges
+    /// tell: the sheets of a leaf that has two.
+    [[nodiscard]] bool lie_on_each_other(Index h, Index other) const
+    {
+        const auto after = [&](Index one) { return end(topology_.next(mesh_, one)); };
+        const auto before = [&](Index one) { return start(topology_.previous(mesh_, one)); };
+        return is_near(after(h), before(other)) && is_near(before(h), after(other));
+    }
+
+    [[nodiscard]] bool fit(Index h, Index other) const
+    {
+        return is_near(start(h), end(other)) && is_near(end(h), start(other)) && !lie_on_each_other(h, other);
+    }
+
+    const PolygonMesh& mesh_;
+    const Topology& topology_;
+    double distance_;
+    /// Those of the boundary, ascending, and the places of their starts and ends.
+    std::vector<Index> halfedges_;
+    std::vector<std::array<Index, 2>> places_;
+    Index n_places_ = 0;
+};
+
+std::vector<std::array<Index, 2>> Rims::pairs() const
+{
+    const IndexLists at_lower_place = make_lists(n_places_, [&](auto&& add) {
+        for (std::size_t i = 0; i < places_.size(); ++i)
+            if (places_[i][0] != places_[i][1])
+                add(std::min(places_[i][0], places_[i][1]), static_cast<Index>(i));
+    });
+    std::vector<std::array<Index, 2>> found;
+    std::vector<std::pair<Index, Index>> by_other_place;
+    for (Index p = 0; p < n_places_; ++p) {
+        by_other_place.clear();
+        for (const Index i : at_lower_place[p])
+            by_other_place.emplace_back(std::max(places_[i][0], places_[i][1]), i);
+        std::sort(by_other_place.begin(), by_other_place.end());
+        for (auto first = by_other_place.begin(); first != by_other_place.end();) {
+            const auto last =
+                std::find_if(first, by_other_place.end(), [&](const auto& one) { return one.first != first->first; });
+            if (last - first == 2) {
+                const Index i = first[0].second;
+                const Index j = first[1].second;
+                if (places_[i][0] == places_[j][1] && fit(halfedges_[i], halfedges_[j]))
+                    found.push_back({halfedges_[i], halfedges_[j]});
+            }
+            first = last;
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+/// A mesh in which edges are joined.
+class Welding {
+  public:
+    Welding(const PolygonMesh& mesh, const Rims& rims, std::vector<std::array<Index, 2>> pairs, const Loop& loop)
+        : mesh_(mesh)
+        , rims_(rims)
+        , loop_(loop)
+        , pairs_(std::move(pairs))
+    {
+        join();
+    }
+
+    /// Gives up what would make the mesh worse. What is given up makes nothing else worse: it opens fans of faces, and
+    /// brings no edges together.
+    void mend()
+    {
+        give_up(twice_in_faces());
+        if (pairs_.empty())
+            return;
+        topology_ = make_topology(welded_, loop_);
+        std::vector<std::uint8_t> is_bad(first_.size(), 0);
+        for_each(loop_, mesh_.n_vertices(),
+                 [&](Index v) { is_bad[v] = topology_.kind[v] == VertexKind::NonManifold ? 1 : 0; });
+        if (give_up(is_bad) && !pairs_.empty())
+            topology_ = make_topology(welded_, loop_);
+    }
+
+    std::optional<Weld> take();
+
+  private:
+    template <class Visit>
+    void for_each_joint(Visit&& visit) const
+    {
+        for (const auto& [h, other] : pairs_) {
+            visit(rims_.start(h), rims_.end(other));
+            visit(rims_.end(h), rims_.start(other));
+        }
+    }
+
+    void join()
+    {
+        Lots lots(mesh_.n_vertices());
+        for_each_joint([&](Index v, Index w) { lots.join(v, w); });
+        first_ = lots.all_lowest();
+        welded_.face_offsets = mesh_.face_offsets;
+        welded_.face_vertices.resize(mesh_.face_vertices.size());
+        for_each(loop_, mesh_.n_corners(), [&](Index h) { welded_.face_vertices[h] = first_[mesh_.face_vertices[h]]; });
+        // Topology knows no places.
+        welded_.vertices.resize(mesh_.n_vertices(), 3);
+    }
+
+    /// #V: 1 for each vertex that a face would have twice.
+    [[nodiscard]] std::vector<std::uint8_t> twice_in_faces() const
+    {
+        const auto faces = select(loop_, mesh_.n_faces(), [&](Index f) {
+            const auto is_joined = [&](Index v) { return first_[v] != v; };
+            return std::ranges::any_of(mesh_.face(f), is_joined);
+        });
+        std::vector<std::uint8_t> is_twice(first_.size(), 0);
+        std::vector<Index> corners;
+        for (const Index f : faces) {
+            corners.assign(welded_.face(f).begin(), welded_.face(f).end());
+            std::sort(corners.begin(), corners.end());
+            for (auto twin = corners.begin(); (twin = std::adjacent_find(twin, corners.end())) != corners.end(); ++twin)
+                is_twice[*twin] = 1;
+        }
+        return is_twice;
+    }
+
+    /// Leaves the pairs that end at bad vertices apart.
+    /// @param is_bad #V, by the first of what has become one. @returns whether there were any.
+    bool give_up(const std::vector<std::uint8_t>& is_bad)
+    {
+        const auto ends_badly = [&](const std::array<Index, 2>& pair) {
+            return is_bad[first_[rims_.start(pair[0])]] != 0 || is_bad[first_[rims_.end(pair[0])]] != 0;
+        };
+        if (std::erase_if(pairs_, ends_badly) == 0)
+            return false;
+        join();
+        return true;
+    }
+
+    const PolygonMesh& mesh_;
+    const Rims& rims_;
+    const Loop& loop_;
+    std::vector<std::array<Index, 2>> pairs_;
+    std::vector<Index> first_;
+    PolygonMesh welded_;
+    Topology topology_;
+};
+
+/// Moves what has become one into the middle of what it was.
+/// @returns how many vertices that were.
+Index place_in_middle(const std::vector<Index>& first, Points& positions)
+{
+    const auto n = static_cast<Index>(first.size());
+    std::vector<Index> copies;
+    std::vector<Index> has_copies;
+    for (Index v = 0; v < n; ++v)
+        if (first[v] != v) {
+            copies.push_back(v);
+            has_copies.push_back(first[v]);
+        }
+    sort_unique(has_copies);
+    const auto place_of = [&](Index v) {
+        return std::lower_bound(has_copies.begin(), has_copies.end(), v) - has_copies.begin();
+    };
+    // Of equal places the middle is just the same.
+    Points offsets = Points::Zero(std::ssize(has_copies), 3);
+    std::vector<int> counts(has_copies.size(), 1);
+    for (const Index v : copies) {
+        const auto i = place_of(first[v]);
+        offsets.row(i) += positions.row(v) - positions.row(first[v]);
+        ++counts[static_cast<std::size_t>(i)];
+    }
+    for (std::size_t i = 0; i < has_copies.size(); ++i)
+        positions.row(has_copies[i]) += offsets.row(static_cast<Eigen::Index>(i)) / counts[i];
+    return static_cast<Index>(copies.size() + has_copies.size());
+}
+
+std::optional<Weld> Welding::take()
+{
+    if (pairs_.empty())
+        return {};
+    copy(loop_, mesh_.vertices, welded_.vertices);
+    const Index n_vertices = place_in_middle(first_, welded_.vertices);
+    return Weld{.mesh = std::move(welded_),
+                .topology = std::move(topology_),
+                .first = std::move(first_),
+                .n_vertices = n_vertices,
+                .n_edges = static_cast<Index>(pairs_.size())};
+}
+
+}  // namespace
+
+std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance, const Loop& loop)
+{
+    const Rims rims(mesh, topology, distance, loop);
+    std::vector<std::array<Index, 2>> pairs = rims.pairs();
+    if (pairs.empty())
+        return {};
+    Welding welding(mesh, rims, std::move(pairs), loop);
+    welding.mend();
+    return welding.take();
+}
+
+}  // namespace seamflow

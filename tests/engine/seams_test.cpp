@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <memory>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "engine/state/flow_state.h"
+#include "partition/errors.h"
+#include "tests/support/flows.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+using namespace seamflow::test;
+
+namespace {
+
+/// Two parts of the faces, with a seam between them that runs through the mesh.
+std::vector<Index> halves(const PolygonMesh& mesh)
+{
+    std::vector<Index> labels;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        labels.push_back(mesh.vertices.row(mesh.face(f).front())[0] < 0.5 ? 0 : 1);
+    return labels;
+}
+
+FlowOptions in_sub_meshes()
+{
+    FlowOptions options;
+    options.laplacian = Laplacian::VirtualRefinement;
+    options.time_step = 0.001;
+    options.steps = 3;
+    options.cut.subdomains = 4;
+    return options;
+}
+
+/// The vertex of the whole mesh at the place of each vertex of a part.
+std::vector<Index> originals(const PolygonMesh& parts, const PolygonMesh& whole)
+{
+    std::vector<Index> of(at(parts.n_vertices()));
+    for (std::size_t corner = 0; corner < parts.face_vertices.size(); ++corner)
+        of[parts.face_vertices[corner]] = whole.face_vertices[corner];
+    return of;
+}
+
+/// Compares bit for bit.
+void check_flows_as_one(const PolygonMesh& parts, const PolygonMesh& whole, const FlowOptions& options)
+{
+    const Points expected = flowed(whole, options);
+    CHECK(same_bits(flowed(parts, options), expected(originals(parts, whole), Eigen::all)));
+}
+
+}  // namespace
+
+TEST_CASE("a surface with seams flows as the one without, bit for bit")
+{
+    for (const PolygonMesh& whole : height_fields(400)) {
+        const PolygonMesh parts = split(whole, halves(whole));
+        REQUIRE(parts.n_vertices() > whole.n_vertices() + 5);
+        for (const Laplacian laplacian : all_laplacians)
+            for (const int threads : {1, 4}) {
+                FlowOptions options = in_sub_meshes();
+                options.laplacian = laplacian;
+                options.resources.threads = threads;
+                check_flows_as_one(parts, whole, options);
+            }
+        FlowOptions options = in_sub_meshes();
+        options.cut.subdomains = 0;
+        options.keep_edges = 30.0;
+        check_flows_as_one(parts, whole, options);
+        options.keep_edges.reset();
+        options.accuracy.approach = Approach::Undecomposed;
+        check_flows_as_one(parts, whole, options);
+        options.motion.boundary = Boundary::Free;
+        options.motion.rescale = Rescale::Area;
+        check_flows_as_one(parts, whole, options);
+    }
+}
+
+TEST_CASE("faces that have all their vertices to themselves flow as a closed surface, far from the origin, too")
+{
+    PolygonMesh whole = triangle_torus(14, 10);
+    std::vector<Index> labels;
+    for (Index f = 0; f < whole.n_faces(); ++f)
+        labels.push_back(f);
+    FlowOptions options = in_sub_meshes();
+    options.time_step = 0.02;
+    options.motion.rescale = Rescale::Volume;
+    check_flows_as_one(split(whole, labels), whole, options);
+    whole.vertices.rowwise() += Point(1e6, 0.0, -1e5);
+    check_flows_as_one(split(whole, labels), whole, options);
+    options.motion.weld.reset();
+    CHECK_THROWS_AS(flowed(split(whole, labels), options), InputError);
+}
+
+TEST_CASE("what is said of seams: a remark, who moved with whom, and who was fixed")
+{
+    const PolygonMesh whole = make_triangles(400);
+    PolygonMesh parts = split(whole, halves(whole));
+    const Points before = parts.vertices;
+    PolygonMesh mesh = whole;
+    const FlowReport of_whole = mean_curvature_flow(mesh, in_sub_meshes());
+    CHECK(of_whole.mesh.moved_with.empty());
+    mesh = parts;
+    const FlowReport report = mean_curvature_flow(mesh, in_sub_meshes());
+    CHECK(report.mesh.moved_with == originals(parts, whole));
+    CHECK(report.mesh.vertices == parts.n_vertices());
+    CHECK(std::ranges::any_of(report.remarks, [](const std::string& r) { return r.find("along seams") != r.npos; }));
+    // Copies at both ends of the seam lie on the boundary.
+    CHECK(report.mesh.fixed_vertices == of_whole.mesh.fixed_vertices + 2);
+    CHECK(report.mesh.non_manifold_vertices == 0);
+
+    FlowOptions apart = in_sub_meshes();
+    apart.motion.weld.reset();
+    mesh = parts;
+    const FlowReport of_parts = mean_curvature_flow(mesh, apart);
+    CHECK(of_parts.mesh.moved_with.empty());
+    for (Index v = 0; v < whole.n_vertices(); ++v)
+        if (std::ranges::count(report.mesh.moved_with, v) > 1)
+            CHECK(mesh.vertices.row(v) == before.row(v));
+}
+
+TEST_CASE("a copy that is fixed or attached holds all of them")
+{
+    const PolygonMesh whole = make_triangles(400);
+    const PolygonMesh parts = split(whole, halves(whole));
+    const Index copy = parts.n_vertices() - 3;
+    const Index first = originals(parts, whole)[copy];
+    FlowOptions of_parts = in_sub_meshes();
+    FlowOptions of_whole = in_sub_meshes();
+    of_parts.motion.fixed_vertices = {copy};
+    of_whole.motion.fixed_vertices = {first};
+    const Points held = flowed(parts, of_parts);
+    CHECK(held.row(copy) == parts.vertices.row(copy));
+    CHECK(same_bits(held.topRows(whole.n_vertices()), flowed(whole, of_whole)));
+
+    of_parts.motion.fixed_vertices.clear();
+    of_whole.motion.fixed_vertices.clear();
+    of_parts.motion.attachment_weights.assign(at(parts.n_vertices()), 1.0);
+    of_whole.motion.attachment_weights.assign(at(whole.n_vertices()), 1.0);
+    of_parts.motion.attachment_weights[copy] = of_whole.motion.attachment_weights[first] = 500.0;
+    CHECK(same_bits(flowed(parts, of_parts).topRows(whole.n_vertices()), flowed(whole, of_whole)));
+}
+
+TEST_CASE("copies that are a little apart come to one place, and stay where they are if that is fixed")
+{
+    const PolygonMesh whole = make_quads(400);
+    PolygonMesh parts = split(whole, halves(whole));
+    const std::vector<Index> of = originals(parts, whole);
+    for (Index v = whole.n_vertices(); v < parts.n_vertices(); ++v)
+        parts.vertices.row(v) += Point(1e-5, 0.0, -1e-5);
+    FlowOptions options = in_sub_meshes();
+    options.motion.weld = 1e-4;
+    options.motion.fixed_vertices = {parts.n_vertices() - 2};
+    const Topology topology = make_topology(whole);
+    const Points moved = flowed(parts, options);
+    for (Index v = whole.n_vertices(); v < parts.n_vertices(); ++v) {
+        const bool stays = topology.kind[of[v]] == VertexKind::Boundary || v == parts.n_vertices() - 2;
+        for (const Index w : {v, of[v]}) {
+            CHECK((moved.row(w) == parts.vertices.row(w)) == stays);
+            CHECK((moved.row(w) == moved.row(v)) == (w == v || !stays));
+        }
+    }
+    // Where nothing flows nothing is moved.
+    options.steps = 0;
+    CHECK(same_bits(flowed(parts, options), parts.vertices));
+}
+
+TEST_CASE("sub-meshes that are written as they are keep seams, and what an observer sees has all vertices")
+{
+    const PolygonMesh whole = make_triangles(400);
+    const PolygonMesh parts = split(whole, halves(whole));
+    const std::vector<Index> of = originals(parts, whole);
+    FlowOptions options = in_sub_meshes();
+    options.interface.conditions = Conditions::Robin;
+    options.report.keep_gaps = true;
+    options.report.reference = true;
+    PolygonMesh mesh = parts;
+    std::vector<Points> seen;
+    FlowReport report = mean_curvature_flow(mesh, options, [&](const StepState& state) {
+        seen = {state.positions, *state.reference_positions, state.separated->vertices};
+    });
+    PolygonMesh mesh_of_whole = whole;
+    std::vector<Points> seen_of_whole;
+    const FlowReport of_whole = mean_curvature_flow(mesh_of_whole, options, [&](const StepState& state) {
+        seen_of_whole = {state.positions, *state.reference_positions};
+    });
+    for (const std::size_t i : {0, 1})
+        CHECK(same_bits(seen[i], seen_of_whole[i](of, Eigen::all)));
+    REQUIRE(report.separated);
+    CHECK(seen[2] == report.separated->vertices);
+    CHECK(report.separated->n_vertices() == of_whole.separated->n_vertices() + parts.n_vertices() - whole.n_vertices());
+    const PolygonMesh& separated = *report.separated;
+    for (std::size_t corner = 0; corner < parts.face_vertices.size(); ++corner) {
+        const Index v = separated.face_vertices[corner];
+        if (v < parts.n_vertices())
+            CHECK(v == parts.face_vertices[corner]);
+        CHECK(separated.vertices.row(v) == of_whole.separated->vertices.row(of_whole.separated->face_vertices[corner]));
+    }
+}
+
+TEST_CASE("a flow with seams goes on from a state as if it had never ended, but not with seams apart")
+{
+    const PolygonMesh whole = make_triangles(400);
+    const PolygonMesh parts = split(whole, halves(whole));
+    FlowOptions options = in_sub_meshes();
+    auto state = std::make_shared<FlowState>();
+    PolygonMesh mesh = parts;
+    mean_curvature_flow(mesh, options, [&](const StepState& now) {
+        if (now.step == 1)
+            *state = now.capture();
+    });
+    PolygonMesh again = parts;
+    mean_curvature_flow(again, options, {}, {.resume = state});
+    CHECK(same_bits(again.vertices, mesh.vertices));
+    options.motion.weld.reset();
+    again = parts;
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options, {}, {.resume = state}), doctest::Contains("weld was 0"),
+                         OptionError);
+    options.motion.weld = -1.0;
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(again, options), doctest::Contains("weld is -1"), OptionError);
+}
