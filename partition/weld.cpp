@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "partition/index_lists.h"
 #include "partition/point_numbers.h"
 
@@ -348,6 +350,14 @@ std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, doub
     Welding welding(mesh, rims, std::move(pairs), loop);
     welding.mend();
     return welding.take();
+}
+
+std::string remark_on_seams(Index n_vertices, Index n_edges)
+{
+    return fmt::format(
+        "{} vertices along seams, where {} of edges of one face each lie on each other, moved as one; they are still "
+        "separate vertices.",
+        n_vertices, n_edges == 1 ? "1 pair" : fmt::format("{} pairs", n_edges));
 }
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "partition/loop.h"
@@ -34,5 +35,9 @@ struct Weld {
 /// @returns nothing if nothing is joined.
 std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance,
                          const Loop& loop = run_serially);
+
+/// What became of seams, a sentence for the user.
+/// @param n_vertices, n_edges see Weld.
+std::string remark_on_seams(Index n_vertices, Index n_edges);
 
 }  // namespace seamflow

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/deal.h"
-#include "engine/distributed/distributed_cut.h"
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/mpi_communicator.h"
 #include "engine/distributed/shared_mesh_file.h"
@@ -21,6 +21,7 @@
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "partition/formats/index_files.h"
+#include "partition/index_lists.h"
 #include "partition/io/input_file.h"
 #include "samples/common/distributed_command.h"
 #include "samples/common/flow_run.h"
@@ -96,7 +97,7 @@ class RankRun {
         const SliceBounds bounds = gather_bounds(talk, slice);
         if (!command_.labels.empty())
             slice.labels = read_labels_together(talk, slice);
-        const std::vector<std::int64_t> fixed = read_fixed(talk);
+        std::vector<std::int64_t> fixed = read_fixed(talk);
         record_.run.read_seconds = reading.seconds();
         print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
         print_amount(out_, record_.run.scale, command_.options);
@@ -105,9 +106,11 @@ class RankRun {
         const Stopwatch setting_up;
         cut(talk, slice);
         about_file(command_.input, [&] { part_ = deal(talk, slice); });
+        move_with_seams(fixed);
         part_.fixed.resize(part_.vertex_numbers.size());
         std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(),
                                [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
+        bring_back(talk, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         record_.setup_seconds = setting_up.seconds();
     }
@@ -164,14 +167,25 @@ class RankRun {
 
     void cut(Conversation& talk, RankSlice& slice)
     {
-        const DistributedCut found = command_.labels.empty()
-                                         ? cut_together(talk, slice, command_.options)
-                                         : cut_together_by_labels(talk, slice, command_.options);
+        DistributedCut found = command_.labels.empty() ? cut_together(talk, slice, command_.options)
+                                                       : cut_together_by_labels(talk, slice, command_.options);
         if (!found.choice.empty())
             record_.choices.push_back(found.choice);
         if (!command_.parts.empty())
             labels_ = labels_of_all_faces(talk, slice, found.left_out);
         record_.remarks.insert(record_.remarks.begin(), found.remarks.begin(), found.remarks.end());
+        seams_ = std::move(found.seams);
+    }
+
+    /// Vertices along seams are held where one of them is that they move as one with.
+    void move_with_seams(std::vector<std::int64_t>& fixed) const
+    {
+        std::vector<std::int64_t> firsts;
+        for (const SeamVertex& one : seams_.vertices)
+            if (std::ranges::binary_search(fixed, one.vertex))
+                firsts.push_back(one.first);
+        fixed.insert(fixed.end(), firsts.begin(), firsts.end());
+        sort_unique(fixed);
     }
 
     /// Writes, and tells what was done.
@@ -181,6 +195,7 @@ class RankRun {
         RankSlice slice;
         slice.vertices = slice_vertices_;
         collect_positions(talk, part_, slice);
+        bring_back(talk, seams_, slice);
         part_ = {};
         record_.moved = measure_moves(talk, slice_vertices_, slice.vertices);
         const auto remarks = file_->write(talk, command_.output, slice.vertices);
@@ -218,6 +233,7 @@ class RankRun {
     /// Where the vertices of this rank's stretch are in the file, and with --parts the labels of its faces.
     Points slice_vertices_ = Points(0, 3);
     std::vector<Index> labels_;
+    JoinedSeams seams_;
 };
 
 /// Rank 0 speaks for all.

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/inspection/mesh_inspection.h"
@@ -69,10 +67,7 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Lo
             double& weight = motion.attachment_weights[first_[v]];
             weight = std::max(weight, motion.attachment_weights[v]);
         }
-    remark_on_seams_ = fmt::format(
-        "{} vertices along seams, where {} of edges of one face each lie on each other, moved as one; they are still "
-        "separate vertices.",
-        welded->n_vertices, welded->n_edges == 1 ? "1 pair" : fmt::format("{} pairs", welded->n_edges));
+    remark_on_seams_ = remark_on_seams(welded->n_vertices, welded->n_edges);
     topology = std::move(welded->topology);
     copy_ = std::move(welded->mesh);
 }
@@ -178,9 +173,7 @@ void FlowingMesh::complete(FlowReport& report) const
     std::transform(number_.begin(), number_.end(), labels.begin(),
                    [&](Index number) { return report.cut.labels[number]; });
     report.cut.labels = std::move(labels);
-    report.remarks.push_back(fmt::format("{} {} the same vertices as one before and took no part in the flow; they are "
-                                         "still there.",
-                                         n_left_out, n_left_out == 1 ? "face has" : "faces have"));
+    report.remarks.push_back(remark_on_repeated_faces(n_left_out));
 }
 
 }  // namespace seamflow

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/deal.h"
-#include "engine/distributed/distributed_cut.h"
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/thread_communicator.h"
 #include "engine/distributed/whole_mesh.h"

@@ -9,14 +9,16 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/cut/hilbert.h"
-#include "engine/distributed/distributed_cut.h"
 #include "engine/distributed/thread_communicator.h"
 #include "partition/cut/cut.h"
 #include "partition/repair/repair.h"
 #include "partition/vector_area.h"
+#include "partition/weld.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 
@@ -231,6 +233,56 @@ TEST_CASE("faces that repeat others are left out of the cut, and have the labels
             check(cut_by_ranks(mesh, 9, chunk, n, given), by_labels);
         }
     }
+}
+
+TEST_CASE("seams are joined as on one machine, and what was joined comes back to its vertices")
+{
+    const PolygonMesh whole = make_mixed_polygons(900);
+    std::vector<Index> halves;
+    for (Index f = 0; f < whole.n_faces(); ++f)
+        halves.push_back(whole.vertices.row(whole.face(f).front())[0] < 0.5 ? 0 : 1);
+    PolygonMesh mesh = test::split(whole, halves);
+    // Not quite at equal places.
+    for (Index v = 0; v < mesh.n_vertices(); v += 7)
+        mesh.vertices(v, 2) += 1e-9;
+    const double distance = 1e-6;
+    const Topology topology = make_topology(mesh);
+    const auto expected = weld(mesh, topology, distance);
+    REQUIRE(expected);
+    for (const Index chunk : {200, 10'000})
+        for (const int n : {1, 4}) {
+            CAPTURE(chunk);
+            CAPTURE(n);
+            FlowOptions options;
+            options.cut.subdomains = 6;
+            options.motion.weld = distance;
+            options.resources.threads = 1;
+            run_on_threads(n, [&](Communicator& communicator) {
+                run_together(communicator, [&](Conversation& talk) {
+                    const std::vector<Index> labels(mesh.n_faces(), 0);
+                    RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
+                    const Points before = slice.vertices;
+                    const DistributedCut cut = cut_together(talk, slice, options, chunk);
+                    REQUIRE(cut.remarks.size() == 1);
+                    CHECK(cut.remarks.front() == remark_on_seams(expected->n_vertices, expected->n_edges));
+                    const RankSlice joined = test::slice_of(expected->mesh, labels, talk.rank(), n);
+                    CHECK(slice.corners == joined.corners);
+                    bring_back(talk, cut.seams, slice);
+                    CHECK(test::same_bits(slice.vertices, before));
+                    // As if the flow had moved what has faces, by as much everywhere.
+                    Points moved = joined.vertices;
+                    moved.rowwise() += Point(1.0, 2.0, 4.0);
+                    slice.vertices = moved;
+                    bring_back(talk, cut.seams, slice);
+                    const Index begin = static_cast<Index>(std::int64_t{mesh.n_vertices()} * talk.rank() / n);
+                    for (Index v = 0; v < static_cast<Index>(moved.rows()); ++v) {
+                        const Point expected_place =
+                            expected->mesh.vertices.row(expected->first[begin + v]) + Point(1.0, 2.0, 4.0);
+                        CHECK(Point(slice.vertices.row(v)) == expected_place);
+                    }
+                });
+            });
+        }
 }
 
 TEST_CASE("labels without any sense are mended alike by any number of ranks")

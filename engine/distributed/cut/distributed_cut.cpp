@@ -1,4 +1,4 @@
-#include "engine/distributed/distributed_cut.h"
+#include "engine/distributed/cut/distributed_cut.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,6 +16,7 @@
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/workers.h"
 #include "partition/cut/cut.h"
+#include "partition/inspection/mesh_inspection.h"
 
 namespace seamflow {
 
@@ -68,6 +69,18 @@ Number sum_of(Conversation& talk, Number own)
     return sum;
 }
 
+/// Adds the ends of half-edges without twins.
+/// @param crossing ascending: those whose twins are elsewhere.
+void add_boundary(const MeshPart& part, const Topology& topology, std::span<const Index> crossing,
+                  std::vector<Number>& vertices)
+{
+    const PolygonMesh& mesh = part.mesh;
+    const auto is_open = [&](Index h) { return topology.twin[h] < 0 && !std::ranges::binary_search(crossing, h); };
+    for (const Index h : select(run_in_parallel, mesh.n_corners(), is_open))
+        for (const Index v : {mesh.face_vertices[h], mesh.face_vertices[topology.next(mesh, h)]})
+            vertices.push_back(part.vertex_numbers[v]);
+}
+
 /// A cut on its way through all ranks.
 class TogetherCut {
   public:
@@ -80,6 +93,7 @@ class TogetherCut {
         , options_(options)
         , chunk_(chunk)
         , given_(std::move(given))
+        , may_join_(options.motion.weld.has_value())
     {
         require_corners(slice, bounds_, talk.rank());
     }
@@ -87,11 +101,16 @@ class TogetherCut {
     DistributedCut run()
     {
         std::optional<DistributedCut> cut;
-        // Again where faces had to be left out.
+        // Again where seams were joined, or faces had to be left out.
         while (!cut && bounds_.faces.back() > 0)
             cut = bounds_.faces.back() <= chunk_ ? by_one_rank() : by_all_ranks();
         if (!cut)
             cut.emplace();
+        if (!seams_.remark.empty())
+            cut->remarks.push_back(seams_.remark);
+        if (const Number n = sum_of(talk_, std::ssize(left_out_.faces)); n > 0)
+            cut->remarks.push_back(remark_on_repeated_faces(n));
+        cut->seams = std::move(seams_);
         cut->left_out = std::move(left_out_);
         return *std::move(cut);
     }
@@ -103,8 +122,8 @@ class TogetherCut {
         if (options_.cut.subdomains > 0)
             return options_.cut.subdomains;
         MeshSize size;
-        size.vertices =
-            static_cast<Index>(std::min<Number>(bounds_.vertices.back(), std::numeric_limits<Index>::max()));
+        size.vertices = static_cast<Index>(
+            std::min<Number>(bounds_.vertices.back() - seams_.n_copies, std::numeric_limits<Index>::max()));
         size.area = area;
         const bool is_converged =
             options_.accuracy.approach == Approach::Converged || options_.accuracy.tolerance.has_value();
@@ -114,13 +133,25 @@ class TogetherCut {
         return choice.count;
     }
 
-    /// @returns nothing where faces had to be left out.
+    /// @param boundary see join_seams. @returns whether seams were joined.
+    bool join(const std::vector<Number>& boundary)
+    {
+        seams_ = join_seams(talk_, slice_, bounds_, boundary, *options_.motion.weld);
+        return !seams_.vertices.empty();
+    }
+
+    /// @returns nothing where seams were joined, or faces had to be left out.
     std::optional<DistributedCut> by_one_rank()
     {
         slice_.labels.assign(at(slice_.n_faces()), 0);
         MeshPart part = deal(talk_, slice_);
         const bool is_own = part.mesh.n_faces() > 0;
         const Topology topology = make_topology(part.mesh, run_in_parallel);
+        if (std::vector<Number> boundary; std::exchange(may_join_, false)) {
+            add_boundary(part, topology, {}, boundary);
+            if (join(boundary))
+                return {};
+        }
         if (std::vector<Repetition> repeated; may_repeat_) {
             find_repetitions(part, topology, repeated);
             may_repeat_ = false;
@@ -148,11 +179,17 @@ class TogetherCut {
         return tell_all(talk_, found, is_own);
     }
 
-    /// @returns nothing where faces had to be left out.
+    /// @returns nothing where seams were joined, or faces had to be left out.
     std::optional<DistributedCut> by_all_ranks()
     {
         label_chunks(talk_, slice_, bounds_, chunk_);
         std::vector<Chunk> chunks = deal_chunks(talk_, slice_, bounds_);
+        if (std::vector<Number> boundary; std::exchange(may_join_, false)) {
+            for (const Chunk& chunk : chunks)
+                add_boundary(chunk.part, chunk.topology, chunk.crossing, boundary);
+            if (join(boundary))
+                return {};
+        }
         if (std::vector<Repetition> repeated; may_repeat_) {
             // Those with the same corners are in the same chunk.
             for (const Chunk& chunk : chunks)
@@ -264,7 +301,9 @@ class TogetherCut {
     const FlowOptions& options_;
     Index chunk_;
     std::optional<std::vector<Index>> given_;
+    bool may_join_;
     bool may_repeat_ = true;
+    JoinedSeams seams_;
     RepeatedFaces left_out_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/distributed/conversation.h"
+#include "engine/distributed/cut/joined_seams.h"
 #include "engine/distributed/cut/repeated_faces.h"
 #include "engine/distributed/deal.h"
 #include "engine/options/flow_options.h"
@@ -23,6 +24,8 @@ struct DistributedCut {
     std::vector<std::string> remarks = {};
     /// What the stretch does not have any more.
     RepeatedFaces left_out = {};
+    /// Which of the vertices along seams have no faces any more, as others move for them.
+    JoinedSeams seams = {};
 };
 
 /// Cuts a mesh as its options say: into CutOptions::subdomains, or as many as suit its size and the step. Meshes of no
@@ -30,8 +33,11 @@ struct DistributedCut {
 /// divided into chunks, in which clusters of faces grow; METIS divides the graph of all clusters at rank 0, and what
 /// has to be mended comes there with the faces around it. All ranks call this together; the cut does not depend on
 /// their number.
-/// @param slice gets labels, from 0 to n_parts - 1. @param chunk the number of faces, at least 1.
-/// @returns the same at all ranks.
+/// @param slice its seams are joined (see MotionOptions::weld), it loses the faces that repeat others (see
+/// FlowingMesh),
+///        and gets labels, from 0 to n_parts - 1.
+/// @param chunk the number of faces, at least 1.
+/// @returns the same at all ranks, but what their stretches have lost.
 /// @throws InputError naming a face with a corner that is none of the mesh's vertices; OptionError;
 ///         ComputationError if METIS fails.
 DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options,
