@@ -1,5 +1,5 @@
-# The headers for others: those of the library call and what they include. In the sources they include each other by their
-# folders; copies in include/ of the build folder do so with seamflow/ before that, for programs that say
+# The headers for others: those of the library call and what they include. In the sources they include each other by
+# their folders; copies in include/ of the build folder do so with seamflow/ before that, for programs that say
 # #include <seamflow/engine/mean_curvature_flow.h>, with an installed library or one that is built along. The test
 # consumer.headers checks that none is missing.
 set(SEAMFLOW_HEADERS
@@ -11,7 +11,7 @@ set(SEAMFLOW_HEADERS
     engine/options/flow_options.h
     engine/options/flow_report.h
     engine/options/schedule.h
-    engine/options/smoothed_radius.h
+    engine/setup/smoothed_radius.h
     engine/state/checkpoint.h
     engine/state/flow_identity.h
     engine/state/flow_state.h
@@ -42,7 +42,8 @@ function(seamflow_copy_headers)
     foreach(header IN LISTS SEAMFLOW_HEADERS)
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
         file(READ ${header} content)
-        string(REGEX REPLACE "#include \"((partition|solvers|engine)/[^\"]+)\"" "#include <seamflow/\\1>" content "${content}")
+        string(REGEX REPLACE "#include \"((partition|solvers|engine)/[^\"]+)\"" "#include <seamflow/\\1>"
+            content "${content}")
         file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/seamflow/${header} CONTENT "${content}" @ONLY)
     endforeach()
 endfunction()

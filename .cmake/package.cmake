@@ -1,5 +1,6 @@
 # `cpack` in the build folder: an archive that runs wherever it is unpacked, and a package for Debian, which needs what
-# its programs are linked with. Names of programs are short, and others have them, too: the package keeps to /opt/seamflow.
+# its programs are linked with. Names of programs are short, and others have them, too: the package keeps to
+# /opt/seamflow.
 set(CPACK_GENERATOR TGZ DEB)
 set(CPACK_PACKAGE_NAME seamflow)
 set(CPACK_PACKAGE_VENDOR seamflow)

@@ -7,7 +7,6 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-
 #include <seamflow/engine/openmesh.h>
 
 namespace {

@@ -63,11 +63,17 @@ check_headers() {
 # check_documents PREFIX: links of documents lead somewhere, and manual pages have nothing that groff warns of.
 check_documents() {
     local documents="$1/share/doc/seamflow" page link missing=0
-    [[ -f $documents/README.md && -f $1/share/man/man1/smooth.1 ]] || { echo "there are no documents in $1" >&2; return 1; }
+    if [[ ! -f $documents/README.md || ! -f $1/share/man/man1/smooth.1 ]]; then
+        echo "there are no documents in $1" >&2
+        return 1
+    fi
     while IFS=: read -r page link; do
         link="${link#](}"
         link="${link%)}"
-        [[ -e $(dirname "$page")/${link%%#*} ]] || { echo "$page links to $link, which is not installed" >&2; missing=1; }
+        if [[ ! -e $(dirname "$page")/${link%%#*} ]]; then
+            echo "$page links to $link, which is not installed" >&2
+            missing=1
+        fi
     done < <(grep -roE --include='*.md' '\]\([^)#][^)]*\)' "$documents" | grep -vE '\]\(https?:')
     if command -v groff >/dev/null; then
         for page in "$1"/share/man/man1/*.1; do
@@ -80,8 +86,14 @@ check_documents() {
 
 # check_programs FOLDER: they run where they were put.
 check_programs() {
-    (cd "$1" && bin/generate quads mesh.obj --vertices 400 >/dev/null && bin/smooth mesh.obj smooth.obj --radius 5% &&
-        bin/compare mesh.obj smooth.obj && bin/inspect smooth.obj && rm mesh.obj smooth.obj)
+    (
+        cd "$1"
+        bin/generate quads mesh.obj --vertices 400
+        bin/smooth mesh.obj smooth.obj --radius 5%
+        bin/compare mesh.obj smooth.obj
+        bin/inspect smooth.obj
+        rm mesh.obj smooth.obj
+    )
 }
 
 case "$way" in
