@@ -1,47 +1,9 @@
 # What `cmake --install` puts where, and how programs find it there: find_package(seamflow), pkg-config seamflow.
-# Headers keep their folders, under include/seamflow: #include "engine/mean_curvature_flow.h" is the same everywhere.
+# Headers keep their folders, under include/seamflow: #include <seamflow/engine/mean_curvature_flow.h>.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
-# Installed are the headers of the library call and what they include; the test consumer.headers checks that none of
-# these is missing.
-foreach(header IN ITEMS
-        engine/eigen.h
-        engine/mean_curvature_flow.h
-        engine/measure/displacement_meter.h
-        engine/openmesh.h
-        engine/options/flow_control.h
-        engine/options/flow_options.h
-        engine/options/flow_report.h
-        engine/options/schedule.h
-        engine/state/checkpoint.h
-        engine/state/flow_identity.h
-        engine/state/flow_state.h
-        engine/tasks/parallel_loop.h
-        partition/eigen.h
-        partition/errors.h
-        partition/formats/mesh_io.h
-        partition/formats/palette.h
-        partition/index.h
-        partition/io/fault_log.h
-        partition/loop.h
-        partition/metrics/displacement.h
-        partition/metrics/length_statistics.h
-        partition/metrics/roughness.h
-        partition/metrics/surface_distance.h
-        partition/metrics/vertex_distance.h
-        partition/metrics/vertex_normals.h
-        partition/openmesh.h
-        partition/polygon_mesh.h
-        partition/topology.h
-        partition/vector_area.h
-        partition/version.h
-        solvers/conditions/robin_parameter.h
-        solvers/direct/factorisation.h
-        solvers/laplacian/laplacian.h)
-    cmake_path(GET header PARENT_PATH folder)
-    install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow/${folder})
-endforeach()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/include/seamflow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 foreach(folder IN ITEMS partition solvers engine)
     set_target_properties(seamflow_${folder} PROPERTIES INSTALL_RPATH $ORIGIN)
     install(TARGETS seamflow_${folder} EXPORT seamflow-${folder})
@@ -100,5 +62,15 @@ if(SEAMFLOW_BUILD_SAMPLES)
     cmake_path(RELATIVE_PATH CMAKE_INSTALL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_BINDIR} OUTPUT_VARIABLE to_libraries)
     set_target_properties(smooth compare generate inspect PROPERTIES INSTALL_RPATH $ORIGIN/${to_libraries})
     install(TARGETS smooth compare generate inspect)
+    install(DIRECTORY ${PROJECT_BINARY_DIR}/share/man/ DESTINATION ${CMAKE_INSTALL_MANDIR})
+    install(DIRECTORY ${PROJECT_BINARY_DIR}/share/bash-completion ${PROJECT_BINARY_DIR}/share/zsh
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})
 endif()
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Documents keep their folders, so that their links lead somewhere, and programs to copy from lie among them.
+file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS LICENSE *.md engine/*.md samples/*.md samples/*/*.md
+    samples/*/pictures/*.png samples/library/*.cpp samples/python/example.py)
+foreach(document IN LISTS documents)
+    cmake_path(GET document PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()

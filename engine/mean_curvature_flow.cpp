@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "engine/flow_run.h"
-#include "engine/options/smoothed_radius.h"
 #include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
+#include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"

@@ -2,12 +2,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
 #include "partition/version.h"
+#include "samples/common/command_help.h"
 
 namespace seamflow {
 
@@ -34,6 +36,16 @@ std::optional<double> unit_of(std::string_view suffix)
     if (power == std::string_view::npos || !(rest.empty() || rest == "B" || rest == "iB"))
         return std::nullopt;
     return std::pow(rest == "iB" ? 1024.0 : 1000.0, static_cast<double>(power + 1));
+}
+
+/// What the build asks a program for, to install it.
+std::optional<std::string> text_about(const CLI::App& app, std::string_view asked)
+{
+    if (asked == "--help-man")
+        return man_page(app);
+    if (asked == "--help-bash")
+        return bash_completion(app);
+    return asked == "--help-zsh" ? std::optional(zsh_completion(app)) : std::nullopt;
 }
 
 }  // namespace
@@ -119,6 +131,10 @@ CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<L
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {
     app.set_version_flag("--version", "seamflow " + std::string(version));
+    if (const auto text = argc == 2 ? text_about(app, argv[1]) : std::nullopt) {
+        std::cout << *text;
+        return ExitStatus::Success;
+    }
     try {
         app.parse(argc, argv);
         return std::nullopt;

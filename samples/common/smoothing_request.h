@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/options/smoothed_radius.h"
+#include "engine/setup/smoothed_radius.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {

@@ -4,9 +4,9 @@
 
 #include <iostream>
 
-#include "engine/mean_curvature_flow.h"
-#include "partition/formats/mesh_io.h"
-#include "partition/metrics/vertex_distance.h"
+#include <seamflow/engine/mean_curvature_flow.h>
+#include <seamflow/partition/formats/mesh_io.h>
+#include <seamflow/partition/metrics/vertex_distance.h>
 
 int main(int argc, char** argv)
 try {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <iostream>
 
-#include "engine/mean_curvature_flow.h"
-#include "partition/formats/mesh_io.h"
-#include "partition/metrics/vertex_distance.h"
-#include "partition/vector_area.h"
+#include <seamflow/engine/mean_curvature_flow.h>
+#include <seamflow/partition/formats/mesh_io.h>
+#include <seamflow/partition/metrics/vertex_distance.h>
+#include <seamflow/partition/vector_area.h>
 
 namespace {
 

@@ -7,8 +7,7 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-
-#include "engine/openmesh.h"
+#include <seamflow/engine/openmesh.h>
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "engine/mean_curvature_flow.h"
-#include "partition/version.h"
+#include <seamflow/engine/mean_curvature_flow.h>
+#include <seamflow/partition/version.h>
 
 namespace {
 
@@ -32,7 +32,7 @@ int main()
     seamflow::PolygonMesh mesh = make_bump();
     const double before = mesh.vertices.col(2).maxCoeff();
     seamflow::FlowOptions options;
-    options.time_step = 1.0;
+    options.radius = {.value = 5.0};
     options.steps = 3;
     options.cut.subdomains = 4;
     const seamflow::FlowReport report = seamflow::mean_curvature_flow(mesh, options);

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds and runs the consumer in one of the ways in which a program comes by the library.
 #
-#     tests/consumer/run.sh install|headers|find_package|pkg-config|destdir|add_subdirectory|shared BUILD WORK \
+#     tests/consumer/run.sh \
+#         install|headers|documents|package|find_package|pkg-config|destdir|add_subdirectory|shared BUILD WORK \
 #         [CMAKE_ARGUMENT…]
 #
 # BUILD is a build folder of the project. WORK is for what is made here; `install` installs into WORK/static, from where
@@ -44,20 +45,79 @@ with_pkg_config() {
     LD_LIBRARY_PATH="$(dirname "$(dirname "$file")")" "$work/$name/consumer"
 }
 
-# check_headers PREFIX: what an installed header includes is installed, too. (That each compiles by itself is seen where
-# its .cpp file includes it first.)
+# check_headers PREFIX: what an installed header includes is installed, too, and under the prefix seamflow/. (That each
+# compiles by itself is seen where its .cpp file includes it first.)
 check_headers() {
-    local include="$1/include/seamflow" header missing=0
-    [[ -f $include/engine/mean_curvature_flow.h ]] || { echo "there are no headers in $include" >&2; return 1; }
+    local include="$1/include" header missing=0
+    [[ -f $include/seamflow/engine/mean_curvature_flow.h ]] || { echo "there are no headers in $include" >&2; return 1; }
+    if grep -rnE '^#include "' "$include"; then
+        echo "these includes do not begin with seamflow/" >&2
+        return 1
+    fi
     while read -r header; do
         [[ -f $include/$header ]] || { echo "$header is included by an installed header and not installed" >&2; missing=1; }
-    done < <(grep -rhoE '^#include "[^"]+"' "$include" | sed -E 's/.*"(.*)"/\1/' | sort -u)
+    done < <(grep -rhoE '^#include <seamflow/[^>]+>' "$include" | sed -E 's/.*<(.*)>/\1/' | sort -u)
     return "$missing"
+}
+
+# check_documents PREFIX: links of documents lead somewhere, and manual pages have nothing that groff warns of.
+check_documents() {
+    local documents="$1/share/doc/seamflow" page link missing=0
+    if [[ ! -f $documents/README.md || ! -f $1/share/man/man1/smooth.1 ]]; then
+        echo "there are no documents in $1" >&2
+        return 1
+    fi
+    while IFS=: read -r page link; do
+        link="${link#](}"
+        link="${link%)}"
+        if [[ ! -e $(dirname "$page")/${link%%#*} ]]; then
+            echo "$page links to $link, which is not installed" >&2
+            missing=1
+        fi
+    done < <(grep -roE --include='*.md' '\]\([^)#][^)]*\)' "$documents" | grep -vE '\]\(https?:')
+    if command -v groff >/dev/null; then
+        for page in "$1"/share/man/man1/*.1; do
+            [[ -z $(groff -ww -man -Kutf8 -Tutf8 -z "$page" 2>&1 | tee /dev/stderr) ]] || missing=1
+        done
+    fi
+    [[ -f $1/share/bash-completion/completions/smooth && -f $1/share/zsh/site-functions/_smooth ]] || missing=1
+    return "$missing"
+}
+
+# check_programs FOLDER: they run where they were put.
+check_programs() {
+    (
+        cd "$1"
+        bin/generate quads mesh.obj --vertices 400
+        bin/smooth mesh.obj smooth.obj --radius 5%
+        bin/compare mesh.obj smooth.obj
+        bin/inspect smooth.obj
+        rm mesh.obj smooth.obj
+    )
 }
 
 case "$way" in
 headers)
     check_headers "$work/static"
+    ;;
+documents)
+    check_documents "$work/static"
+    ;;
+package)
+    rm -rf "$work/package"
+    mkdir -p "$work/package/elsewhere"
+    cpack --config "$(realpath "$build")/CPackConfig.cmake" -G TGZ -B "$work/package"
+    tar -xzf "$work"/package/seamflow-*.tar.gz -C "$work/package/elsewhere" --strip-components=1
+    check_programs "$work/package/elsewhere"
+    check_documents "$work/package/elsewhere"
+    with_find_package "$work/package/elsewhere" "of package" "$@"
+    if command -v dpkg-deb >/dev/null && command -v dpkg-shlibdeps >/dev/null; then
+        cpack --config "$(realpath "$build")/CPackConfig.cmake" -G DEB -B "$work/package"
+        dpkg-deb -f "$work"/package/seamflow_*.deb Depends | grep -q libtbb
+        dpkg-deb -x "$work"/package/seamflow_*.deb "$work/package/of deb"
+        check_programs "$work/package/of deb/opt/seamflow"
+        check_documents "$work/package/of deb/opt/seamflow"
+    fi
     ;;
 install)
     rm -rf "$work/static"

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 #include <doctest/doctest.h>
 
+#include "partition/vector_area.h"
 #include "partition/weld.h"
 #include "tests/support/test_meshes.h"
 

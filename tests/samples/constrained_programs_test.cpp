@@ -1,5 +1,6 @@
 // How much to smooth, what may move, and what is wrong with a mesh: from the command line.
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,7 +62,99 @@ TEST_CASE("rims draw in where they are free, and the size stays where that is as
     CHECK(w.said().find("held fixed") != std::string::npos);
     CHECK(w.smooth("mesh.obj out.obj --radius 10% --rescale volume --boundary free") == 3);
     CHECK(w.said().find("closed") != std::string::npos);
+    (void)w.directory.with("some.txt", "1\n");
+    CHECK(w.smooth("mesh.obj out.obj --radius 10% --rescale area --fix some.txt") == 2);
+    CHECK(w.said().find("--filter low-pass") != std::string::npos);
     CHECK_FALSE(w.has("out.obj"));
+}
+
+namespace {
+
+/// A tetrahedron of four faces that share no vertices.
+std::string loose_tetrahedron(double gap)
+{
+    const std::vector<std::vector<int>> faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const std::vector<std::array<double, 3>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    std::string text;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (const int corner : faces[f]) {
+            const auto& p = corners[static_cast<std::size_t>(corner)];
+            text += "v " + std::to_string(p[0] + gap * static_cast<double>(f)) + " " + std::to_string(p[1]) + " " +
+                    std::to_string(p[2]) + "\n";
+        }
+    return text + "f 1 2 3\nf 4 5 6\nf 7 8 9\nf 10 11 12\n";
+}
+
+}  // namespace
+
+TEST_CASE("a surface whose file doubles vertices along seams is smoothed as the closed one that it is")
+{
+    const Workshop w;
+    (void)w.directory.with("seams.obj", loose_tetrahedron(0.0));
+    REQUIRE(w.run(INSPECT " seams.obj") == 0);
+    CHECK(w.said().find("6 pairs of boundary edges") != std::string::npos);
+    REQUIRE(w.run(INSPECT " seams.obj --json") == 0);
+    CHECK(Json::parse(w.said())["seam_vertices"] == 12);
+    REQUIRE(w.smooth("seams.obj out.obj --time-step .01 --report report.json") == 0);
+    CHECK(w.said().find("12 vertices along seams") != std::string::npos);
+    const Json report = w.json("report.json");
+    CHECK(report["surface"]["before"]["volume"].get<double>() == doctest::Approx(1.0 / 6.0));
+    CHECK(report["surface"]["before"]["roughness_rms"].get<double>() > 90.0);
+    CHECK(report["fixed_vertices"] == 0);
+    const Points moved = read_mesh(w.directory / "out.obj").mesh.vertices;
+    REQUIRE(moved.rows() == 12);
+    CHECK(moved.row(0) == moved.row(3));
+    CHECK(moved(0, 0) > 0.0);
+    REQUIRE(w.smooth("seams.obj out.obj --time-step .01 --weld never --report report.json") == 0);
+    CHECK(w.json("report.json")["fixed_vertices"] == 12);
+    CHECK(w.json("report.json")["surface"]["before"]["volume"].is_null());
+
+    (void)w.directory.with("gaps.obj", loose_tetrahedron(1e-5));
+    REQUIRE(w.smooth("gaps.obj out.obj --time-step .01 --report report.json") == 0);
+    CHECK(w.json("report.json")["fixed_vertices"] == 12);
+    for (const char* within : {"1e-4", "0.01%"}) {
+        REQUIRE(w.smooth("gaps.obj out.obj --time-step .01 --report report.json --weld " + std::string(within)) == 0);
+        CHECK(w.json("report.json")["fixed_vertices"] == 0);
+    }
+    CHECK(w.smooth("gaps.obj out.obj --time-step .01 --weld sometimes") == 2);
+}
+
+TEST_CASE("the manual page and what shells complete have every option that --help has")
+{
+    const Workshop w;
+    for (const std::string program : {SMOOTH, COMPARE, GENERATE, INSPECT}) {
+        REQUIRE(w.run(program + " --help-man") == 0);
+        const std::string manual = w.said();
+        REQUIRE(w.run(program + " --help-bash") == 0);
+        const std::string for_bash = w.said();
+        REQUIRE(w.run(program + " --help-zsh") == 0);
+        const std::string for_zsh = w.said();
+        REQUIRE(w.run(program + " --help") == 0);
+        const std::string help = w.said();
+        int n_options = 0;
+        for (std::size_t begin = help.find(" --"); begin != std::string::npos; begin = help.find(" --", begin + 1)) {
+            const std::string name = help.substr(begin + 1, help.find_first_of(" ,\n", begin + 1) - begin - 1);
+            // Where it is listed, not where it is spoken of.
+            if (help.find_last_not_of(' ', begin) != help.rfind('\n', begin) && help[begin - 1] != ',')
+                continue;
+            CAPTURE(name);
+            ++n_options;
+            std::string in_manual = "\\fB\\&";
+            for (const char c : name)
+                in_manual += c == '-' ? "\\-" : std::string(1, c);
+            CHECK(manual.find(in_manual + "\\fR") != std::string::npos);
+            CHECK(for_bash.find(name) != std::string::npos);
+            CHECK(for_zsh.find("'" + name) != std::string::npos);
+        }
+        CHECK(n_options >= 2);
+    }
+    // Words are completed, by the shell itself.
+    (void)w.directory.with("try.bash", "eval \"$(" SMOOTH " --help-bash)\"\n"
+                                       "COMP_WORDS=(smooth --laplacian vir); COMP_CWORD=2; _seamflow_smooth\n"
+                                       "COMP_WORDS=(smooth --filter = lo); COMP_CWORD=3; words=\"$COMPREPLY\"\n"
+                                       "_seamflow_smooth; echo \"$words $COMPREPLY\"\n");
+    REQUIRE(w.run("bash try.bash") == 0);
+    CHECK(w.said() == "virtual-refinement low-pass\n");
 }
 
 TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot be used as it is")

@@ -1,4 +1,4 @@
-#include "engine/options/smoothed_radius.h"
+#include "engine/setup/smoothed_radius.h"
 
 #include <algorithm>
 #include <cmath>

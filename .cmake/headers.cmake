@@ -1,0 +1,50 @@
+# The headers for others: those of the library call and what they include. In the sources they include each other by
+# their folders; copies in include/ of the build folder do so with seamflow/ before that, for programs that say
+# #include <seamflow/engine/mean_curvature_flow.h>, with an installed library or one that is built along. The test
+# consumer.headers checks that none is missing.
+set(SEAMFLOW_HEADERS
+    engine/eigen.h
+    engine/mean_curvature_flow.h
+    engine/measure/displacement_meter.h
+    engine/openmesh.h
+    engine/options/flow_control.h
+    engine/options/flow_options.h
+    engine/options/flow_report.h
+    engine/options/schedule.h
+    engine/setup/smoothed_radius.h
+    engine/state/checkpoint.h
+    engine/state/flow_identity.h
+    engine/state/flow_state.h
+    engine/tasks/parallel_loop.h
+    partition/eigen.h
+    partition/errors.h
+    partition/formats/mesh_io.h
+    partition/formats/palette.h
+    partition/index.h
+    partition/io/fault_log.h
+    partition/loop.h
+    partition/metrics/displacement.h
+    partition/metrics/length_statistics.h
+    partition/metrics/roughness.h
+    partition/metrics/surface_distance.h
+    partition/metrics/vertex_distance.h
+    partition/metrics/vertex_normals.h
+    partition/openmesh.h
+    partition/polygon_mesh.h
+    partition/topology.h
+    partition/vector_area.h
+    partition/version.h
+    solvers/conditions/robin_parameter.h
+    solvers/direct/factorisation.h
+    solvers/laplacian/laplacian.h)
+
+function(seamflow_copy_headers)
+    foreach(header IN LISTS SEAMFLOW_HEADERS)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+        file(READ ${header} content)
+        string(REGEX REPLACE "#include \"((partition|solvers|engine)/[^\"]+)\"" "#include <seamflow/\\1>"
+            content "${content}")
+        file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/seamflow/${header} CONTENT "${content}" @ONLY)
+    endforeach()
+endfunction()
+seamflow_copy_headers()
