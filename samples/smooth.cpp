@@ -63,15 +63,19 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std
 }
 
 /// What --html shows, so far the input; empty without --html.
-std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh)
+/// @param left_out ascending: the faces of the file that are not in the mesh.
+std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMesh& mesh,
+                                  const std::vector<Index>& left_out)
 {
     std::optional<PageFlow> page;
     if (command.html.empty())
         return page;
     require_showable(mesh, command.html);
     Workers(command.options.resources.threads).execute([&] {
-        page.emplace(std::make_shared<const PageMesh>(mesh), command.output.filename().string(),
-                     command.options.laplacian, command.options.steps, command.options.report.reference);
+        auto shown = std::make_shared<PageMesh>(mesh);
+        shown->colours = read_file_colours(command.input, mesh, left_out);
+        page.emplace(std::move(shown), command.output.filename().string(), command.options.laplacian,
+                     command.options.steps, command.options.report.reference);
     });
     return page;
 }
@@ -176,7 +180,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     std::error_code ignored;
     if (std::filesystem::equivalent(command.input, command.output, ignored))
         losses.push_back("The result has replaced the input, in one go when it was complete.");
-    std::optional<PageFlow> page = make_page(command, file.mesh);
+    std::optional<PageFlow> page = make_page(command, file.mesh, left_out.faces_left_out);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())
         change.emplace(file.mesh, loop);

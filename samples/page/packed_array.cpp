@@ -11,23 +11,6 @@ namespace seamflow {
 
 namespace {
 
-std::string base64(std::span<const std::uint8_t> bytes)
-{
-    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text((bytes.size() + 2) / 3 * 4, '=');
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < n ? bytes[i + k] : 0U);
-        for (std::size_t k = 0; k <= n; ++k)
-            text[out + k] = digits[group >> (18 - 6 * k) & 63U];
-        out += 4;
-    }
-    return text;
-}
-
 template <class Number>
 std::vector<std::uint8_t> planes_of_differences(std::span<const Number> numbers, std::size_t columns)
 {
@@ -52,6 +35,23 @@ std::vector<std::uint8_t> planes_of_differences(std::span<const Number> numbers,
 }
 
 }  // namespace
+
+std::string base64(std::span<const std::uint8_t> bytes)
+{
+    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text((bytes.size() + 2) / 3 * 4, '=');
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < n ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k <= n; ++k)
+            text[out + k] = digits[group >> (18 - 6 * k) & 63U];
+        out += 4;
+    }
+    return text;
+}
 
 std::string packed(std::span<const std::uint8_t> bytes)
 {

@@ -19,4 +19,7 @@ std::string packed(std::span<const std::uint32_t> numbers, std::size_t columns);
 /// Bytes as they are, as a zlib stream in base64.
 std::string packed(std::span<const std::uint8_t> bytes);
 
+/// Bytes as they are in base64 (RFC 4648).
+std::string base64(std::span<const std::uint8_t> bytes);
+
 }  // namespace seamflow

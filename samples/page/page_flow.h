@@ -7,6 +7,7 @@
 
 #include "engine/options/flow_report.h"
 #include "partition/topology.h"
+#include "samples/page/file_colours.h"
 #include "samples/page/packed_state.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -19,6 +20,8 @@ struct PageMesh {
     PolygonMesh mesh;
     Topology topology;
     double mean_edge = 0.0;
+    /// Those of its file, where they are known.
+    FileColours colours;
 };
 
 /// A surface after some step, and its mean curvature ‖ΔV‖ at each vertex, in 1/length (see measure_curvature).

@@ -1,7 +1,9 @@
 #include "samples/page/page_html.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -101,10 +103,66 @@ Json flow_json(const PageFlow& flow, Blocks& blocks)
     return json;
 }
 
+/// For each corner of the triangles the place in an image.
+std::vector<std::uint32_t> places_of(const PageTriangles& triangles, const PolygonMesh& mesh,
+                                     const std::vector<Index>& place_of_corner)
+{
+    std::vector<std::uint32_t> places;
+    std::size_t next = 0;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        const auto face = mesh.face(f);
+        for (std::uint32_t k = 0; k < 3 * triangles.per_face[at(f)]; ++k, ++next) {
+            const auto v = static_cast<Index>(triangles.corners[next]);
+            const auto in_face = static_cast<Index>(std::find(face.begin(), face.end(), v) - face.begin());
+            places.push_back(static_cast<std::uint32_t>(place_of_corner[at(mesh.face_offsets[f] + in_face)]));
+        }
+    }
+    return places;
+}
+
+Json colours_json(const PageMesh& page, const PageTriangles& triangles, Blocks& blocks)
+{
+    const FileColours& colours = page.colours;
+    Json json;
+    if (!colours.of_vertices.empty()) {
+        std::vector<std::uint8_t> bytes;
+        for (const Colour& colour : colours.of_vertices)
+            bytes.insert(bytes.end(), colour.begin(), colour.end());
+        json["vertices"] = blocks.add(packed(std::span<const std::uint8_t>(bytes)));
+    }
+    if (colours.materials.empty())
+        return json;
+    std::map<std::string_view, int> images;
+    for (const FileMaterial& material : colours.materials) {
+        Json& of_material = json["materials"].emplace_back();
+        of_material["colour"] = material.colour;
+        if (!material.image.empty() && !images.contains(material.image))
+            images[material.image] = blocks.add(material.image);
+        if (!material.image.empty())
+            of_material["image"] = images[material.image];
+    }
+    const std::vector<std::uint32_t> of_faces(colours.material_of_face.begin(), colours.material_of_face.end());
+    json["material_of_face"] = blocks.add(packed(std::span<const std::uint32_t>(of_faces), 1));
+    if (colours.place_of_corner.empty())
+        return json;
+    Points places = Points::Zero(static_cast<Eigen::Index>(colours.places.size()), 3);
+    for (std::size_t k = 0; k < colours.places.size(); ++k)
+        for (std::size_t c = 0; c < 2; ++c)
+            places(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) = colours.places[k][c];
+    const PackedPoints points = pack_points(places);
+    json["places"] = {
+        {"lower", corner(points.lower)}, {"upper", corner(points.upper)}, {"block", blocks.add(points.data)}};
+    const std::vector<std::uint32_t> of_corners = places_of(triangles, page.mesh, colours.place_of_corner);
+    json["place_of_corner"] = blocks.add(packed(std::span<const std::uint32_t>(of_corners), 3));
+    return json;
+}
+
 Json mesh_json(const PageMesh& page, Blocks& blocks)
 {
     const PageTriangles triangles = page_triangles(page.mesh, page.topology);
-    return {{"vertices", page.mesh.n_vertices()},
+    return {{"colours", colours_json(page, triangles, blocks)},
+            {"remarks", page.colours.remarks},
+            {"vertices", page.mesh.n_vertices()},
             {"faces", page.mesh.n_faces()},
             {"triangles", triangles.edges.size()},
             {"corners", blocks.add(packed(std::span<const std::uint32_t>(triangles.corners), 3))},

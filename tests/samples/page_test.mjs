@@ -6,11 +6,12 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { deflateSync } from "node:zlib";
 
 const [npm, chromium, bin, out] = process.argv.slice(2).map((path) => resolve(path));
 const playwright = createRequire(join(npm, "package.json"))("playwright-core");
@@ -21,6 +22,65 @@ const sphere = join(awkward, `script>&"'<!--.ply`);
 const page = (name) => join(out, `${name}.html`);
 
 const program = (name, ...words) => execFileSync(join(bin, name), words.map(String), { stdio: "pipe" }).toString();
+
+/** A PNG file of RGB rows. */
+function png(rows) {
+    const chunk = (type, data) => {
+        const bytes = Buffer.concat([Buffer.alloc(4), Buffer.from(type, "latin1"), data, Buffer.alloc(4)]);
+        bytes.writeUInt32BE(data.length);
+        bytes.writeUInt32BE(crc32(bytes.subarray(4, 8 + data.length)), 8 + data.length);
+        return bytes;
+    };
+    const size = Buffer.alloc(13);
+    size.writeUInt32BE(rows[0].length);
+    size.writeUInt32BE(rows.length, 4);
+    size.set([8, 2], 8);
+    const data = deflateSync(Buffer.from(rows.flatMap((row) => [0, ...row.flat()])));
+    return Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), chunk("IHDR", size), chunk("IDAT", data), chunk("IEND", Buffer.alloc(0))]);
+}
+
+const crc32 = (bytes) => {
+    let sum = ~0;
+    for (const byte of bytes) {
+        sum ^= byte;
+        for (let k = 0; k < 8; ++k)
+            sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+    }
+    return ~sum >>> 0;
+};
+
+/** A square of quads that faces upwards in OBJ: an image, red below and blue above, on its left, green on its right. */
+function writeTextured() {
+    const n = 20;
+    const red = [230, 20, 20];
+    const blue = [20, 20, 230];
+    writeFileSync(join(out, "map.png"), png([...Array(4).fill(Array(8).fill(blue)), ...Array(4).fill(Array(8).fill(red))]));
+    writeFileSync(join(out, "textured.mtl"), "newmtl image\nKd 0 0 0\nmap_Kd map.png\nnewmtl green\nKd 0.1 0.9 0.1\n");
+    const lines = ["mtllib textured.mtl"];
+    const vertices = [];
+    for (let j = 0; j <= n; ++j)
+        for (let i = 0; i <= n; ++i) {
+            const place = [i / n, 0.02 * Math.sin(9 * i + 5 * j), 1 - j / n];
+            lines.push(`v ${place.join(" ")}`);
+            vertices.push([...place, i < n / 2 ? "255 255 0" : "255 0 255"].join(" "));
+        }
+    for (let j = 0; j <= n; ++j)
+        for (let i = 0; i <= n; ++i)
+            lines.push(`vt ${i / n} ${j / n}`);
+    const faces = [];
+    for (const [name, from, to] of [["image", 0, n / 2], ["green", n / 2, n]]) {
+        lines.push(`usemtl ${name}`);
+        for (let j = 0; j < n; ++j)
+            for (let i = from; i < to; ++i) {
+                const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => a + b * (n + 1));
+                lines.push(`f ${corners.map((v) => `${v + 1}/${v + 1}`).join(" ")}`);
+                faces.push(`4 ${corners.join(" ")}`);
+            }
+    }
+    writeFileSync(join(out, "textured.obj"), lines.join("\n"));
+    const header = ["ply", "format ascii 1.0", `element vertex ${vertices.length}`, ...["float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"].map((name) => `property ${name}`)];
+    writeFileSync(join(out, "painted.ply"), [...header, `element face ${faces.length}`, "property list uchar int vertex_indices", "end_header", ...vertices, ...faces, ""].join("\n"));
+}
 
 /** A browser that draws without a graphics card. */
 const launch = (...more) =>
@@ -43,6 +103,9 @@ before(async () => {
     program("smooth", join(out, "mixed.obj"), join(out, "none.obj"), "--time-step", 1, "--steps", 0, "--html", page("none"));
     program("smooth", join(out, "mixed.obj"), join(out, "edges.obj"), "--keep-edges", 30, "--time-step-edges", 4, "--html", page("edges"));
     program("smooth", sphere, join(out, "round.ply"), "--flow", "conformalized", "--laplacian", "virtual-refinement", "--attach", 2, "--rescale", "area", "--time-step-edges", 4, "--html", page("round"));
+    writeTextured();
+    program("smooth", join(out, "textured.obj"), join(out, "t.obj"), ...sweeps, "--subdomains", 3, "--html", page("textured"));
+    program("smooth", join(out, "painted.ply"), join(out, "p.ply"), ...sweeps, "--html", page("painted"));
     program("figures", "--out", join(out, "figures"), "--html", "texture");
     browser = await launch();
     reader = await browser.newPage();
@@ -250,6 +313,61 @@ test("a wipe shows before on its left and after on its right, in the steps that 
     await choose(opened, "before");
     assert.ok(await divider.isHidden());
     await looksLike(opened, before);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+/** The parts of the pixels in which one of red, green and blue is clearly the largest or the smallest, by sides. */
+const hues = async (opened) => {
+    const { number } = await seenAtRest(opened);
+    return reader.evaluate((at) => {
+        const width = widths[at];
+        const found = {};
+        pictures[at].forEach((pixel, k) => {
+            const parts = [pixel & 255, (pixel >> 8) & 255, (pixel >> 16) & 255];
+            const most = Math.max(...parts);
+            if (most - Math.min(...parts) < 60)
+                return;
+            const name = parts.map((part) => (part > 0.5 * most ? 1 : 0)).join("");
+            const height = pictures[at].length / width;
+            const entry = (found[name] ??= { count: 0, x: 0, y: 0 });
+            entry.count += 1 / pictures[at].length;
+            entry.x += (k % width) / width;
+            entry.y += Math.floor(k / width) / height;
+        });
+        for (const entry of Object.values(found)) {
+            entry.x /= entry.count * pictures[at].length;
+            entry.y /= entry.count * pictures[at].length;
+        }
+        return found;
+    }, number);
+};
+
+test("a file's texture and materials lie where the file has them, and go with every step", async () => {
+    const opened = await open(page("textured"));
+    await bare(opened);
+    assert.equal(await opened.locator("#colour").inputValue(), "file");
+    for (const step of [4, 0]) {
+        await setStep(opened, step);
+        const { "100": red, "001": blue, "010": green } = await hues(opened);
+        for (const part of [red, blue, green])
+            assert.ok(part?.count > 0.02, JSON.stringify({ red, blue, green }));
+        assert.ok(blue.y < red.y && red.x < green.x && blue.x < green.x, JSON.stringify({ red, blue, green }));
+        assert.ok(Math.abs(red.count + blue.count - green.count) < 0.5 * green.count, JSON.stringify({ red, blue, green }));
+    }
+    await changes(opened, "sub-meshes", () => opened.selectOption("#colour", "sub-mesh"), 0.05);
+    await changes(opened, "the file's texture", () => opened.selectOption("#colour", "file"), 0.05);
+    assert.deepEqual(opened.complaints, []);
+    await opened.close();
+});
+
+test("a file's colours of vertices are shown", async () => {
+    const opened = await open(page("painted"));
+    await bare(opened);
+    assert.equal(await opened.locator("#colour").inputValue(), "vertices");
+    const { "110": yellow, "101": magenta } = await hues(opened);
+    assert.ok(yellow?.count > 0.02 && magenta?.count > 0.02);
+    assert.ok(yellow.x < magenta.x);
     assert.deepEqual(opened.complaints, []);
     await opened.close();
 });

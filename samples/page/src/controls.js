@@ -1,6 +1,7 @@
 // What the user can choose, and the legend that says what is seen.
 
 import { digits, element } from "./facts.js";
+import { hasImages, hasMaterials, hasVertexColours } from "./own_colours.js";
 import { colourOfClass, colourOfLabel, css, cssRamp } from "./palette.js";
 import { explain } from "./words.js";
 
@@ -9,6 +10,10 @@ const byId = (id) => document.getElementById(id);
 /** What the colours can mean for a flow: words, and for ramps the unit. */
 export function meanings(flow) {
     const list = [["plain", { name: "Plain" }]];
+    if (hasMaterials)
+        list.push(["file", { name: hasImages ? "Texture of the file" : "Materials of the file" }]);
+    if (hasVertexColours)
+        list.push(["vertices", { name: "Colours of the file" }]);
     if (flow.report.subdomains > 1)
         list.push(["sub-mesh", { name: "Sub-mesh" }]);
     if (flow.report.colours > 1)
@@ -17,7 +22,7 @@ export function meanings(flow) {
         flow.has_undecomposed
             ? ["distance", { name: "Distance to the undecomposed flow", unit: "mean edge lengths" }]
             : ["distance", { name: "Displacement from the input", unit: "mean edge lengths of the input" }],
-        ["texture", { name: "Texture (heights)" }],
+        ["texture", { name: "Texture of heights" }],
         ["curvature", { name: "Mean curvature ‖ΔV‖ = |κ₁ + κ₂|", unit: "1/length" }],
     );
     return new Map(list);
@@ -94,7 +99,7 @@ export function showLegend(flow, chosen, range) {
     const legend = byId("legend");
     const meaning = meanings(flow).get(chosen.colour);
     const { report } = flow;
-    if (chosen.colour === "plain") {
+    if (["plain", "file", "vertices"].includes(chosen.colour)) {
         legend.replaceChildren();
         return;
     }

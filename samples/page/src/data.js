@@ -60,7 +60,7 @@ export async function unpacked16(block, columns, stride) {
 /** A function that remembers its last few results by its argument. */
 export function remembering(most, make) {
     const known = new Map();
-    return (key) => {
+    const remembered = (key) => {
         if (known.has(key)) {
             const value = known.get(key);
             known.delete(key);
@@ -73,4 +73,5 @@ export function remembering(most, make) {
         known.set(key, value);
         return value;
     };
+    return Object.assign(remembered, { clear: () => known.clear() });
 }

@@ -90,16 +90,46 @@ export function withCodes(corners, codes, n) {
 
 /**
  * The triangles as they are drawn.
- * @param groups of corners, see creases. @param labels one per triangle.
- * @returns index: three vertices per triangle; vertexOf, smoothOf: the vertex of the mesh, and that of smooth shading,
- *     which each of them is; labels: of each; smooth: corners and vertexOf of the vertices of smooth shading.
+ * @param groups of corners, see creases. @param labels one per triangle. @param places of corners in an image, or null.
+ * @returns index: three vertices per triangle; vertexOf, smoothOf, placeOf: the vertex of the mesh, that of smooth
+ *     shading, and the place in an image which each of them is; labels: of each; smooth: corners and vertexOf of the
+ *     vertices of smooth shading.
  */
-export function drawableTriangles(corners, groups, labels, n) {
+export function drawableTriangles(corners, groups, labels, n, places = null) {
     const smooth = withCodes(corners, groups, n);
-    const flat = withFlatLabels(smooth.corners, labels, smooth.vertexOf.length);
-    const smoothOf = Uint32Array.from({ length: flat.labels.length }, (_, v) => (v < smooth.vertexOf.length ? v : flat.doubled[v - smooth.vertexOf.length]));
-    return { index: flat.index, labels: flat.labels, smoothOf, vertexOf: smoothOf.map((v) => smooth.vertexOf[v]), smooth };
+    const inImage = places === null ? null : withCodes(smooth.corners, places, smooth.vertexOf.length);
+    const before = inImage ?? { corners: smooth.corners, vertexOf: smooth.vertexOf.map((_, v) => v) };
+    const flat = withFlatLabels(before.corners, labels, before.vertexOf.length);
+    const copyOf = Uint32Array.from({ length: flat.labels.length }, (_, v) => (v < before.vertexOf.length ? v : flat.doubled[v - before.vertexOf.length]));
+    const smoothOf = copyOf.map((v) => before.vertexOf[v]);
+    return {
+        index: flat.index,
+        labels: flat.labels,
+        smoothOf,
+        vertexOf: smoothOf.map((v) => smooth.vertexOf[v]),
+        placeOf: inImage && copyOf.map((v) => inImage.codes[v]),
+        smooth,
+    };
 }
+
+/**
+ * Puts triangles of one material behind one another.
+ * @param materials one per triangle. @returns order: the triangles; groups: for each material its begin and its end.
+ */
+export function byMaterial(materials, count) {
+    const ends = new Uint32Array(count + 1);
+    for (const material of materials)
+        ++ends[material + 1];
+    for (let k = 0; k < count; ++k)
+        ends[k + 1] += ends[k];
+    const next = ends.slice();
+    const order = new Uint32Array(materials.length);
+    materials.forEach((material, t) => (order[next[material]++] = t));
+    return { order, groups: Array.from({ length: count }, (_, k) => [ends[k], ends[k + 1]]) };
+}
+
+/** Numbers, so many per triangle, in another order of the triangles. */
+export const inOrder = (numbers, order, stride) => numbers.map((_, k) => numbers[stride * order[Math.floor(k / stride)] + (k % stride)]);
 
 /** The edges of the mesh, two vertices each. @param bits one per triangle, bit k: its side from corner k is one. */
 export function edgesOf(corners, bits) {

@@ -65,13 +65,13 @@ function rows(report) {
 }
 
 /** Fills a section with what there is to know of a flow. */
-export function showFacts(section, flow) {
+export function showFacts(section, mesh, flow) {
     const { report } = flow;
     const list = element("dl");
     for (const [name, text] of rows(report))
         list.append(element("dt", {}, name), element("dd", {}, text));
     const remarks = element("ul");
-    for (const remark of [...report.choices, ...report.remarks, flow.remark].filter((text, k, all) => text && all.indexOf(text) === k))
+    for (const remark of [...report.choices, ...report.remarks, flow.remark, ...mesh.remarks].filter((text, k, all) => text && all.indexOf(text) === k))
         remarks.append(element("li", {}, remark));
     section.replaceChildren(element("h2", {}, "Run"), list);
     if (remarks.childElementCount > 0)

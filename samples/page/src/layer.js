@@ -88,18 +88,20 @@ function spread(numbers, vertexOf, stride) {
     return result;
 }
 
-/** What the vertices of all layers have in common. */
-export function sharedAttributes(triangles) {
+/** What the vertices of all layers have in common. @param places in an image, four numbers of 16 bits each, or null. */
+export function sharedAttributes(triangles, places) {
     const n = triangles.vertexOf.length;
     return {
         index: new BufferAttribute(triangles.index, 1),
         label: new BufferAttribute(new Uint8Array(4 * n).fill(200), 4, true),
+        ...(places && { uv: new BufferAttribute(spread(places, triangles.placeOf, 4), 4, true) }),
     };
 }
 
 export class Layer {
     #geometry = new BufferGeometry();
     #edgeGeometry = new BufferGeometry();
+    #shared;
     #surface;
     #edges;
     #triangles = null;
@@ -107,7 +109,8 @@ export class Layer {
 
     /** @param shared uniforms of all layers. */
     constructor(scene, shared) {
-        this.#surface = new Mesh(this.#geometry, this.#surfaceMaterial(shared));
+        this.#shared = shared;
+        this.#surface = new Mesh(this.#geometry, [this.#surfaceMaterial({})]);
         this.#edges = new LineSegments(this.#edgeGeometry, this.#edgeMaterial(shared));
         for (const object of [this.#surface, this.#edges]) {
             object.frustumCulled = false;
@@ -115,7 +118,8 @@ export class Layer {
         }
     }
 
-    #surfaceMaterial(shared) {
+    /** @param own uniforms of one material of the file: image and tint. */
+    #surfaceMaterial(own) {
         return new RawShaderMaterial({
             glslVersion: GLSL3,
             vertexShader,
@@ -124,7 +128,7 @@ export class Layer {
             polygonOffset: true,
             polygonOffsetFactor: 1,
             polygonOffsetUnits: 1,
-            uniforms: { ...shared, ...this.#own },
+            uniforms: { ...this.#shared, ...this.#own, ...own },
         });
     }
 
@@ -140,10 +144,17 @@ export class Layer {
         });
     }
 
+    /** @param materials image and tint of each, as uniforms. */
+    setMaterials(materials) {
+        this.#surface.material = materials.map((own) => this.#surfaceMaterial(own));
+    }
+
     /** @param triangles see drawableTriangles. @param attributes see sharedAttributes. */
     setTriangles(triangles, { index, ...attributes }) {
         this.#triangles = triangles;
         this.#geometry.setIndex(index);
+        this.#geometry.clearGroups();
+        (triangles.groups ?? [[0, index.count / 3]]).forEach(([begin, end], material) => this.#geometry.addGroup(3 * begin, 3 * (end - begin), material));
         this.#geometry.deleteAttribute("position");
         this.#geometry.deleteAttribute("normal");
         this.#geometry.deleteAttribute("value");

@@ -2,9 +2,10 @@
 
 import { offer, rangeOf, reflect, showLegend } from "./controls.js";
 import { facts, remembering, unpacked16, unpacked32, unpackedBytes } from "./data.js";
-import { drawableTriangles, edgesOf, heightsOf, labelsOfTriangles } from "./faces.js";
+import { drawableTriangles, edgesOf, heightsOf, inOrder, labelsOfTriangles } from "./faces.js";
 import { element, showFacts, summary } from "./facts.js";
 import { creases, sizesOf, vertexNormals } from "./normals.js";
+import * as own from "./own_colours.js";
 import { colourOfClass, colourOfLabel, ramp } from "./palette.js";
 import { Player } from "./player.js";
 import { Plots } from "./plots.js";
@@ -51,6 +52,12 @@ async function colour() {
         return () => view.colourByLabel((v) => colourOfLabel(triangles.labels[v]));
     if (chosen.colour === "class")
         return () => view.colourByLabel((v) => colourOfClass(flow().report.subdomain_colours[triangles.labels[v]] ?? 0));
+    if (chosen.colour === "file")
+        return () => view.colourByMaterial();
+    if (chosen.colour === "vertices") {
+        const colours = await ownColours();
+        return () => view.colourByVertex((v) => colours.subarray(3 * triangles.vertexOf[v], 3 * triangles.vertexOf[v] + 3));
+    }
     if (chosen.colour === "texture") {
         const numbers = await texture(facts.flows[0].states[0].surface.positions.block);
         const values = await ofEach(surfaces(), async () => ({ numbers, largest: 1 }));
@@ -72,6 +79,9 @@ async function creasesOfAll(corners) {
     return input.share > 0.25 && states.length > 1 ? of(states.at(-1)) : input;
 }
 const creasesOnce = remembering(1, async (block) => (await creasesOfAll(await cornersOnce(block))).groups);
+
+const ownColours = remembering(1, own.vertexColours);
+const layoutOnce = remembering(1, (perFace) => (own.hasMaterials ? own.layout(perFace, facts.mesh.triangles) : null));
 
 const normalsOf = remembering(4, async (positions) =>
     vertexNormals(triangles.smooth.corners, triangles.smooth.vertexOf, await positionsIn(positions.block), sizesOf(positions)),
@@ -135,11 +145,29 @@ const player = new Player(byId("play"), { state: () => chosen.state, states: () 
 const wipe = new Wipe(byId("divider"), (part) => view?.wipeAt(part));
 const plots = new Plots({ step: () => state().step, choose: chooseStep });
 
+const perFaceOnce = remembering(1, (block) => unpacked32(block, 1));
+
+/** The triangles as they are drawn, in the order of the file's materials if it has any. */
+async function arranged(corners, groups, labels, perFace) {
+    const layout = await layoutOnce(perFace);
+    if (layout === null)
+        return { ...drawableTriangles(corners, groups, labels, facts.mesh.vertices), places: null };
+    const { order, placeOfCorner, places } = layout;
+    const made = drawableTriangles(
+        inOrder(corners, order, 3),
+        inOrder(groups, order, 3),
+        inOrder(labels, order, 1),
+        facts.mesh.vertices,
+        placeOfCorner && inOrder(placeOfCorner, order, 3),
+    );
+    return { ...made, places, groups: layout.groups };
+}
+
 async function chooseFlow(index) {
     chosen.flow = index;
     offer(flow(), chosen);
     byId("summary").textContent = summary(facts.mesh, flow().report);
-    showFacts(byId("facts-table"), flow());
+    showFacts(byId("facts-table"), facts.mesh, flow());
     explain(byId("summary"));
     explain(byId("facts-table"));
     plots.show(flow().report);
@@ -147,13 +175,16 @@ async function chooseFlow(index) {
         const [corners, groups, perFace, ofFaces] = await Promise.all([
             cornersOnce(facts.mesh.corners),
             creasesOnce(facts.mesh.corners),
-            unpacked32(facts.mesh.per_face, 1),
+            perFaceOnce(facts.mesh.per_face),
             unpacked32(flow().labels, 1),
         ]);
         if (index !== chosen.flow)
             return;
-        triangles = drawableTriangles(corners, groups, labelsOfTriangles(ofFaces, perFace, facts.mesh.triangles), facts.mesh.vertices);
-        view.setTriangles(triangles);
+        triangles = await arranged(corners, groups, labelsOfTriangles(ofFaces, perFace, facts.mesh.triangles), perFace);
+        if (index !== chosen.flow)
+            return;
+        normalsOf.clear();
+        view.setTriangles(triangles, triangles.places);
     }
     await show();
 }
@@ -211,10 +242,12 @@ async function standUpright() {
     view.setUp(ups[guess]);
 }
 
-/** A page with several flows is about what a cut does, and what becomes of the texture. */
+/** A mesh that has a texture or colours is shown in them at first. A page with several flows is about what a cut does, and what becomes of the texture. */
 function chooseFirst() {
-    if (facts.flows.length < 2)
+    if (facts.flows.length < 2) {
+        chosen.colour = own.hasMaterials ? "file" : own.hasVertexColours ? "vertices" : "plain";
         return 0;
+    }
     chosen.colour = "texture";
     return Math.max(facts.flows.findIndex(({ report }) => report.subdomains > 1), 0);
 }
@@ -229,8 +262,11 @@ async function start() {
         byId("message").textContent = "The surface takes WebGL 2, which this browser does not offer here.";
     }
     listen();
-    if (view !== null)
+    if (view !== null) {
         await standUpright();
+        if (own.hasMaterials)
+            view.setMaterials(await own.materials(), facts.mesh.colours.places);
+    }
     const first = chooseFirst();
     byId("flow").value = first;
     await chooseFlow(first);

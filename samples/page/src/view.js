@@ -1,6 +1,9 @@
 // The view in three dimensions. It is drawn when something changes, and only then.
 
-import { BufferAttribute, DataTexture, PerspectiveCamera, Scene, Vector3, Vector4, WebGLRenderer } from "three";
+import {
+    BufferAttribute, DataTexture, LinearFilter, LinearMipmapLinearFilter, PerspectiveCamera, RepeatWrapping, Scene, Texture,
+    Vector3, Vector4, WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { inkOfEdges, Layer, sharedAttributes } from "./layer.js";
 
@@ -112,9 +115,28 @@ export class View {
         this.draw();
     }
 
-    /** @param triangles see drawableTriangles. */
-    setTriangles(triangles) {
-        this.#attributes = sharedAttributes(triangles);
+    /**
+     * Takes the materials of the file: of each its colour, from 0 to 255, and its image or null.
+     * @param box of the places in images, or undefined.
+     */
+    setMaterials(materials, box) {
+        if (box)
+            this.#shared.uvBox.value.set(box.lower[0], box.lower[1], box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+        const white = new DataTexture(new Uint8Array(4).fill(255), 1, 1);
+        white.needsUpdate = true;
+        const uniforms = materials.map(({ colour, image }) => {
+            const texture = image === null ? white : new Texture(image);
+            if (image !== null)
+                Object.assign(texture, { wrapS: RepeatWrapping, wrapT: RepeatWrapping, minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter, anisotropy: 8, needsUpdate: true });
+            return { image: { value: texture }, tint: { value: new Vector3(...colour.map((part) => part / 255)) } };
+        });
+        for (const layer of Object.values(this.#layers))
+            layer.setMaterials(uniforms);
+    }
+
+    /** @param triangles see drawableTriangles. @param places in images, four numbers of 16 bits each, or null. */
+    setTriangles(triangles, places) {
+        this.#attributes = sharedAttributes(triangles, places);
         for (const layer of Object.values(this.#layers))
             layer.setTriangles(triangles, this.#attributes);
     }
@@ -164,6 +186,17 @@ export class View {
             attribute.array.set(colours(v), 4 * v);
         attribute.needsUpdate = true;
         this.#setMode(1);
+    }
+
+    /** As by labels, but every vertex has its own colour. */
+    colourByVertex(colours) {
+        this.colourByLabel(colours);
+        this.#setMode(4);
+    }
+
+    /** In the colours and images of the file's materials. */
+    colourByMaterial() {
+        this.#setMode(3);
     }
 
     /** @param values for each side numbers and the largest, see Layer. */

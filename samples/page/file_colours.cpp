@@ -1,0 +1,37 @@
+#include "samples/page/file_colours.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
+#include "samples/page/obj_colours.h"
+#include "samples/page/ply_colours.h"
+
+namespace seamflow {
+
+FileColours read_file_colours(const std::filesystem::path& path, const PolygonMesh& mesh,
+                              std::span<const Index> left_out)
+{
+    // Standard input is gone when the mesh has been read.
+    const auto format = is_standard_stream(path) ? std::nullopt : format_of(path);
+    if (format != FileFormat::Obj && format != FileFormat::Ply)
+        return {};
+    try {
+        const InputFile file{OpenFile(path)};
+        FileColours colours = format == FileFormat::Obj ? read_obj_colours(path, file.content(), mesh, left_out)
+                                                        : read_ply_colours(path, file.content(), mesh, left_out);
+        // One colour for all tells nothing.
+        if (std::adjacent_find(colours.of_vertices.begin(), colours.of_vertices.end(), std::not_equal_to<>()) ==
+            colours.of_vertices.end())
+            colours.of_vertices.clear();
+        return colours;
+    } catch (const InputError& error) {
+        FileColours none;
+        none.remarks.push_back(std::string("The page lacks the file's own colours: ") + error.what() + ".");
+        return none;
+    }
+}
+
+}  // namespace seamflow

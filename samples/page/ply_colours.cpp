@@ -1,0 +1,198 @@
+#include "samples/page/ply_colours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "partition/errors.h"
+#include "partition/formats/ply_source.h"
+#include "samples/page/texture_images.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What a number of a vertex means here.
+enum PlyColourRole : std::size_t { Red, Green, Blue, U, V, Other };
+
+PlyColourRole colour_role_of(std::string_view name)
+{
+    constexpr std::array<std::array<std::string_view, 4>, 5> names = {{{"red", "diffuse_red", "r", ""},
+                                                                       {"green", "diffuse_green", "g", ""},
+                                                                       {"blue", "diffuse_blue", "b", ""},
+                                                                       {"texture_u", "s", "u", "texture_s"},
+                                                                       {"texture_v", "t", "v", "texture_t"}}};
+    for (std::size_t role = 0; role < names.size(); ++role)
+        if (std::find(names[role].begin(), names[role].end(), name) != names[role].end())
+            return static_cast<PlyColourRole>(role);
+    return Other;
+}
+
+/// A colour's part as files of each type have it: of 255 or 65535, or from 0 to 1.
+std::uint8_t eight_bits_of(double value, PlyType type)
+{
+    const double most = type == PlyType::UInt16 ? 65535.0 : is_integer(type) ? 255.0 : 1.0;
+    return static_cast<std::uint8_t>(
+        std::lround(255.0 * (std::isnan(value) ? 0.5 : std::clamp(value / most, 0.0, 1.0))));
+}
+
+bool has(const PlyElement& element, PlyColourRole role)
+{
+    return std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& property) {
+        return !property.length_type && colour_role_of(property.name) == role;
+    });
+}
+
+/// The first image that comments of the header name; empty if none does.
+std::string texture_file(std::string_view header)
+{
+    constexpr std::string_view mark = "comment TextureFile ";
+    const std::size_t place = header.find(mark);
+    if (place == std::string_view::npos)
+        return {};
+    const std::string_view rest = header.substr(place + mark.size());
+    const std::string_view name = rest.substr(0, rest.find_first_of("\r\n"));
+    const std::size_t last = name.find_last_not_of(" \t");
+    return std::string(name.substr(0, last == std::string_view::npos ? 0 : last + 1));
+}
+
+/// Reads the elements of one file one after another.
+class PlyColourReader {
+  public:
+    PlyColourReader(const PolygonMesh& mesh, std::span<const Index> left_out, bool has_image)
+        : mesh_(mesh)
+        , left_out_(left_out)
+        , has_image_(has_image)
+    {
+    }
+
+    template <class Source>
+    void read(Source source, const PlyHeader& header)
+    {
+        for (const PlyElement& element : header.elements)
+            for (std::uint64_t e = 0; e < element.count; ++e) {
+                if (element.name == "vertex")
+                    read_vertex(source, element, e);
+                else if (element.name == "face" && has_image_)
+                    read_face(source, element, e);
+                else
+                    pass_over(source, element, e, "file");
+            }
+    }
+
+    /// @throws InputError
+    FileColours finish(const std::filesystem::path& path);
+
+  private:
+    template <class Source>
+    void read_vertex(Source& source, const PlyElement& element, std::uint64_t v)
+    {
+        std::array<std::uint8_t, 3> colour{};
+        std::array<float, 2> place{};
+        source.begin_element(element, v);
+        for (const PlyProperty& property : element.properties) {
+            const PlyColourRole role = property.length_type ? Other : colour_role_of(property.name);
+            if (role == Other)
+                pass_over(source, property, "file");
+            else if (role < U)
+                colour[role] = eight_bits_of(source.number(property.type), property.type);
+            else
+                place[role - U] = static_cast<float>(source.number(property.type));
+        }
+        source.end_element();
+        if (has(element, Red) && has(element, Green) && has(element, Blue))
+            result_.of_vertices.push_back(colour);
+        if (has_image_ && has(element, U) && has(element, V))
+            result_.places.push_back(place);
+        ++n_vertices_;
+    }
+
+    template <class Source>
+    void read_face(Source& source, const PlyElement& element, std::uint64_t number)
+    {
+        const bool is_there = !std::binary_search(left_out_.begin(), left_out_.end(), static_cast<Index>(number));
+        source.begin_element(element, number);
+        for (const PlyProperty& property : element.properties) {
+            if (property.name != "texcoord" || !property.length_type || !is_there) {
+                pass_over(source, property, "file");
+                continue;
+            }
+            const std::int64_t n = read_length(source, property, "file");
+            const std::size_t corners = n_faces_ < mesh_.n_faces() ? mesh_.face(n_faces_).size() : 0;
+            std::vector<float> numbers;
+            for (std::int64_t k = 0; k < n; ++k)
+                numbers.push_back(static_cast<float>(source.number(property.type)));
+            numbers.resize(2 * corners);
+            for (std::size_t k = 0; k < corners; ++k)
+                of_corners_.push_back({numbers[2 * k], numbers[2 * k + 1]});
+        }
+        source.end_element();
+        n_faces_ += is_there ? 1 : 0;
+    }
+
+    void number_places_of_corners();
+
+    const PolygonMesh& mesh_;
+    std::span<const Index> left_out_;
+    bool has_image_;
+    FileColours result_;
+    std::vector<std::array<float, 2>> of_corners_;
+    Index n_vertices_ = 0;
+    Index n_faces_ = 0;
+};
+
+/// Most corners around a vertex have the same place.
+void PlyColourReader::number_places_of_corners()
+{
+    result_.places = of_corners_;
+    std::sort(result_.places.begin(), result_.places.end());
+    result_.places.erase(std::unique(result_.places.begin(), result_.places.end()), result_.places.end());
+    for (const auto& place : of_corners_)
+        result_.place_of_corner.push_back(static_cast<Index>(
+            std::lower_bound(result_.places.begin(), result_.places.end(), place) - result_.places.begin()));
+}
+
+FileColours PlyColourReader::finish(const std::filesystem::path& path)
+{
+    if (n_vertices_ != mesh_.n_vertices() || (has_image_ && n_faces_ != mesh_.n_faces()))
+        throw InputError(path.string() + ": the file is not that of the mesh");
+    // What is no number has no order.
+    for (auto* places : {&result_.places, &of_corners_})
+        for (auto& place : *places)
+            for (float& part : place)
+                part = std::isfinite(part) ? part : 0.0F;
+    if (of_corners_.size() == at(mesh_.n_corners()))
+        number_places_of_corners();
+    else if (!result_.places.empty())
+        result_.place_of_corner = mesh_.face_vertices;
+    return std::move(result_);
+}
+
+}  // namespace
+
+FileColours read_ply_colours(const std::filesystem::path& path, std::string_view file, const PolygonMesh& mesh,
+                             std::span<const Index> left_out)
+{
+    TextScanner scanner(path, file, ply_syntax);
+    const PlyHeader header = read_ply_header(scanner);
+    const std::string name = texture_file(file.substr(0, file.size() - scanner.rest().size()));
+    PlyColourReader reader(mesh, left_out, !name.empty());
+    with_source(scanner, path, file, header.encoding, [&](auto source) { reader.read(std::move(source), header); });
+    FileColours colours = reader.finish(path);
+    if (colours.place_of_corner.empty())
+        return colours;
+    TextureImages images(path);
+    if (const std::string image = images.data_url(name); !image.empty()) {
+        colours.materials.push_back({.image = image});
+        colours.material_of_face.assign(at(mesh.n_faces()), 0);
+    } else {
+        colours.places.clear();
+        colours.place_of_corner.clear();
+    }
+    colours.remarks = images.remarks();
+    return colours;
+}
+
+}  // namespace seamflow
