@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "engine/measure/remarks.h"
 #include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/inspection/mesh_inspection.h"
@@ -102,9 +101,7 @@ void FlowingMesh::complete(FlowReport& report) const
     std::transform(number_.begin(), number_.end(), labels.begin(),
                    [&](Index number) { return report.cut.labels[number]; });
     report.cut.labels = std::move(labels);
-    report.remarks.push_back(fmt::format("{} {} the same vertices as one before and took no part in the flow; they are "
-                                         "still there.",
-                                         n_left_out, n_left_out == 1 ? "face has" : "faces have"));
+    report.remarks.push_back(remark_on_repeated_faces(n_left_out));
 }
 
 }  // namespace seamflow
