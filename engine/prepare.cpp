@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
@@ -141,8 +142,7 @@ void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport&
     report.mesh.non_manifold_vertices =
         static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));
     if (report.mesh.non_manifold_vertices > 0)
-        report.remarks.push_back(std::to_string(report.mesh.non_manifold_vertices) +
-                                 " vertices are held fixed because the mesh is not manifold there.");
+        report.remarks.push_back(remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices));
     for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
         report.mesh.fixed_vertices += topology.moves(mesh.moves_with(v)) ? 0 : 1;
     if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {

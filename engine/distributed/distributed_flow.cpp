@@ -1,6 +1,7 @@
 #include "engine/distributed/distributed_flow.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "engine/distributed/conversation.h"
+#include "engine/distributed/packing.h"
 #include "engine/distributed/rank_exchange.h"
+#include "engine/distributed/rank_meter.h"
 #include "engine/distributed/rank_setup.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
@@ -20,6 +23,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -47,12 +51,13 @@ void require_for_ranks(const FlowOptions& options)
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
-    else if (options.motion.boundary != Boundary::Fixed || options.motion.rescale != Rescale::None ||
-             options.motion.strict)
-        unknown = "a free boundary, rescaled results, nor strict";
+    else if (options.motion.boundary != Boundary::Fixed && !is_converged(options))
+        unknown = "sweeps with a free boundary (approach has to be converged)";
+    else if (options.motion.rescale != Rescale::None || options.motion.strict)
+        unknown = "rescaled results, nor strict";
     else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
              !options.motion.attachment_weights.empty())
-        unknown = "options for single faces and vertices: labels and fixed vertices are those of the parts";
+        unknown = "options for single faces and vertices: labels, fixed vertices and weights are those of the parts";
     else if (options.report.reference || options.report.record_schedule || options.report.keep_gaps)
         unknown = "an undecomposed flow to compare with, a schedule, nor gaps";
     if (unknown != nullptr)
@@ -60,12 +65,13 @@ void require_for_ranks(const FlowOptions& options)
             fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));
 }
 
-/// The options with the tolerance of converged steps, if steps are converged.
-FlowOptions with_tolerance(const FlowOptions& options, const PolygonMesh& mesh)
+/// The options with the tolerance of converged steps, if steps are converged, and the weights of the part.
+FlowOptions completed(const FlowOptions& options, const MeshPart& part)
 {
     FlowOptions complete = options;
     if (is_converged(options))
-        complete.accuracy.tolerance = choose_tolerance(mesh, {}, options, false).tolerance;
+        complete.accuracy.tolerance = choose_tolerance(part.mesh, {}, options, false).tolerance;
+    complete.motion.attachment_weights = part.attachment_weights;
     return complete;
 }
 
@@ -98,7 +104,7 @@ class RankFlow {
     RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options, const RankObserver& on_step)
         : talk_(talk)
         , part_(part)
-        , options_(with_tolerance(options, part.mesh))
+        , options_(completed(options, part))
         , on_step_(on_step)
         , progress_(control_)
     {
@@ -108,27 +114,32 @@ class RankFlow {
     Points run(RankReport& report)
     {
         const Stopwatch watch;
-        const auto all = gather_sub_meshes(talk_, part_);
         const BoundingBox box = gather_box(talk_, part_.mesh);
         const Point offset = origin_offset(box);
-        RankMesh mesh = make_rank_mesh(talk_, part_, all, offset, options_);
+        require_valid(options_);
+        RankMesh mesh = make_rank_mesh(talk_, part_, offset, options_);
+        options_.motion.attachment_weights = mesh.part.attachment_weights;
         Decomposition decomposition = decompose_rank_mesh(mesh);
         const std::int64_t n_interface_vertices = decomposition.n_interface_vertices;
         std::optional<RankExchange> exchange;
-        std::vector<Index> rank_of_all(all.size(), 0);
+        std::vector<Index> rank_of_all(mesh.all.size(), 0);
         std::unique_ptr<Stepper> stepper;
         if (options_.accuracy.tolerance) {
             stepper = std::make_unique<SchurStepper>(
-                mesh.part.mesh, make_peer_sub_meshes(talk_, mesh, std::move(decomposition), all), options_, progress_);
+                mesh.part.mesh, make_peer_sub_meshes(talk_, mesh, std::move(decomposition)), options_, progress_);
         } else {
             exchange.emplace(talk_, mesh.part, mesh.known);
             stepper = std::make_unique<SweepStepper>(
                 mesh.part.mesh,
-                make_rank_sub_meshes(talk_, mesh, std::move(decomposition), all, options_, *exchange, rank_of_all),
-                options_, progress_);
+                make_rank_sub_meshes(talk_, mesh, std::move(decomposition), options_, *exchange, rank_of_all), options_,
+                progress_);
         }
         const UpdateLimit limit(mesh.part.mesh, (box.high - box.low).stableNorm(), options_.accuracy.largest_update);
         describe(mesh, rank_of_all, n_interface_vertices, report);
+        if (options_.report.measures) {
+            meter_.emplace(talk_, mesh);
+            report.before = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
+        }
         report.setup_seconds = watch.seconds();
         std::optional<MeshPart> shown = on_step_ ? std::optional(part_) : std::nullopt;
         for (int step = 1; step <= options_.steps; ++step) {
@@ -151,11 +162,20 @@ class RankFlow {
             stepper.step(mesh.part.mesh.vertices);
             require_within_limit(limit, mesh, stepper.positions());
         });
-        mesh.part.mesh.vertices = stepper.positions();
         StepReport of_step;
         stepper.describe(of_step);
-        return {watch.seconds(), talk_.n_messages() - messages, talk_.n_bytes() - bytes, of_step.iterations,
-                of_step.residual};
+        RankStepReport report{.seconds = watch.seconds(),
+                              .messages = talk_.n_messages() - messages,
+                              .bytes = talk_.n_bytes() - bytes,
+                              .iterations = of_step.iterations,
+                              .residual = of_step.residual};
+        if (meter_) {
+            report.measures = meter_->measure(mesh.part.mesh.vertices, stepper.positions());
+            if (of_step.estimated_v_max && report.measures->mean_edge > 0.0)
+                report.estimated_v_max = *of_step.estimated_v_max / report.measures->mean_edge;
+        }
+        mesh.part.mesh.vertices = stepper.positions();
+        return report;
     }
 
     void describe(const RankMesh& mesh, const std::vector<Index>& rank_of_all, std::int64_t n_interface_vertices,
@@ -167,28 +187,76 @@ class RankFlow {
         for (const std::int64_t n : talk_.gather_all(std::vector<std::int64_t>{n_interface_vertices}))
             report.interface_vertices += n;
         report.vertices = part_.mesh.n_vertices();
-        report.foreign_vertices = mesh.part.mesh.n_vertices() - report.vertices;
+        report.foreign_vertices = std::max(mesh.part.mesh.n_vertices() - report.vertices, 0);
+        report.non_manifold_vertices = mesh.n_non_manifold;
+        report.repeated_faces = mesh.n_repeated;
+        report.remarks = mesh.remarks;
     }
 
-    [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Point& offset) const
+    /// All ranks call this together.
+    [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Point& offset)
     {
         Points positions = part_.mesh.vertices;
+        std::vector<Index> elsewhere;
         for (const Index v : part_.mesh.face_vertices) {
             const auto found = std::ranges::lower_bound(mesh.part.vertex_numbers, part_.vertex_numbers[v]);
-            positions.row(v) = mesh.part.mesh.vertices.row(found - mesh.part.vertex_numbers.begin());
-            // Not by nothing, which would make 0 of -0.
-            if (!offset.isZero(0.0))
-                positions.row(v) += offset;
+            const auto known = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
+            if (found != mesh.part.vertex_numbers.end() && *found == part_.vertex_numbers[v] &&
+                (mesh.n_repeated == 0 || mesh.has_own_faces(known)))
+                positions.row(v) = mesh.part.mesh.vertices.row(known);
+            else
+                elsewhere.push_back(v);
+        }
+        if (mesh.n_repeated > 0)
+            ask_for(mesh, elsewhere, positions);
+        // Not by nothing, which would make 0 of -0.
+        if (!offset.isZero(0.0)) {
+            std::vector<Index> moved = part_.mesh.face_vertices;
+            sort_unique(moved);
+            for (const Index v : moved)
+                positions.row(v) = Point(positions.row(v)) + offset;
         }
         return positions;
     }
 
+    /// Vertices all of whose faces here repeat others: whoever has those knows where they are.
+    void ask_for(const RankMesh& mesh, std::vector<Index> vertices, Points& positions)
+    {
+        struct Place {
+            std::int64_t vertex;
+            std::array<double, 3> position;
+        };
+        sort_unique(vertices);
+        std::vector<std::int64_t> numbers;
+        for (const Index v : vertices)
+            numbers.push_back(part_.vertex_numbers[v]);
+        std::vector<Bytes> answers;
+        for (const Bytes& asked : talk_.gather_to_all(packed(numbers))) {
+            std::vector<Place> places;
+            for (const std::int64_t number : unpacked<std::int64_t>(asked)) {
+                const auto found = std::ranges::lower_bound(mesh.part.vertex_numbers, number);
+                const auto v = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
+                if (found == mesh.part.vertex_numbers.end() || *found != number || !mesh.has_own_faces(v))
+                    continue;
+                const Point position = mesh.part.mesh.vertices.row(v);
+                places.push_back({number, {position[0], position[1], position[2]}});
+            }
+            answers.push_back(packed(places));
+        }
+        for (const Bytes& answer : talk_.exchange(std::move(answers)))
+            for (const auto& [number, position] : unpacked<Place>(answer))
+                positions.row(
+                    vertices[static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) - numbers.begin())]) =
+                    Point(position.data());
+    }
+
     Conversation& talk_;
     const MeshPart& part_;
-    const FlowOptions options_;
+    FlowOptions options_;
     const RankObserver& on_step_;
     FlowControl control_;
     Progress progress_;
+    std::optional<RankMeter> meter_;
 };
 
 }  // namespace

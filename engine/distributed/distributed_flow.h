@@ -3,14 +3,28 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/distributed/communicator.h"
 #include "engine/distributed/conversation.h"
 #include "engine/distributed/mesh_part.h"
 #include "engine/options/flow_options.h"
+#include "partition/metrics/length_statistics.h"
 
 namespace seamflow {
+
+/// What is measured of a mesh that ranks share in one state: the same on all ranks, and for any number of them.
+struct RankMeasures {
+    /// Of all faces, length².
+    double area = 0.0;
+    /// Length³; empty where the faces enclose none (see encloses_volume).
+    std::optional<double> volume = {};
+    /// Length of the edges, those between two faces counting twice.
+    double mean_edge = 0.0;
+    /// How far the last step has moved the vertices of faces, units of length.
+    LengthStatistics displacement = {};
+};
 
 /// One step as a rank sees it.
 struct RankStepReport {
@@ -22,6 +36,10 @@ struct RankStepReport {
     /// Of a converged step, of all ranks: its iterations, and the residual that they left.
     std::optional<int> iterations = {};
     std::optional<double> residual = {};
+    /// Of a converged step, with `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
+    std::optional<double> estimated_v_max = {};
+    /// With ReportOptions::measures: the mesh after the step.
+    std::optional<RankMeasures> measures = {};
 };
 
 /// What a distributed flow did.
@@ -30,12 +48,20 @@ struct RankReport {
     Index sub_meshes = 0;
     Index colours = 0;
     std::int64_t interface_vertices = 0;
+    /// Of the whole mesh: vertices held because the mesh is not manifold there, and faces that repeat others, which
+    /// take no part in the flow.
+    std::int64_t non_manifold_vertices = 0;
+    std::int64_t repeated_faces = 0;
     /// Of this rank: the vertices of its sub-meshes, and those that it knows of others.
     Index vertices = 0;
     Index foreign_vertices = 0;
     /// All that is done before the first step, wall-clock time.
     double setup_seconds = 0.0;
+    /// With ReportOptions::measures: the mesh before the first step.
+    std::optional<RankMeasures> before = {};
     std::vector<RankStepReport> steps;
+    /// As those of FlowReport, of the whole mesh.
+    std::vector<std::string> remarks;
 };
 
 /// What an observer on a rank sees after each step.
@@ -59,14 +85,16 @@ using RankObserver = std::function<void(const RankStepState&)>;
 ///
 /// Not for distributed flows are, so far: approaches but Approach::Sweep and Approach::Converged, and the latter with
 /// Δ_P, whose equations are not symmetric; sweeps with other conditions than the adapted ones;
-/// Scheme::ExplicitEuler; keep_edges; a free boundary; attachment weights; rescale; strict; what ReportOptions asks
-/// for beside `measures`, which count as if they were off; FlowOptions::radius. Vertices along seams stay as they are,
-/// as with an empty MotionOptions::weld. Labels and fixed vertices are those of the part.
+/// Scheme::ExplicitEuler; keep_edges; sweeps with a free boundary; rescale; strict; what ReportOptions asks
+/// for beside `measures`; of these, curvature and roughness, and the estimate of the error of sweeps;
+/// FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld (see cut_together).
+/// Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at places where the
+/// mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several
-///         ranks, for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow would
-///         move its faces), and for faces that repeat others; ComputationError naming step and sub-mesh.
+///         ranks, or for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow
+///         would move its faces); ComputationError naming step and sub-mesh.
 RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
                                            const RankObserver& on_step = {});
 

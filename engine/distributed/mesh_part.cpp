@@ -1,6 +1,7 @@
 #include "engine/distributed/mesh_part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -108,6 +109,7 @@ Bytes packed_part(const MeshPart& part)
     packer.put_all(std::span(part.face_numbers));
     packer.put_all(std::span(part.labels));
     packer.put_all(std::span(part.fixed));
+    packer.put_all(std::span(part.attachment_weights));
     return packer.take();
 }
 
@@ -123,6 +125,7 @@ MeshPart unpacked_part(const Bytes& bytes)
     part.face_numbers = unpacker.get_all<Number>();
     part.labels = unpacker.get_all<Index>();
     part.fixed = unpacker.get_all<std::uint8_t>();
+    part.attachment_weights = unpacker.get_all<double>();
     return part;
 }
 
@@ -156,6 +159,8 @@ MeshPart joined(std::span<const MeshPart> parts)
         all.mesh.vertices.row(static_cast<Eigen::Index>(all.vertex_numbers.size())) = parts[p].mesh.vertices.row(v);
         all.vertex_numbers.push_back(number);
         all.fixed.push_back(parts[p].fixed.empty() ? 0 : parts[p].fixed[v]);
+        if (!parts[p].attachment_weights.empty())
+            all.attachment_weights.push_back(parts[p].attachment_weights[v]);
     }
     std::vector<Index> corners;
     for (const auto& [number, p, f] : merged(parts, &MeshPart::face_numbers)) {
@@ -210,6 +215,14 @@ void require_valid(const MeshPart& part)
                                      *negative));
     if (!part.fixed.empty() && part.fixed.size() != part.vertex_numbers.size())
         throw InputError("a part of a mesh does not say of each vertex whether it is fixed");
+    if (!part.attachment_weights.empty() && part.attachment_weights.size() != part.vertex_numbers.size())
+        throw InputError("a part of a mesh does not say of each vertex how it is attached");
+    const auto wrong = std::ranges::find_if_not(part.attachment_weights,
+                                                [](double weight) { return weight >= 0.0 && std::isfinite(weight); });
+    if (wrong != part.attachment_weights.end())
+        throw InputError(fmt::format(
+            "the attachment weight of vertex {} is {:.17g}, but must be at least 0 and finite (1/length²)",
+            part.vertex_numbers[static_cast<std::size_t>(wrong - part.attachment_weights.begin())], *wrong));
     require_valid(part.mesh);
 }
 
@@ -224,6 +237,8 @@ MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
     for (const Index v : vertices) {
         some.vertex_numbers.push_back(part.vertex_numbers[v]);
         some.fixed.push_back(part.fixed.empty() ? 0 : part.fixed[v]);
+        if (!part.attachment_weights.empty())
+            some.attachment_weights.push_back(part.attachment_weights[v]);
     }
     std::vector<Index> corners;
     for (const Index f : faces) {

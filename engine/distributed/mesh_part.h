@@ -21,14 +21,16 @@ struct MeshPart {
     std::vector<Index> labels;
     /// #V: 1 where a vertex stays where it is, as MotionOptions::fixed_vertices do. Empty: nowhere.
     std::vector<std::uint8_t> fixed = {};
+    /// #V: weights of the attachment, as MotionOptions::attachment_weights. Empty on all ranks: there are none.
+    std::vector<double> attachment_weights = {};
 };
 
 /// Checks that the arrays fit together and that numbers ascend.
 /// @throws InputError naming the first vertex or face (in the whole mesh, where it has a number) at which they do not.
 void require_valid(const MeshPart& part);
 
-/// Some faces of a part and their vertices.
-/// @param faces ascending, numbered in the part.
+/// Some faces of a part and their vertices, in the order of the part.
+/// @param faces as indices into the part, ascending.
 MeshPart some_faces(const MeshPart& part, std::span<const Index> faces);
 
 /// The part with faces that other ranks have around it, as many layers of them: a layer is all faces around the

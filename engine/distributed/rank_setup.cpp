@@ -1,12 +1,15 @@
 #include "engine/distributed/rank_setup.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/distributed/rank_peers.h"
+#include "engine/measure/remarks.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
@@ -16,6 +19,7 @@
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 #include "partition/inspection/mesh_inspection.h"
+#include "partition/labels.h"
 #include "partition/repair/pinches.h"
 #include "solvers/laplacian/degenerate.h"
 
@@ -55,20 +59,78 @@ std::vector<KnownSubMesh> describe_known(const std::vector<Index>& places, const
     return known;
 }
 
-/// @throws InputError where faces of this rank repeat others.
-void require_no_repeated_faces(const RankMesh& mesh)
+/// All sub-meshes of all ranks, in ascending order of their numbers.
+/// @throws InputError for one that several ranks have.
+std::vector<OwnedSubMesh> gather_sub_meshes(Conversation& talk, const MeshPart& part)
 {
-    const PolygonMesh& faces = mesh.part.mesh;
-    const auto is_suspicious = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
-    const auto candidates = select(run_in_parallel, faces.n_faces(),
-                                   [&](Index f) { return std::ranges::any_of(faces.face(f), is_suspicious); });
-    const auto is_own_face = [&](Index f) { return mesh.is_own[mesh.part.labels[f]] != 0; };
-    for (const RepeatedFace& repeated : find_repeated_faces(faces, candidates))
-        if (is_own_face(repeated.face) || is_own_face(repeated.first))
-            throw InputError(fmt::format("face {} has the same vertices as face {} (numbered from 0): leave one of "
-                                         "them out",
-                                         mesh.part.face_numbers[repeated.face],
-                                         mesh.part.face_numbers[repeated.first]));
+    std::vector<Index> numbers = part.labels;
+    sort_unique(numbers);
+    std::vector<OwnedSubMesh> own;
+    for (const Index number : numbers)
+        own.push_back({number, talk.rank()});
+    std::vector<OwnedSubMesh> all = talk.gather_all(own);
+    std::ranges::stable_sort(all, {}, &OwnedSubMesh::number);
+    const auto shared = std::ranges::adjacent_find(all, {}, &OwnedSubMesh::number);
+    if (shared != all.end())
+        throw InputError(fmt::format("sub-mesh {} has faces of rank {} and of rank {}: give all to one", shared->number,
+                                     shared->rank, std::next(shared)->rank));
+    return all;
+}
+
+/// The faces of this rank that do not repeat others, as indices into its part. Like one machine, only those are seen
+/// that lie where the mesh is not manifold.
+std::vector<Index> faces_left(const MeshPart& own, const MeshPart& known, const Topology& topology)
+{
+    const auto is_suspicious = [&](Index v) { return topology.kind[v] == VertexKind::NonManifold; };
+    const auto candidates = select(run_in_parallel, known.mesh.n_faces(),
+                                   [&](Index f) { return std::ranges::any_of(known.mesh.face(f), is_suspicious); });
+    std::vector<std::int64_t> repeated;
+    for (const RepeatedFace& face : find_repeated_faces(known.mesh, candidates))
+        repeated.push_back(known.face_numbers[face.face]);
+    std::ranges::sort(repeated);
+    return select(run_in_parallel, own.mesh.n_faces(),
+                  [&](Index f) { return !std::ranges::binary_search(repeated, own.face_numbers[f]); });
+}
+
+/// What a number is over all ranks.
+std::int64_t sum_of_all(Conversation& talk, std::int64_t own)
+{
+    const auto numbers = talk.gather_all(std::vector<std::int64_t>{own});
+    return std::accumulate(numbers.begin(), numbers.end(), std::int64_t{0});
+}
+
+/// Leaves out faces that repeat others, once more is known of the part.
+/// @param mesh receives part and topology, without what makes them those of a flow.
+void grow(Conversation& talk, const MeshPart& own, RankMesh& mesh)
+{
+    // With two layers, all that have the vertices around those of its sub-meshes are known.
+    constexpr int layers = 2;
+    const auto grow_from = [&](const MeshPart& part) {
+        mesh.part = grown_by_layers(talk, part, layers);
+        mesh.topology = make_topology(mesh.part.mesh, run_in_parallel);
+    };
+    grow_from(own);
+    const std::vector<Index> left = faces_left(own, mesh.part, mesh.topology);
+    mesh.n_repeated = sum_of_all(talk, own.mesh.n_faces() - static_cast<std::int64_t>(left.size()));
+    if (mesh.n_repeated == 0) {
+        mesh.all = gather_sub_meshes(talk, own);
+        return;
+    }
+    const MeshPart without = some_faces(own, left);
+    mesh.all = gather_sub_meshes(talk, without);
+    grow_from(without);
+    mesh.remarks.push_back(remark_on_repeated_faces(mesh.n_repeated));
+}
+
+/// @throws InputError where some ranks say how vertices are attached and others do not.
+void require_alike_attached(Conversation& talk, const MeshPart& own)
+{
+    if (own.mesh.n_vertices() == 0)
+        talk.gather_all(std::vector<std::uint8_t>());
+    else if (const auto said = talk.gather_all(
+                 std::vector<std::uint8_t>{static_cast<std::uint8_t>(own.attachment_weights.empty() ? 0 : 1)});
+             std::ranges::adjacent_find(said, std::not_equal_to<>()) != said.end())
+        throw InputError("some ranks have attachment weights and others have none: give them on all, or on none");
 }
 
 [[noreturn]] void refuse_cut(const std::string& what)
@@ -174,22 +236,6 @@ Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const 
 
 }  // namespace
 
-std::vector<OwnedSubMesh> gather_sub_meshes(Conversation& talk, const MeshPart& part)
-{
-    std::vector<Index> numbers = part.labels;
-    sort_unique(numbers);
-    std::vector<OwnedSubMesh> own;
-    for (const Index number : numbers)
-        own.push_back({number, talk.rank()});
-    std::vector<OwnedSubMesh> all = talk.gather_all(own);
-    std::ranges::stable_sort(all, {}, &OwnedSubMesh::number);
-    const auto shared = std::ranges::adjacent_find(all, {}, &OwnedSubMesh::number);
-    if (shared != all.end())
-        throw InputError(fmt::format("sub-mesh {} has faces of rank {} and of rank {}: give all to one", shared->number,
-                                     shared->rank, std::next(shared)->rank));
-    return all;
-}
-
 BoundingBox gather_box(Conversation& talk, const PolygonMesh& mesh)
 {
     std::vector<std::array<double, 6>> own;
@@ -207,25 +253,39 @@ BoundingBox gather_box(Conversation& talk, const PolygonMesh& mesh)
     return all;
 }
 
-RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const std::vector<OwnedSubMesh>& all,
-                        const Point& offset, const FlowOptions& options)
+bool RankMesh::has_own_faces(Index v) const
 {
-    // With two layers, all that have the vertices around those of its sub-meshes are known.
-    constexpr int layers = 2;
+    return std::ranges::any_of(topology.corners_at(v),
+                               [&](Index corner) { return is_own[part.labels[topology.face_of[corner]]] != 0; });
+}
+
+RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& offset, const FlowOptions& options)
+{
     RankMesh mesh;
-    mesh.part = grown_by_layers(talk, own, layers);
+    require_alike_attached(talk, own);
+    grow(talk, own, mesh);
     mesh.part.mesh.vertices.rowwise() -= offset;
-    mesh.known = describe_known(known_sub_meshes(mesh.part.labels, all), all, mesh.part);
+    mesh.known = describe_known(known_sub_meshes(mesh.part.labels, mesh.all), mesh.all, mesh.part);
     localise_labels(mesh.known, mesh.part.labels);
     for (const KnownSubMesh& sub_mesh : mesh.known)
         mesh.is_own.push_back(sub_mesh.rank == talk.rank() ? 1 : 0);
-
-    mesh.topology = make_topology(mesh.part.mesh, run_in_parallel);
-    require_no_repeated_faces(mesh);
     require_sound_cut(mesh);
+    if (options.motion.boundary == Boundary::Free)
+        free_boundary(mesh.topology);
     hold(mesh.topology,
          select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
     hold(mesh.topology, vertices_without_row(mesh.part.mesh, mesh.topology, options.laplacian, run_in_parallel));
+    // Each is counted where its lowest sub-mesh is.
+    std::vector<Index> around;
+    const auto non_manifold = select(run_serially, mesh.part.mesh.n_vertices(), [&](Index v) {
+        if (mesh.topology.kind[v] != VertexKind::NonManifold)
+            return false;
+        labels_around(mesh.topology, mesh.part.labels, v, around);
+        return mesh.is_own[around.front()] != 0;
+    });
+    mesh.n_non_manifold = sum_of_all(talk, static_cast<std::int64_t>(non_manifold.size()));
+    if (mesh.n_non_manifold > 0)
+        mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold));
     return mesh;
 }
 
@@ -239,9 +299,10 @@ Decomposition decompose_rank_mesh(RankMesh& mesh)
 }
 
 RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
-                                   const std::vector<OwnedSubMesh>& all, const FlowOptions& options,
-                                   ForeignSubMeshes& foreign, std::vector<Index>& rank_of_all)
+                                   const FlowOptions& options, ForeignSubMeshes& foreign,
+                                   std::vector<Index>& rank_of_all)
 {
+    const std::vector<OwnedSubMesh>& all = mesh.all;
     const std::vector<Index> places = places_among(all, mesh.known);
     RankSubMeshes result;
     result.decomposition = std::move(decomposition);
@@ -262,14 +323,17 @@ RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Dec
     return result;
 }
 
-PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
-                                   const std::vector<OwnedSubMesh>& all)
+std::unique_ptr<InterfacePeers> make_rank_peers(Conversation& talk, const RankMesh& mesh)
 {
     std::vector<Index> holders;
-    for (const OwnedSubMesh& sub_mesh : all)
+    for (const OwnedSubMesh& sub_mesh : mesh.all)
         holders.push_back(sub_mesh.rank);
-    return {std::move(decomposition),
-            std::make_unique<RankPeers>(talk, std::move(holders), places_among(all, mesh.known)),
+    return std::make_unique<RankPeers>(talk, std::move(holders), places_among(mesh.all, mesh.known));
+}
+
+PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition)
+{
+    return {std::move(decomposition), make_rank_peers(talk, mesh),
             [known = mesh.known](Index s, const std::function<void()>& body) {
                 run_for_sub_mesh(known[s], known[s].number, body);
             }};

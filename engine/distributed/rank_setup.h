@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/distributed/conversation.h"
@@ -20,43 +22,52 @@ struct OwnedSubMesh {
     std::int32_t rank = 0;
 };
 
-/// All sub-meshes of all ranks, in ascending order of their numbers.
-/// @throws InputError for one that several ranks have.
-std::vector<OwnedSubMesh> gather_sub_meshes(Conversation& talk, const MeshPart& part);
-
 /// The box around the vertices of the faces of all ranks.
 BoundingBox gather_box(Conversation& talk, const PolygonMesh& mesh);
 
 /// What a rank knows of a mesh before the flow begins.
 struct RankMesh {
-    /// Its own faces and two layers around them, near the origin, with local labels.
+    /// All sub-meshes of all ranks, in ascending order of their numbers.
+    std::vector<OwnedSubMesh> all;
+    /// Its own faces and two layers around them, near the origin, with local labels. Faces that repeat others are left
+    /// out.
     MeshPart part;
     Topology topology;
     /// By local label.
     std::vector<KnownSubMesh> known;
     std::vector<std::uint8_t> is_own;
+    /// Of all ranks: faces that were left out, and vertices that are held for they are not manifold.
+    std::int64_t n_repeated = 0;
+    std::int64_t n_non_manifold = 0;
+    /// A sentence on each of those.
+    std::vector<std::string> remarks;
+
+    /// Whether a known vertex has faces of this rank.
+    [[nodiscard]] bool has_own_faces(Index v) const;
 };
 
 /// Grows the part of a rank by what it has to know of others, and settles which vertices move.
 /// @param offset to be subtracted from all positions.
 /// @throws InputError for sub-meshes and faces that cannot be used.
-RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const std::vector<OwnedSubMesh>& all,
-                        const Point& offset, const FlowOptions& options);
+RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& offset, const FlowOptions& options);
 
 /// Decomposes what a rank knows.
 /// @param mesh receives how many vertices each sub-mesh has.
 Decomposition decompose_rank_mesh(RankMesh& mesh);
 
 /// Agrees with the other ranks on the order of the sweep.
-/// @param all see gather_sub_meshes. @param foreign is put into the result.
+/// @param foreign is put into the result.
 /// @param rank_of_all receives the place of each of them in the sweep.
 RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
-                                   const std::vector<OwnedSubMesh>& all, const FlowOptions& options,
-                                   ForeignSubMeshes& foreign, std::vector<Index>& rank_of_all);
+                                   const FlowOptions& options, ForeignSubMeshes& foreign,
+                                   std::vector<Index>& rank_of_all);
+
+/// The ranks as those that work on all sub-meshes together.
+/// @param talk must outlive the result.
+std::unique_ptr<InterfacePeers> make_rank_peers(Conversation& talk, const RankMesh& mesh);
 
 /// What converged steps need, which ranks take together.
-/// @param talk must outlive the result. @param all see gather_sub_meshes.
-PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
-                                   const std::vector<OwnedSubMesh>& all);
+/// @param talk must outlive the result.
+PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition);
 
 }  // namespace seamflow

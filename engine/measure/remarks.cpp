@@ -10,6 +10,17 @@
 
 namespace seamflow {
 
+std::string remark_on_repeated_faces(std::int64_t n)
+{
+    return fmt::format("{} {} the same vertices as one before and took no part in the flow; they are still there.", n,
+                       n == 1 ? "face has" : "faces have");
+}
+
+std::string remark_on_non_manifold_vertices(std::int64_t n)
+{
+    return fmt::format("{} vertices are held fixed because the mesh is not manifold there.", n);
+}
+
 void remark_on_drift(const FlowOptions& options, FlowReport& report)
 {
     if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)

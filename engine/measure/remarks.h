@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -8,6 +9,13 @@
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
+
+/// On faces that took no part in the flow.
+/// @param n at least 1.
+std::string remark_on_repeated_faces(std::int64_t n);
+
+/// On vertices that are held.
+std::string remark_on_non_manifold_vertices(std::int64_t n);
 
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/measure/remarks.h"
 #include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/inspection/mesh_inspection.h"

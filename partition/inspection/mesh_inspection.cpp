@@ -8,8 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "partition/connected_components.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
@@ -253,12 +251,6 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     found.defects.faces_without_area = select(loop, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
     found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
     return found;
-}
-
-std::string remark_on_repeated_faces(std::int64_t n)
-{
-    return fmt::format("{} {} the same vertices as one before and took no part in the flow; they are still there.", n,
-                       n == 1 ? "face has" : "faces have");
 }
 
 }  // namespace seamflow

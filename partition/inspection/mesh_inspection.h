@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -92,8 +91,5 @@ struct RepeatedFace {
 /// Those among the candidates that repeat another candidate, in ascending order.
 /// @param candidates faces, ascending.
 std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std::vector<Index>& candidates);
-
-/// What became of them in a flow, a sentence for the user.
-std::string remark_on_repeated_faces(std::int64_t n);
 
 }  // namespace seamflow

@@ -11,12 +11,12 @@
 #include "engine/distributed/cut/chunks.h"
 #include "engine/distributed/cut/face_homes.h"
 #include "engine/distributed/cut/mending.h"
+#include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/workers.h"
 #include "partition/cut/cut.h"
-#include "partition/inspection/mesh_inspection.h"
 
 namespace seamflow {
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -10,7 +11,10 @@
 
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/thread_communicator.h"
+#include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
+#include "partition/metrics/vertex_distance.h"
+#include "partition/metrics/volume.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
 
@@ -24,6 +28,7 @@ struct Example {
     PolygonMesh mesh;
     FlowOptions options;
     std::vector<Index> fixed = {};
+    std::vector<double> weights = {};
 };
 
 struct Result {
@@ -39,6 +44,9 @@ Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels,
     std::mutex mutex;
     run_on_threads(n, [&](Communicator& communicator) {
         MeshPart part = test::part_of(example.mesh, labels, n_sub_meshes, communicator.rank(), n, example.fixed);
+        for (const std::int64_t number : part.vertex_numbers)
+            if (!example.weights.empty())
+                part.attachment_weights.push_back(example.weights[static_cast<std::size_t>(number)]);
         result.reports[communicator.rank()] = distributed_mean_curvature_flow(communicator, part, example.options);
         const std::scoped_lock lock(mutex);
         for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
@@ -53,6 +61,13 @@ Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels,
     return result;
 }
 
+bool same(const RankMeasures& a, const RankMeasures& b)
+{
+    return a.area == b.area && a.volume == b.volume && a.mean_edge == b.mean_edge &&
+           a.displacement.mean == b.displacement.mean && a.displacement.rms == b.displacement.rms &&
+           a.displacement.max == b.displacement.max;
+}
+
 /// Compares with the flow on one machine, for each of these numbers of ranks.
 void check_bits(const Example& example, int subdomains, const std::vector<int>& n_ranks)
 {
@@ -61,6 +76,7 @@ void check_bits(const Example& example, int subdomains, const std::vector<int>& 
     FlowOptions options = example.options;
     options.cut.subdomains = subdomains;
     options.motion.fixed_vertices = example.fixed;
+    options.motion.attachment_weights = example.weights;
     const FlowReport report = mean_curvature_flow(mesh, options);
     const Index n_sub_meshes = report.cut.n_sub_meshes();
     REQUIRE(n_sub_meshes > 1);
@@ -72,6 +88,9 @@ void check_bits(const Example& example, int subdomains, const std::vector<int>& 
             CHECK(rank.sub_meshes == n_sub_meshes);
             CHECK(rank.colours == report.cut.n_colours());
             CHECK(rank.interface_vertices == report.cut.interface_vertices);
+            CHECK(rank.non_manifold_vertices == report.mesh.non_manifold_vertices);
+            for (const std::string& remark : rank.remarks)
+                CHECK(std::ranges::count(report.remarks, remark) == 1);
             REQUIRE(rank.steps.size() == report.steps.size());
             for (std::size_t step = 0; step < rank.steps.size(); ++step) {
                 CHECK(rank.steps[step].iterations == report.steps[step].iterations);
@@ -249,10 +268,52 @@ TEST_CASE("ranks find the bits of one machine in converged steps: what else ther
         options.resources.threads = threads;
         check_bits({"threads", mesh, options}, 20, {1, 3, 5});
     }
+    options = defaults;
+    options.motion.boundary = Boundary::Free;
+    check_bits({"free boundary", mesh, options}, 10, {1, 3, 5});
     // Factors that are made again.
     options = defaults;
     options.resources.memory_limit = 150'000;
     check_bits({"scarce", mesh, options}, 20, {1, 3});
+}
+
+TEST_CASE("ranks find the bits of one machine with weights of the attachment")
+{
+    Example example{"weights", make_mixed_polygons(700), by_sweeps(Laplacian::VirtualRefinement, 2e-3)};
+    for (Index v = 0; v < example.mesh.n_vertices(); ++v)
+        example.weights.push_back(v % 5);
+    check_bits(example, 8, {1, 3, 5});
+    example.options = converged(Laplacian::VirtualRefinement, 2e-3);
+    check_bits(example, 8, {1, 3, 5});
+}
+
+TEST_CASE("faces that repeat others are left out, wherever they are")
+{
+    const PolygonMesh once = make_mixed_polygons(500);
+    for (const Index stride : {1, 7}) {
+        CAPTURE(stride);
+        Example example{"repeated", once, by_sweeps(Laplacian::Fujiwara, 1e-3)};
+        for (Index f = 0; f < once.n_faces(); f += stride)
+            example.mesh.add_face(once.face(f));
+        PolygonMesh mesh = example.mesh;
+        FlowOptions options = example.options;
+        options.cut.subdomains = 8;
+        const FlowReport report = mean_curvature_flow(mesh, options);
+        // To sub-meshes that need not be near.
+        std::vector<Index> labels = report.cut.labels;
+        for (Index f = once.n_faces(); f < example.mesh.n_faces(); ++f)
+            labels[f] = (labels[f] + f) % report.cut.n_sub_meshes();
+        for (const int n : {1, 3, 5}) {
+            CAPTURE(n);
+            const Result result = flowed_on_ranks(example, labels, report.cut.n_sub_meshes(), n);
+            CHECK(test::same_bits(result.positions, mesh.vertices));
+            for (const RankReport& rank : result.reports) {
+                CHECK(rank.repeated_faces == example.mesh.n_faces() - once.n_faces());
+                REQUIRE(rank.remarks.size() == 1);
+                CHECK(std::ranges::count(report.remarks, rank.remarks.front()) == 1);
+            }
+        }
+    }
 }
 
 TEST_CASE("ranks do not wait for each other in a circle where memory is scarce")
@@ -270,6 +331,45 @@ TEST_CASE("ranks do not wait for each other in a circle where memory is scarce")
         }
     }
     check_bits(example, 40, {1, 2, 5, 8});
+}
+
+TEST_CASE("what is measured is that of the whole mesh, and the same for any number of ranks")
+{
+    for (const PolygonMesh& mesh : {make_noisy_sphere(900), make_mixed_polygons(600), test::moebius_band(60, 8)}) {
+        Example example{"measured", mesh, converged(Laplacian::VirtualRefinement, 1e-3)};
+        example.options.steps = 1;
+        PolygonMesh moved = mesh;
+        FlowOptions options = example.options;
+        options.cut.subdomains = 9;
+        const FlowReport report = mean_curvature_flow(moved, options);
+        std::vector<RankReport> first;
+        for (const int n : {1, 2, 5}) {
+            CAPTURE(n);
+            const Result result = flowed_on_ranks(example, report.cut.labels, report.cut.n_sub_meshes(), n);
+            if (first.empty())
+                first = result.reports;
+            for (const RankReport& rank : result.reports) {
+                CHECK(same(*rank.before, *first.front().before));
+                CHECK(same(*rank.steps[0].measures, *first.front().steps[0].measures));
+                CHECK(rank.steps[0].estimated_v_max == first.front().steps[0].estimated_v_max);
+            }
+        }
+        const RankMeasures& before = *first.front().before;
+        const RankMeasures& after = *first.front().steps[0].measures;
+        CHECK(before.area == doctest::Approx(total_area(mesh)));
+        CHECK(after.area == doctest::Approx(total_area(moved)));
+        CHECK(after.mean_edge == doctest::Approx(mean_edge_length(moved)));
+        CHECK(after.volume.has_value() == encloses_volume(mesh, run_serially));
+        if (after.volume)
+            CHECK(*after.volume ==
+                  doctest::Approx(volume_of_cones(moved, moved.vertices, Point::Zero(), run_serially)));
+        CHECK(before.displacement.max == 0.0);
+        const Eigen::VectorXd distances = (moved.vertices - mesh.vertices).rowwise().norm();
+        CHECK(after.displacement.max == distances.maxCoeff());
+        CHECK(after.displacement.mean == doctest::Approx(distances.mean()));
+        CHECK(after.displacement.rms == doctest::Approx(std::sqrt(distances.squaredNorm() / moved.n_vertices())));
+        CHECK(*first.front().steps[0].estimated_v_max == doctest::Approx(*report.steps[0].estimated_v_max));
+    }
 }
 
 TEST_CASE("observers see each step on all ranks, and can work together")
@@ -368,16 +468,10 @@ TEST_CASE("a failure on one rank ends all with one message")
     *first = 3;
     *last = 2;
     check_refusal<InputError>(flow(options, torn), 3, "take the labels that a flow of the same mesh reports");
-    // The same face twice, at different ranks.
-    PolygonMesh repeated = mesh;
-    std::vector<Index> of_repeated = labels;
-    const auto again = mesh.face(static_cast<Index>(std::ranges::find(labels, 0) - labels.begin()));
-    repeated.add_face(std::vector<Index>(again.begin(), again.end()));
-    of_repeated.push_back(5);
-    check_refusal<InputError>(
-        [&](Communicator& communicator) {
-            MeshPart part = test::part_of(repeated, of_repeated, 6, communicator.rank(), 3);
-            distributed_mean_curvature_flow(communicator, part, options);
-        },
-        3, "has the same vertices as face");
+    // Weights of one rank alone.
+    const auto attach = [](MeshPart& part, int rank) {
+        if (rank == 1)
+            part.attachment_weights.assign(part.vertex_numbers.size(), 1.0);
+    };
+    check_refusal<InputError>(flow(options, labels, attach), 3, "some ranks have attachment weights");
 }
