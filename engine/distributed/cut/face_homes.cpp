@@ -35,11 +35,12 @@ void send_home(Conversation& talk, const SliceBounds& bounds, std::span<const Me
 {
     std::vector<Packer> to_homes(talk.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const auto& [mesh, vertex_numbers, face_numbers, labels, fixed] = *parts[i];
+        const MeshPart& part = *parts[i];
+        const PolygonMesh& mesh = part.mesh;
         for (Index f = 0; f < mesh.n_faces(); ++f) {
-            Packer& packer = to_homes[stretch_of(bounds.faces, face_numbers[f])];
-            packer.put(face_numbers[f]);
-            packer.put(labels[f]);
+            Packer& packer = to_homes[stretch_of(bounds.faces, part.face_numbers[f])];
+            packer.put(part.face_numbers[f]);
+            packer.put(part.labels[f]);
             for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
                 packer.put(has_twin(i, h) ? std::uint8_t{1} : std::uint8_t{0});
         }
