@@ -37,6 +37,8 @@ struct WorkOutcome {
     std::string message = {};
     /// The machine.
     std::string host = {};
+    /// Whether all ranks have agreed on it: then it is about none of them.
+    bool is_agreed = false;
 };
 
 /// Does what other ranks wait for, again and again where memory lacks for it: what a rank that fails has had is free by
@@ -91,6 +93,10 @@ class Conversation {
     /// Does on rank 0 what is for all ranks, which wait for it; what it throws all throw alike.
     void at_first_rank(const std::function<void()>& action);
 
+    /// Every rank does its part in looking at an input. If any finds fault with that all throw the same, the InputError
+    /// or OptionError of the lowest of those ranks.
+    void look_together(const std::function<void()>& look);
+
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);
@@ -110,6 +116,7 @@ class Conversation {
     bool take_in(std::chrono::microseconds patience);
     void sort_in(Message message);
     void require_all_well() const;
+    void agree_on(const WorkOutcome& own);
     void send(int to, int tag, Bytes bytes);
 
     Communicator* communicator_;
@@ -118,6 +125,8 @@ class Conversation {
     std::deque<Message> arrivals_;
     /// Per rank; empty: still at work.
     std::vector<std::optional<WorkOutcome>> ended_;
+    /// See WorkOutcome.
+    bool has_agreed_ = false;
     std::atomic<std::uint64_t> n_messages_ = 0;
     std::atomic<std::uint64_t> n_bytes_ = 0;
 };
@@ -128,7 +137,8 @@ void run_work_together(Communicator& communicator, const std::function<void(Conv
 /// Runs `work` on this rank, as every rank does, and waits until all ranks are at its end. If it throws on one rank, it
 /// ends on all of them, as soon as each waits for another: then all throw the same, what the lowest rank has thrown of
 /// those that have failed by themselves, with the number and the machine of this rank before it, but where all have
-/// failed alike. What may fail on one rank alone belongs into `work`.
+/// failed alike, or have agreed on it (see Conversation::at_first_rank). What may fail on one rank alone belongs into
+/// `work`.
 /// @throws the errors of errors.h as what they are; std::bad_alloc and all others as ComputationError.
 /// @param work called with the Conversation of this rank.
 template <class Work>
