@@ -5,7 +5,24 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
 # Installed are the headers of the library call and what they include; the test consumer.headers checks that none of
 # these is missing.
+set(distributed_headers "")
+if(TARGET seamflow_distributed)
+    list(APPEND distributed_headers
+        engine/distributed/communicator.h
+        engine/distributed/conversation.h
+        engine/distributed/deal.h
+        engine/distributed/distributed_cut.h
+        engine/distributed/distributed_flow.h
+        engine/distributed/mesh_part.h
+        engine/distributed/mpi_communicator.h
+        engine/distributed/packing.h
+        engine/distributed/shared_mesh_file.h
+        engine/distributed/slice_measures.h
+        engine/distributed/thread_communicator.h
+        engine/distributed/whole_mesh.h)
+endif()
 foreach(header IN ITEMS
+        ${distributed_headers}
         engine/eigen.h
         engine/mean_curvature_flow.h
         engine/measure/displacement_meter.h
@@ -42,7 +59,11 @@ foreach(header IN ITEMS
     cmake_path(GET header PARENT_PATH folder)
     install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow/${folder})
 endforeach()
-foreach(folder IN ITEMS partition solvers engine)
+set(installed_libraries partition solvers engine)
+if(TARGET seamflow_distributed)
+    list(APPEND installed_libraries distributed)
+endif()
+foreach(folder IN LISTS installed_libraries)
     set_target_properties(seamflow_${folder} PROPERTIES INSTALL_RPATH $ORIGIN)
     install(TARGETS seamflow_${folder} EXPORT seamflow-${folder})
     install(EXPORT seamflow-${folder} DESTINATION ${package_dir} NAMESPACE seamflow::
@@ -98,7 +119,11 @@ install(FILES ${PROJECT_BINARY_DIR}/seamflow.pc DESTINATION ${CMAKE_INSTALL_LIBD
 
 if(SEAMFLOW_BUILD_SAMPLES)
     cmake_path(RELATIVE_PATH CMAKE_INSTALL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_BINDIR} OUTPUT_VARIABLE to_libraries)
-    set_target_properties(smooth compare generate inspect PROPERTIES INSTALL_RPATH $ORIGIN/${to_libraries})
-    install(TARGETS smooth compare generate inspect)
+    set(installed_programs smooth compare generate inspect)
+    if(TARGET smooth-distributed)
+        list(APPEND installed_programs smooth-distributed)
+    endif()
+    set_target_properties(${installed_programs} PROPERTIES INSTALL_RPATH $ORIGIN/${to_libraries})
+    install(TARGETS ${installed_programs})
 endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
