@@ -3,6 +3,20 @@
 # #include <seamflow/engine/mean_curvature_flow.h>, with an installed library or one that is built along. The test
 # consumer.headers checks that none is missing.
 set(SEAMFLOW_HEADERS
+    engine/distributed/communicator.h
+    engine/distributed/conversation.h
+    engine/distributed/cut/distributed_cut.h
+    engine/distributed/cut/joined_seams.h
+    engine/distributed/cut/repeated_faces.h
+    engine/distributed/deal.h
+    engine/distributed/distributed_flow.h
+    engine/distributed/mesh_part.h
+    engine/distributed/mpi_communicator.h
+    engine/distributed/packing.h
+    engine/distributed/shared_mesh_file.h
+    engine/distributed/slice_measures.h
+    engine/distributed/thread_communicator.h
+    engine/distributed/whole_mesh.h
     engine/eigen.h
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h

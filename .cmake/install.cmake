@@ -4,7 +4,11 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/include/seamflow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-foreach(folder IN ITEMS partition solvers engine)
+set(installed_libraries partition solvers engine)
+if(TARGET seamflow_distributed)
+    list(APPEND installed_libraries distributed)
+endif()
+foreach(folder IN LISTS installed_libraries)
     set_target_properties(seamflow_${folder} PROPERTIES INSTALL_RPATH $ORIGIN)
     install(TARGETS seamflow_${folder} EXPORT seamflow-${folder})
     install(EXPORT seamflow-${folder} DESTINATION ${package_dir} NAMESPACE seamflow::
@@ -60,8 +64,12 @@ install(FILES ${PROJECT_BINARY_DIR}/seamflow.pc DESTINATION ${CMAKE_INSTALL_LIBD
 
 if(SEAMFLOW_BUILD_SAMPLES)
     cmake_path(RELATIVE_PATH CMAKE_INSTALL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_BINDIR} OUTPUT_VARIABLE to_libraries)
-    set_target_properties(smooth compare generate inspect PROPERTIES INSTALL_RPATH $ORIGIN/${to_libraries})
-    install(TARGETS smooth compare generate inspect)
+    set(installed_programs smooth compare generate inspect)
+    if(TARGET smooth-distributed)
+        list(APPEND installed_programs smooth-distributed)
+    endif()
+    set_target_properties(${installed_programs} PROPERTIES INSTALL_RPATH $ORIGIN/${to_libraries})
+    install(TARGETS ${installed_programs})
     install(DIRECTORY ${PROJECT_BINARY_DIR}/share/man/ DESTINATION ${CMAKE_INSTALL_MANDIR})
     install(DIRECTORY ${PROJECT_BINARY_DIR}/share/bash-completion ${PROJECT_BINARY_DIR}/share/zsh
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})

@@ -93,7 +93,7 @@ class RankRun {
         file_ = open_together(talk, command_.input, sharing_, workers_->loop());
         RankSlice slice = file_->read(talk);
         about_file(command_.input, [&] { record_.size = measure(talk, slice); });
-        settle_amount();
+        talk.look_together([&] { settle_amount(); });
         const SliceBounds bounds = gather_bounds(talk, slice);
         if (!command_.labels.empty())
             slice.labels = read_labels_together(talk, slice);
@@ -155,6 +155,7 @@ class RankRun {
     void look_at_results()
     {
         std::error_code ignored;
+        file_->require_writable_as(command_.output);
         if (const MeshFile* const whole = file_->whole()) {
             require_storable(whole->mesh, command_.output, kind_for_writing(command_.output, whole->kind));
             record_.remarks = remarks_on_losses(command_.output, true, *whole);

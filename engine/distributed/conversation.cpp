@@ -80,9 +80,9 @@ void require_success(const std::vector<WorkOutcome>& outcomes)
     const auto first = std::ranges::find_if(outcomes, has_failed);
     if (first == outcomes.end())
         return;
-    const bool alike = std::ranges::all_of(outcomes, [&](const WorkOutcome& outcome) {
-        return outcome.kind == first->kind && outcome.message == first->message;
-    });
+    const bool alike = first->is_agreed || std::ranges::all_of(outcomes, [&](const WorkOutcome& outcome) {
+                           return outcome.kind == first->kind && outcome.message == first->message;
+                       });
     if (first->kind == Kind::OutOfMemory)
         throw ComputationError(
             fmt::format("rank {} on {}: there is not enough memory: use more ranks, on more machines",
@@ -98,6 +98,7 @@ Bytes packed_outcome(const WorkOutcome& outcome)
     packer.put(outcome.kind);
     packer.put_all(std::span<const char>(outcome.message));
     packer.put_all(std::span<const char>(outcome.host));
+    packer.put(outcome.is_agreed);
     return packer.take();
 }
 
@@ -114,6 +115,7 @@ WorkOutcome unpacked_outcome(const Bytes& bytes)
     outcome.kind = unpacker.get<Kind>();
     outcome.message = text_from(unpacker);
     outcome.host = text_from(unpacker);
+    outcome.is_agreed = unpacker.get<bool>();
     return outcome;
 }
 
@@ -212,12 +214,35 @@ std::vector<Bytes> Conversation::gather_to_all(Bytes own)
     return exchange(std::vector<Bytes>(size(), std::move(own)));
 }
 
+/// If any rank has failed, all throw what the lowest of them has said.
+void Conversation::agree_on(const WorkOutcome& own)
+{
+    for (const Bytes& bytes : gather_to_all(own.kind == Kind::Done ? Bytes() : packed_outcome(own))) {
+        if (bytes.empty())
+            continue;
+        // Others may learn that this rank has ended before they learn of this.
+        has_agreed_ = true;
+        const WorkOutcome outcome = unpacked_outcome(bytes);
+        throw_as(outcome.kind, outcome.message);
+    }
+}
+
 void Conversation::at_first_rank(const std::function<void()>& action)
 {
-    const WorkOutcome own = rank() == 0 ? outcome_of(action) : WorkOutcome{};
-    const WorkOutcome first = unpacked_outcome(gather_to_all(rank() == 0 ? packed_outcome(own) : Bytes()).front());
-    if (first.kind != Kind::Done)
-        throw_as(first.kind, first.message);
+    agree_on(rank() == 0 ? outcome_of(action) : WorkOutcome{});
+}
+
+void Conversation::look_together(const std::function<void()>& look)
+{
+    WorkOutcome own;
+    try {
+        look();
+    } catch (const InputError& error) {
+        own = {Kind::InputError, error.what()};
+    } catch (const OptionError& error) {
+        own = {Kind::OptionError, error.what()};
+    }
+    agree_on(own);
 }
 
 std::optional<Message> Conversation::next_arrival(std::chrono::microseconds patience)
@@ -265,6 +290,7 @@ void run_work_together(Communicator& communicator, const std::function<void(Conv
     insist([&] { conversation.emplace(communicator); });
     WorkOutcome own = outcome_of([&] { work(*conversation); });
     insist([&] { own.host = communicator.host(); });
+    own.is_agreed = conversation->has_agreed_ && own.kind != Kind::OutOfMemory;
     require_success(conversation->part(own));
 }
 

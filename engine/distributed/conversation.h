@@ -38,6 +38,8 @@ struct WorkOutcome {
     std::string message = {};
     /// The machine.
     std::string host = {};
+    /// Whether all ranks have agreed on it: then it is about none of them.
+    bool is_agreed = false;
 };
 
 /// Does what other ranks wait for, again and again where memory lacks for it: what a rank that fails has had is free by
@@ -120,6 +122,10 @@ class Conversation {
     /// same.
     std::vector<Bytes> exchange_with(std::span<const int> others, std::vector<Bytes> to_each);
 
+    /// Every rank does its part in looking at an input. If any finds fault with that all throw the same, the InputError
+    /// or OptionError of the lowest of those ranks.
+    void look_together(const std::function<void()>& look);
+
     /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
     void send(int to, Bytes bytes);
@@ -139,6 +145,7 @@ class Conversation {
     bool take_in(std::chrono::microseconds patience);
     void sort_in(Message message);
     void require_all_well() const;
+    void agree_on(const WorkOutcome& own);
     void send(int to, int tag, Bytes bytes);
     Bytes next_collective(int from);
 
@@ -148,6 +155,8 @@ class Conversation {
     std::deque<Message> arrivals_;
     /// Per rank; empty: still at work.
     std::vector<std::optional<WorkOutcome>> ended_;
+    /// See WorkOutcome.
+    bool has_agreed_ = false;
     std::atomic<std::uint64_t> n_messages_ = 0;
     std::atomic<std::uint64_t> n_bytes_ = 0;
 };
@@ -158,7 +167,8 @@ void run_work_together(Communicator& communicator, const std::function<void(Conv
 /// Runs `work` on this rank, as every rank does, and waits until all ranks are at its end. If it throws on one rank, it
 /// ends on all of them, as soon as each waits for another: then all throw the same, what the lowest rank has thrown of
 /// those that have failed by themselves, with the number and the machine of this rank before it, but where all have
-/// failed alike. What may fail on one rank alone belongs into `work`.
+/// failed alike, or have agreed on it (see Conversation::at_first_rank). What may fail on one rank alone belongs into
+/// `work`.
 /// @throws the errors of errors.h as what they are; std::bad_alloc and all others as ComputationError.
 /// @param work called with the Conversation of this rank.
 template <class Work>

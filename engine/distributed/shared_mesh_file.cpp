@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/distributed/sliced_ply_file.h"
 #include "engine/distributed/whole_mesh.h"
 #include "partition/errors.h"
+#include "partition/io/gzip.h"
 #include "partition/io/input_file.h"
 
 namespace seamflow {
@@ -28,6 +30,12 @@ class WholeMeshFile final : public SharedMeshFile {
         talk.at_first_rank([&] { file_ = read_faulty_mesh(path_, faults_, loop_); });
         is_read_ = talk.rank() == 0;
         return hand_out(talk, file_.mesh, sharing_.block);
+    }
+
+    void require_writable_as(const std::filesystem::path& path) const override
+    {
+        if (is_read_)
+            static_cast<void>(kind_for_writing(path, file_.kind));
     }
 
     std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
@@ -81,6 +89,12 @@ std::uint64_t bytes_in(const std::filesystem::path& path)
 
 }  // namespace
 
+void SharedMeshFile::write_labelled(Conversation&, const std::filesystem::path& path, const Points&,
+                                    const std::vector<Index>&)
+{
+    throw OptionError(path.string() + ": the cut of a mesh that ranks read in slices cannot be written");
+}
+
 std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
                                               const FileSharing& sharing, const Loop& loop)
 {
@@ -89,8 +103,15 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
     size = talk.gather_all(std::vector<std::uint64_t>{size}).front();
     if (size <= sharing.whole_up_to)
         return std::make_unique<WholeMeshFile>(path, sharing, loop);
-    throw InputError(fmt::format("{}: the file has {} bytes, and one rank alone reads no more than {} (--whole-up-to)",
-                                 path.string(), size, sharing.whole_up_to));
+    talk.at_first_rank([&] {
+        if (format_of(path) != FileFormat::Ply || is_gzip_name(path))
+            throw InputError(
+                fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; convert it to a "
+                            "binary .ply file, of which every rank reads a slice",
+                            path.string(), size, sharing.whole_up_to));
+        static_cast<void>(OpenFile(path));
+    });
+    return open_sliced_ply(path, sharing);
 }
 
 }  // namespace seamflow

@@ -34,6 +34,10 @@ class SharedMeshFile {
     /// @throws InputError as read_mesh, but for faces that read_faulty_mesh leaves out.
     virtual RankSlice read(Conversation& talk) = 0;
 
+    /// Checks, before the long work begins, that `write` can write such a file.
+    /// @throws OptionError
+    virtual void require_writable_as(const std::filesystem::path& path) const = 0;
+
     /// Writes the mesh: in the form of the file (see write_mesh_like) where the format of `path` is the same, else as a
     /// plain mesh. It appears whole or not at all.
     /// @param vertices where the vertices of this rank's stretch are now.
@@ -44,8 +48,9 @@ class SharedMeshFile {
 
     /// As write_labelled_ply, with the vertices as `write` takes them.
     /// @param labels of the faces of this rank's stretch.
+    /// @throws OptionError where rank 0 has not read all of the file.
     virtual void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
-                                const std::vector<Index>& labels) = 0;
+                                const std::vector<Index>& labels);
 
     /// On rank 0, if it has read all of the file: the mesh, with the positions read or written last. Else null.
     [[nodiscard]] virtual const MeshFile* whole() const { return nullptr; }

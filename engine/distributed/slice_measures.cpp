@@ -92,7 +92,7 @@ double extent_together(Conversation& talk, const Points& own)
 SharedMeshSize measure(Conversation& talk, const RankSlice& slice)
 {
     const SliceBounds bounds = gather_bounds(talk, slice);
-    require_corners_in_range(slice, bounds, talk.rank());
+    talk.look_together([&] { require_corners_in_range(slice, bounds, talk.rank()); });
     SharedMeshSize size{.vertices = bounds.vertices.back(), .faces = bounds.faces.back()};
     double edges = 0.0;
     for (const BlockSums& sums : talk.gather_all(sum_blocks(mesh_of_faces(talk, slice, bounds)))) {

@@ -14,6 +14,7 @@
 #include "partition/formats/ply_header.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
+#include "partition/formats/ply_stretches.h"
 #include "partition/formats/splicing.h"
 
 namespace seamflow {
@@ -24,13 +25,7 @@ namespace {
 constexpr std::array<std::string_view, 6> columns = {"x", "y", "z", "nx", "ny", "nz"};
 using Row = Eigen::Matrix<double, 1, columns.size()>;
 
-/// What becomes of one property of the vertices.
-struct Change {
-    /// One of the above, or -1: it stays.
-    Index column = -1;
-    /// The type of the number in the file that is written.
-    PlyType type = PlyType::Float64;
-};
+using Change = PlyChange;
 
 /// Whether numbers of that type can be those of the list, floats after rounding.
 bool can_hold(PlyType type, const auto& numbers)
@@ -66,16 +61,16 @@ Normals normals_of(const PlyElement& vertices)
     return n_usable == 3 ? Normals::Usable : n_found > 0 ? Normals::Other : Normals::None;
 }
 
-std::vector<Change> changes_of(const PlyElement& vertices, const PolygonMesh& mesh)
+std::vector<Change> changes_of(const PlyElement& vertices, const std::array<bool, 3>& fits, bool with_normals)
 {
-    const auto n_columns = normals_of(vertices) == Normals::Usable ? columns.end() : columns.begin() + 3;
+    const auto n_columns = with_normals ? columns.end() : columns.begin() + 3;
     std::vector<Change> changes;
     for (const PlyProperty& property : vertices.properties) {
         const auto column = std::find(columns.begin(), n_columns, property.name);
         Change change;
         if (column != n_columns) {
             change = {static_cast<Index>(column - columns.begin()), property.type};
-            if (change.column < 3 && !can_hold(property.type, mesh.vertices.col(change.column)))
+            if (change.column < 3 && !fits[change.column])
                 change.type = PlyType::Float64;
         }
         changes.push_back(change);
@@ -237,13 +232,55 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
 
 }  // namespace
 
+std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions)
+{
+    std::array<bool, 3> fits = {true, true, true};
+    for (const PlyProperty& property : vertices.properties)
+        if (const auto column = std::find(columns.begin(), columns.begin() + 3, property.name);
+            column != columns.begin() + 3)
+            fits[column - columns.begin()] = can_hold(property.type, positions.col(column - columns.begin()));
+    return fits;
+}
+
+std::vector<PlyChange> changes_of_positions(const PlyElement& vertices, const std::array<bool, 3>& fits)
+{
+    return changes_of(vertices, fits, false);
+}
+
+std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesystem::path& path,
+                                            std::string_view header, const PlyElement& vertices,
+                                            const std::vector<PlyChange>& changes)
+{
+    Splicer splicer(file, header);
+    std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
+    splicer.finish();
+    if (normals_of(vertices) != Normals::None)
+        remarks.push_back("the normals of " + path.string() + " are written as they were");
+    return remarks;
+}
+
+bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, std::string_view content,
+                          const PlyHeader& header, std::string_view bytes, const Points& positions,
+                          const std::vector<PlyChange>& changes)
+{
+    const PlyElement& vertices = *header.element("vertex");
+    PlyBinarySource source(path, content, static_cast<std::size_t>(bytes.data() - content.data()), header.encoding);
+    Splicer splicer(file, bytes);
+    VertexRewriter<PlyBinarySource> rewriter(source, splicer, header.encoding);
+    for (Index v = 0; v < positions.rows(); ++v)
+        rewriter.rewrite(vertices, changes, v, positions.row(v), nullptr);
+    splicer.finish();
+    return rewriter.rounded();
+}
+
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing)
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     const PlyElement& vertices = *header.element("vertex");
-    const std::vector<Change> changes = changes_of(vertices, mesh);
+    const std::vector<Change> changes =
+        changes_of(vertices, coordinates_fit(vertices, mesh.vertices), normals_of(vertices) == Normals::Usable);
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (normals_of(vertices) == Normals::Usable)

@@ -66,6 +66,11 @@ class BinarySlicer {
     /// Goes past the elements of one kind.
     void add(const PlyElement& element, const Slicing& slicing);
 
+    /// Goes past n elements whose fields are known.
+    void pass_over(const std::vector<Field>& fields, std::uint64_t n);
+
+    [[nodiscard]] std::size_t offset() const { return offset_; }
+
     [[nodiscard]] std::vector<PlySlice> take() { return std::move(slices_); }
 
   private:
@@ -99,6 +104,18 @@ void BinarySlicer::pass_over(const Field& list)
     pass_over(static_cast<std::uint64_t>(n) * list.number_bytes);
 }
 
+void BinarySlicer::pass_over(const std::vector<Field>& fields, std::uint64_t n)
+{
+    const std::span<const Field> lists(fields.data(), fields.size() - 1);
+    if (lists.empty())
+        return pass_over(n * fields.back().n_bytes);
+    for (std::uint64_t k = 0; k < n; ++k) {
+        for (const Field& list : lists)
+            pass_over(list);
+        pass_over(fields.back().n_bytes);
+    }
+}
+
 void BinarySlicer::add(const PlyElement& element, const Slicing& slicing)
 {
     const std::vector<Field> fields = fields_of(element);
@@ -110,14 +127,7 @@ void BinarySlicer::add(const PlyElement& element, const Slicing& slicing)
     for (std::uint64_t i = 0; i < element.count;) {
         const std::size_t begin = offset_;
         const std::uint64_t n = std::min(per_slice, element.count - i);
-        if (lists.empty())
-            pass_over(n * fields.back().n_bytes);
-        else
-            for (std::uint64_t k = 0; k < n; ++k) {
-                for (const Field& list : lists)
-                    pass_over(list);
-                pass_over(fields.back().n_bytes);
-            }
+        pass_over(fields, n);
         slices_.push_back({n_elements_ + i, n_elements_ + i + n, file_.substr(begin, offset_ - begin)});
         i += n;
     }
@@ -125,6 +135,14 @@ void BinarySlicer::add(const PlyElement& element, const Slicing& slicing)
 }
 
 }  // namespace
+
+std::size_t pass_over_elements(std::string_view file, std::size_t offset, std::endian order, const PlyElement& element,
+                               std::uint64_t n)
+{
+    BinarySlicer slicer(file, offset, order);
+    slicer.pass_over(fields_of(element), n);
+    return slicer.offset();
+}
 
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
                                 std::span<const PlyElement> elements, const Slicing& slicing)

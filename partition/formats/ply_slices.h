@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -25,6 +27,13 @@ struct PlySlice {
 /// @throws InputError if those of a binary file are not all there.
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
                                 std::span<const PlyElement> elements, const Slicing& slicing);
+
+/// Goes past n elements of one kind in a binary file.
+/// @param offset the byte at which the first of them begins.
+/// @returns where the last one ends.
+/// @throws InputError, of no use to a reader, if they are not all there.
+std::size_t pass_over_elements(std::string_view file, std::size_t offset, std::endian order, const PlyElement& element,
+                               std::uint64_t n);
 
 /// Calls `act` with every kind of elements in a slice and the numbers of the first element and the one behind the last
 /// among those of its kind.

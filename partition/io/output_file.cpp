@@ -86,7 +86,7 @@ std::filesystem::path file_behind(const std::filesystem::path& path)
     return path;
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path)
+OutputFile::OutputFile(const std::filesystem::path& path, Naming naming)
     : ByteWriter(buffer_bytes)
     , path_(is_standard_stream(path) ? "standard output" : path)
     , is_stream_(is_standard_stream(path))
@@ -109,14 +109,15 @@ OutputFile::OutputFile(const std::filesystem::path& path)
     std::error_code ignored;
     if (std::filesystem::is_symlink(target_, ignored))
         fail(ELOOP);
-    open();
+    open(naming);
     if (replaces)
         static_cast<void>(::fchmod(descriptor_, old.st_mode & 07777U));
 }
 
-void OutputFile::open()
+void OutputFile::open(Naming naming)
 {
-    descriptor_ = open_unnamed(folder_of(target_));
+    if (naming == Naming::Late)
+        descriptor_ = open_unnamed(folder_of(target_));
     if (descriptor_ >= 0)
         return;
     do {
@@ -135,10 +136,15 @@ OutputFile::~OutputFile()
         ::unlink(temporary_.c_str());
 }
 
+void fail_to_write(const std::filesystem::path& path, int error)
+{
+    throw OutputError(path.string() + ": cannot be written: " + std::generic_category().message(error) +
+                      "; check that the folder exists, that you may write there, and that there is room left");
+}
+
 void OutputFile::fail(int error) const
 {
-    throw OutputError(path_.string() + ": cannot be written: " + std::generic_category().message(error) +
-                      "; check that the folder exists, that you may write there, and that there is room left");
+    fail_to_write(path_, error);
 }
 
 void OutputFile::overflow(std::string_view text)

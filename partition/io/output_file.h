@@ -16,6 +16,11 @@ namespace seamflow {
 /// @returns the path of a link only where links lead round in a circle.
 std::filesystem::path file_behind(const std::filesystem::path& path);
 
+/// Says that a file could not be written, and why.
+/// @param error of the system.
+/// @throws OutputError
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error);
+
 /// A file that appears whole or not at all: written without a name, or under a temporary one where the file system
 /// cannot do that, in the folder of its target, and given its name by `commit`. Without `commit` nothing remains of it,
 /// and a file that was there before remains as it was. A file that is replaced hands on its permissions; a symbolic
@@ -23,15 +28,25 @@ std::filesystem::path file_behind(const std::filesystem::path& path);
 /// throw OutputError if the file cannot be written.
 class OutputFile final : public ByteWriter {
   public:
+    /// When it gets a name, if a temporary one: AtOnce for those whom other processes have to find.
+    enum class Naming { Late, AtOnce };
+
     /// @param path `-` for standard output, which gets everything at once, and none of it back.
     /// @throws OutputError naming the file and the system's reason; also if `path` is there but no regular file.
-    explicit OutputFile(const std::filesystem::path& path);
+    explicit OutputFile(const std::filesystem::path& path, Naming naming = Naming::Late);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();
 
     /// As it was named, for messages; "standard output" for that.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// The temporary name, if it has one.
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
+    /// Writes bytes to where they belong, and nothing in between: not for files that are packed, nor together with what
+    /// is written one behind the other.
+    void write_at(std::string_view bytes, std::size_t offset) const { write(bytes, offset); }
 
     /// Writes n slices, one behind the other, each of which `make` puts into a buffer: several at a time are made and
     /// written.
@@ -42,7 +57,7 @@ class OutputFile final : public ByteWriter {
 
   private:
     [[noreturn]] void fail(int error) const;
-    void open();
+    void open(Naming naming);
     void give_name();
     void flush();
     void put(std::string_view bytes);

@@ -55,3 +55,27 @@ find_package(seamflow QUIET COMPONENTS gui)
 if(seamflow_FOUND OR NOT seamflow_NOT_FOUND_MESSAGE MATCHES "no component \"gui\"")
     message(SEND_ERROR "a component that there is not: ${seamflow_NOT_FOUND_MESSAGE}")
 endif()
+# Who has not the language C can do without ranks; who has it gets them where they are.
+find_package(seamflow QUIET COMPONENTS engine OPTIONAL_COMPONENTS distributed)
+if(NOT seamflow_FOUND OR seamflow_distributed_FOUND)
+    message(SEND_ERROR "ranks without MPI: ${seamflow_NOT_FOUND_MESSAGE}")
+endif()
+if(EXISTS "${seamflow_DIR}/seamflow-distributed-targets.cmake")
+    enable_language(C)
+    find_package(seamflow REQUIRED COMPONENTS distributed)
+    file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp" [[
+#include <atomic>
+#include <seamflow/engine/distributed/mpi_communicator.h>
+#include <seamflow/engine/distributed/shared_mesh_file.h>
+#include <seamflow/engine/distributed/thread_communicator.h>
+int main(int argc, char**)
+{
+    std::atomic<int> n = 0;
+    seamflow::run_on_threads(3, [&](seamflow::Communicator& ranks) { n += ranks.size(); });
+    return argc > 9 ? seamflow::make_mpi_communicator()->rank() : n == 9 ? 0 : 1;
+}
+]])
+    add_executable(ranks "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp")
+    target_link_libraries(ranks PRIVATE seamflow::distributed)
+    add_custom_command(TARGET ranks POST_BUILD COMMAND ranks)
+endif()

@@ -9,9 +9,11 @@
 #include "engine/distributed/cut/repeated_faces.h"
 #include "engine/distributed/deal.h"
 #include "engine/options/flow_options.h"
-#include "partition/cut/clusters.h"
 
 namespace seamflow {
+
+/// Ranks look at so many faces at once when they cut a mesh, about.
+inline constexpr Index faces_of_chunk = 1 << 18;
 
 /// What became of a cut of a mesh that no rank has as a whole.
 struct DistributedCut {
@@ -41,11 +43,11 @@ struct DistributedCut {
 /// @throws InputError naming a face with a corner that is none of the mesh's vertices; OptionError;
 ///         ComputationError if METIS fails.
 DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options,
-                            Index chunk = faces_per_chunk);
+                            Index chunk = faces_of_chunk);
 
 /// Cuts a mesh as given (see cut_by_labels).
 /// @param slice its labels, at least 0, are closed up and mended.
 DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options,
-                                      Index chunk = faces_per_chunk);
+                                      Index chunk = faces_of_chunk);
 
 }  // namespace seamflow

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "partition/formats/ply_header.h"
+#include "partition/formats/ply_plain.h"
+#include "partition/formats/ply_source.h"
+#include "partition/io/mesh_builder.h"
+#include "partition/io/text_scanner.h"
+
+namespace seamflow {
+
+/// Reads the elements that follow the header, or those of a slice, in their order.
+template <class Source>
+class ElementReader {
+  public:
+    ElementReader(Source& source, const PlyHeader& header)
+        : source_(source)
+        , builder_(source.position())
+        , n_vertices_(static_cast<std::int64_t>(header.element("vertex")->count))
+    {
+        const PlyElement* const faces = header.element("face");
+        builder_.reserve(static_cast<std::uint64_t>(n_vertices_), faces != nullptr ? faces->count : 0);
+    }
+
+    /// Of a slice.
+    /// @param n_vertices of the whole file.
+    ElementReader(Source& source, Index n_vertices, const MeshSlice& slice)
+        : source_(source)
+        , builder_(source.position(), 0, slice)
+        , n_vertices_(n_vertices)
+    {
+    }
+
+    /// Reads the elements begin to end - 1 of a kind.
+    void read(const PlyElement& element, std::uint64_t begin, std::uint64_t end);
+
+    PolygonMesh finish()
+    {
+        source_.finish();
+        return builder_.finish();
+    }
+
+  private:
+    void read_property(const PlyProperty& property, PlyRole role);
+    void read_corners(const PlyProperty& property);
+
+    Source& source_;
+    MeshBuilder builder_;
+    std::int64_t n_vertices_;
+    std::array<double, 3> point_{};
+    std::vector<Index> corners_;
+};
+
+template <class Source>
+void ElementReader<Source>::read(const PlyElement& element, std::uint64_t begin, std::uint64_t end)
+{
+    const std::vector<PlyRole> roles = roles_of(element);
+    const bool is_vertex = element.name == "vertex";
+    const bool is_face = element.name == "face";
+    for (std::uint64_t i = begin; i < end; ++i) {
+        source_.begin_element(element, i);
+        for (std::size_t p = 0; p < roles.size(); ++p)
+            read_property(element.properties[p], roles[p]);
+        source_.end_element();
+        if (is_vertex)
+            builder_.add_vertex(point_);
+        else if (is_face)
+            builder_.add_face(corners_);
+    }
+}
+
+template <class Source>
+void ElementReader<Source>::read_property(const PlyProperty& property, PlyRole role)
+{
+    switch (role) {
+    case PlyRole::X:
+    case PlyRole::Y:
+    case PlyRole::Z:
+        point_[static_cast<std::size_t>(role)] = source_.real(property.type);
+        break;
+    case PlyRole::Corners:
+        read_corners(property);
+        break;
+    case PlyRole::Other:
+        pass_over(source_, property);
+        break;
+    }
+}
+
+template <class Source>
+void ElementReader<Source>::read_corners(const PlyProperty& property)
+{
+    corners_.clear();
+    for (std::int64_t n = read_length(source_, property); n > 0; --n)
+        corners_.push_back(builder_.vertex(source_.integer(property.type), n_vertices_));
+}
+
+/// Checks that the elements of a file are a surface that can be read.
+/// @param scanner stands at the last line of the header.
+/// @throws InputError naming the line.
+void require_surface(const TextScanner& scanner, const PlyHeader& header);
+
+}  // namespace seamflow

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/formats/ply_header.h"
+#include "partition/io/byte_writer.h"
+#include "partition/polygon_mesh.h"
+
+/// Binary PLY files of which a reader takes, and a writer makes, some of the vertices and faces alone.
+namespace seamflow {
+
+/// A file, and where its elements stand.
+class PlyStretches {
+  public:
+    /// @param content the whole file, of which only what is asked for is looked at. It has to outlive this.
+    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, with
+    ///         faces before them, and in text.
+    PlyStretches(std::filesystem::path path, std::string_view content);
+    PlyStretches(const PlyStretches&) = delete;
+    PlyStretches& operator=(const PlyStretches&) = delete;
+    ~PlyStretches() = default;
+
+    [[nodiscard]] const PlyHeader& header() const { return header_; }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::string_view content() const { return content_; }
+    [[nodiscard]] const PlyElement& vertex_element() const { return *header_.element("vertex"); }
+    [[nodiscard]] Index n_vertices() const { return static_cast<Index>(vertex_element().count); }
+    [[nodiscard]] Index n_faces() const { return faces_ != nullptr ? static_cast<Index>(faces_->count) : 0; }
+
+    /// All that precedes the first element, and all from there on that precedes the vertices.
+    [[nodiscard]] std::string_view header_bytes() const { return content_.substr(0, elements_begin_); }
+    [[nodiscard]] std::string_view bytes_before_vertices() const
+    {
+        return content_.substr(elements_begin_, vertices_begin_ - elements_begin_);
+    }
+    /// Where the vertices begin, from `begin` to `end` - 1.
+    [[nodiscard]] std::string_view bytes_of_vertices(Index begin, Index end) const
+    {
+        return content_.substr(vertices_begin_ + at(begin) * vertex_bytes_, at(end - begin) * vertex_bytes_);
+    }
+
+    /// The positions of the vertices from `begin` to `end` - 1.
+    /// @throws InputError naming element and byte.
+    [[nodiscard]] Points vertices(Index begin, Index end) const;
+
+    /// The byte at which a face begins if all those before it are triangles.
+    [[nodiscard]] std::size_t likely_begin(Index face) const { return faces_begin_ + at(face) * triangle_bytes_; }
+
+    /// Where the faces from `begin` to `end` - 1 end, if the first of them begins at that byte.
+    /// @throws InputError, of no use to a reader, if they are not all there.
+    [[nodiscard]] std::size_t end_of_faces(std::size_t byte, Index begin, Index end) const;
+
+    /// The faces themselves, with corners numbered in the whole file.
+    /// @throws InputError naming element and byte.
+    [[nodiscard]] PolygonMesh faces(std::size_t byte, Index begin, Index end) const;
+
+    /// Checks what follows the last face.
+    /// @param byte where that ends.
+    /// @throws InputError naming element and byte.
+    void require_end(std::size_t byte) const;
+
+  private:
+    std::filesystem::path path_;
+    std::string_view content_;
+    PlyHeader header_;
+    const PlyElement* faces_ = nullptr;
+    std::size_t elements_begin_ = 0;
+    std::size_t vertices_begin_ = 0;
+    std::size_t vertex_bytes_ = 0;
+    std::size_t faces_begin_ = 0;
+    std::size_t triangle_bytes_ = 0;
+};
+
+/// What becomes of one property of the vertices when a file is written again.
+struct PlyChange {
+    /// 0 to 2: it is a coordinate; 3 to 5: one of the normal; -1: it stays.
+    Index column = -1;
+    /// The type of the number in the file that is written.
+    PlyType type = PlyType::Float64;
+};
+
+/// Whether the properties x, y and z can hold the coordinates, floats after rounding.
+std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions);
+
+/// One change for each property: positions are exchanged, normals are not.
+/// @param fits of all positions: where that is not so the property becomes double.
+std::vector<PlyChange> changes_of_positions(const PlyElement& vertices, const std::array<bool, 3>& fits);
+
+/// Writes the header with the types that have changed.
+/// @returns what a user should know about it, in sentences.
+std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesystem::path& path,
+                                            std::string_view header, const PlyElement& vertices,
+                                            const std::vector<PlyChange>& changes);
+
+/// Writes some vertices of a binary file with other positions.
+/// @param content the whole file, of which `bytes` are those of these vertices.
+/// @param positions one for each of them.
+/// @returns whether positions were rounded.
+bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, std::string_view content,
+                          const PlyHeader& header, std::string_view bytes, const Points& positions,
+                          const std::vector<PlyChange>& changes);
+
+}  // namespace seamflow

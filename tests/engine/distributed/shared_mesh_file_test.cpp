@@ -1,0 +1,326 @@
+// Files that ranks read and write together, beside the same on one machine.
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/distributed/shared_mesh_file.h"
+#include "engine/distributed/slice_measures.h"
+#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/whole_mesh.h"
+#include "engine/measure/surface_measures.h"
+#include "partition/errors.h"
+#include "tests/support/flows.h"
+#include "tests/support/mesh_files.h"
+#include "tests/support/temporary_directory.h"
+
+using namespace seamflow;
+
+namespace {
+
+constexpr FileSharing whole{.block = 64};
+constexpr FileSharing sliced{.whole_up_to = 0, .block = 64};
+
+/// What ranks have read and written.
+struct Shared {
+    PolygonMesh mesh;
+    std::vector<Index> least_faces;
+    std::string written;
+    std::vector<std::string> remarks;
+    /// Of all of them; empty: there was none.
+    std::string fault;
+};
+
+void lift(Points& points)
+{
+    for (Index v = 0; v < points.rows(); ++v)
+        points(v, 2) += 0.1 * std::sin(10.0 * points(v, 0));
+}
+
+/// Reads a file, moves the vertices and writes it as `result`.
+Shared pass_through(const std::filesystem::path& file, const std::filesystem::path& result, int n,
+                    const FileSharing& sharing)
+{
+    Shared shared;
+    std::mutex mutex;
+    std::vector<std::string> faults;
+    run_on_threads(n, [&](Communicator& communicator) {
+        std::string fault;
+        try {
+            run_together(communicator, [&](Conversation& talk) {
+                const auto opened = open_together(talk, file, sharing);
+                RankSlice slice = opened->read(talk);
+                const PolygonMesh mesh = gather_mesh(talk, slice);
+                lift(slice.vertices);
+                const auto remarks = opened->write(talk, result, slice.vertices);
+                const std::scoped_lock lock(mutex);
+                shared.least_faces.push_back(slice.n_faces());
+                if (talk.rank() > 0)
+                    return;
+                shared.mesh = mesh;
+                shared.remarks = remarks;
+            });
+        } catch (const std::exception& error) {
+            fault = error.what();
+        }
+        const std::scoped_lock lock(mutex);
+        faults.push_back(fault);
+    });
+    for (const std::string& fault : faults)
+        CHECK(fault == faults.front());
+    shared.fault = faults.front();
+    if (shared.fault.empty())
+        shared.written = test::content_of(result);
+    return shared;
+}
+
+void check_as_on_one_machine(const std::filesystem::path& file, const std::filesystem::path& result,
+                             const FileSharing& sharing, Index least_faces)
+{
+    MeshFile expected = read_mesh(file);
+    PolygonMesh moved = expected.mesh;
+    lift(moved.vertices);
+    std::vector<std::string> remarks;
+    if (kind_for_writing(result, expected.kind).format == expected.kind.format)
+        remarks = write_mesh_like(*expected.source, result, moved);
+    else
+        write_mesh(result, moved, kind_for_writing(result, expected.kind));
+    const std::string written = test::content_of(result);
+    for (const int n : {1, 2, 3, 5}) {
+        CAPTURE(n);
+        const Shared shared = pass_through(file, result, n, sharing);
+        REQUIRE(shared.fault.empty());
+        CHECK(test::identical(shared.mesh, expected.mesh));
+        CHECK((shared.written == written));
+        CHECK(shared.remarks == remarks);
+        CHECK(std::ranges::min(shared.least_faces) >= least_faces);
+    }
+}
+
+void write_file(const std::filesystem::path& path, const std::string& content)
+{
+    std::ofstream(path, std::ios::binary) << content;
+}
+
+/// Little-endian.
+template <class Value>
+void append(std::string& bytes, Value value)
+{
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// A strip of quads and triangles with all kinds of properties, and elements around.
+std::string colourful_ply(int n_columns, const std::string& coordinate)
+{
+    const int n_vertices = 2 * n_columns;
+    const int n_faces = n_columns - 1;
+    std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment made by hand\nelement camera 2\n"
+                        "property double focus\nelement vertex " +
+                        std::to_string(n_vertices) + "\nproperty uchar red\nproperty " + coordinate +
+                        " x\nproperty float y\nproperty float z\nproperty short mark\nelement face " +
+                        std::to_string(n_faces + n_faces / 3) +
+                        "\nproperty int group\nproperty list uchar uint vertex_indices\nproperty list uchar float "
+                        "texcoord\nelement edge 1\nproperty list int int path\nend_header\n";
+    append(bytes, 35.0);
+    append(bytes, 50.0);
+    for (int v = 0; v < n_vertices; ++v) {
+        append(bytes, static_cast<unsigned char>(v));
+        if (coordinate == "int")
+            append(bytes, std::int32_t{v / 2});
+        else
+            append(bytes, 0.1F * static_cast<float>(v / 2));
+        append(bytes, static_cast<float>(v % 2));
+        append(bytes, 0.0F);
+        append(bytes, static_cast<std::int16_t>(-v));
+    }
+    const auto add_face = [&](const std::vector<int>& corners, int n_textures) {
+        append(bytes, std::int32_t{7});
+        append(bytes, static_cast<unsigned char>(corners.size()));
+        for (const int corner : corners)
+            append(bytes, static_cast<std::uint32_t>(corner));
+        append(bytes, static_cast<unsigned char>(n_textures));
+        for (int k = 0; k < n_textures; ++k)
+            append(bytes, 0.5F);
+    };
+    for (int f = 0; f < n_faces; ++f) {
+        const int v = 2 * f;
+        if (f % 3 == 2) {
+            add_face({v, v + 2, v + 1}, 6);
+            add_face({v + 1, v + 2, v + 3}, 0);
+        } else {
+            add_face({v, v + 2, v + 3, v + 1}, f % 2);
+        }
+    }
+    // One for each third face that is cut in two.
+    append(bytes, std::int32_t{2});
+    append(bytes, std::int32_t{0});
+    append(bytes, std::int32_t{1});
+    return bytes + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("ranks read and write small files of every format as one machine does")
+{
+    const test::TemporaryDirectory directory;
+    const PolygonMesh triangles = make_triangles(700);
+    const PolygonMesh polygons = make_mixed_polygons(700);
+    for (const std::string extension : {".obj", ".off", ".ply", ".stl", ".obj.gz"}) {
+        CAPTURE(extension);
+        const auto file = directory / ("in" + extension);
+        write_mesh(file, extension == ".stl" ? triangles : polygons, kind_for_writing(file, FileKind{}));
+        check_as_on_one_machine(file, directory / ("out" + extension), whole, 64);
+    }
+    write_mesh(directory / "in.obj", polygons, FileKind{});
+    check_as_on_one_machine(directory / "in.obj", directory / "other.ply", whole, 64);
+}
+
+TEST_CASE("ranks read and write slices of binary PLY files as one machine does")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.ply";
+    for (const Encoding encoding : {Encoding::BinaryLittleEndian, Encoding::BinaryBigEndian})
+        for (const PolygonMesh& mesh : {make_triangles(700), make_mixed_polygons(700)}) {
+            write_mesh(file, mesh, {FileFormat::Ply, encoding});
+            check_as_on_one_machine(file, directory / "out.ply", sliced, 64);
+        }
+}
+
+TEST_CASE("slices of PLY files keep what else there is, rounded or in wider numbers")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.ply";
+    for (const std::string coordinate : {"float", "int"}) {
+        CAPTURE(coordinate);
+        write_file(file, colourful_ply(400, coordinate));
+        check_as_on_one_machine(file, directory / "out.ply", sliced, 64);
+        CHECK(read_mesh(directory / "out.ply").mesh.vertices.allFinite());
+    }
+}
+
+TEST_CASE("the file may be written over itself, and is not touched by a failure")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.ply";
+    write_mesh(file, make_triangles(700), {FileFormat::Ply, Encoding::BinaryLittleEndian});
+    const std::string before = test::content_of(file);
+    const Shared refused = pass_through(file, directory / "nowhere" / "out.ply", 3, sliced);
+    CHECK(test::contains(refused.fault, "nowhere"));
+    const Shared expected = pass_through(file, directory / "out.ply", 1, sliced);
+    const Shared over = pass_through(file, file, 3, sliced);
+    CHECK(over.fault.empty());
+    CHECK((test::content_of(file) == expected.written));
+    CHECK((before != expected.written));
+    CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 2);
+}
+
+TEST_CASE("faults of slices are those that one machine finds")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.ply";
+    write_mesh(file, make_triangles(700), {FileFormat::Ply, Encoding::BinaryLittleEndian});
+    const std::string triangles = test::content_of(file);
+    write_mesh(file, make_mixed_polygons(700), {FileFormat::Ply, Encoding::BinaryLittleEndian});
+    const std::string polygons = test::content_of(file);
+    for (const std::string& good : {triangles, polygons}) {
+        std::vector<std::string> bad;
+        // Somewhere in the vertices, in the faces, and at the end.
+        for (const std::size_t place : {good.size() / 4, good.size() / 2, good.size() * 3 / 4, good.size() - 14}) {
+            std::string damaged = good;
+            for (std::size_t i = 0; i < 24; ++i)
+                damaged[place - i] = '\xff';
+            bad.push_back(damaged);
+            bad.push_back(good.substr(0, place));
+        }
+        bad.push_back(good + "more");
+        for (const std::string& content : bad) {
+            CAPTURE(content.size());
+            write_file(file, content);
+            std::string expected;
+            try {
+                static_cast<void>(read_mesh(file));
+            } catch (const InputError& error) {
+                expected = error.what();
+            }
+            REQUIRE(!expected.empty());
+            for (const int n : {1, 2, 3, 5}) {
+                CAPTURE(n);
+                CHECK(pass_through(file, directory / "out.ply", n, sliced).fault == expected);
+            }
+        }
+    }
+}
+
+TEST_CASE("a file that changes while it is used is noticed")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.ply";
+    write_mesh(file, make_triangles(700), {FileFormat::Ply, Encoding::BinaryLittleEndian});
+    const std::size_t size = test::content_of(file).size();
+    for (const std::size_t place : {size / 4, size - 2}) {
+        std::string fault;
+        run_on_threads(3, [&](Communicator& communicator) {
+            try {
+                run_together(communicator, [&](Conversation& talk) {
+                    const auto opened = open_together(talk, file, sliced);
+                    const RankSlice slice = opened->read(talk);
+                    talk.at_first_rank([&] {
+                        std::fstream changed(file, std::ios::binary | std::ios::in | std::ios::out);
+                        changed.seekp(static_cast<std::streamoff>(place)) << 'x';
+                    });
+                    opened->write(talk, directory / "out.ply", slice.vertices);
+                });
+            } catch (const InputError& error) {
+                if (communicator.rank() == 0)
+                    fault = error.what();
+            }
+        });
+        CHECK(test::contains(fault, "has been changed since it was read"));
+        CHECK(!std::filesystem::exists(directory / "out.ply"));
+    }
+}
+
+TEST_CASE("files that cannot be read in slices are refused with what to do")
+{
+    const test::TemporaryDirectory directory;
+    write_mesh(directory / "in.obj", make_triangles(300), FileKind{});
+    CHECK(test::contains(pass_through(directory / "in.obj", directory / "o.obj", 3, sliced).fault,
+                         "convert it to a binary .ply file"));
+    write_mesh(directory / "in.ply", make_triangles(300), {FileFormat::Ply, Encoding::Ascii});
+    CHECK(test::contains(pass_through(directory / "in.ply", directory / "o.ply", 3, sliced).fault,
+                         "export it as a binary PLY file"));
+}
+
+TEST_CASE("sizes of a mesh that ranks have are those of one machine, bit for bit")
+{
+    PolygonMesh mesh = make_mixed_polygons(20'000);
+    mesh.vertices.array() += 0.3;
+    const MeshSize expected = size_of(mesh);
+    PolygonMesh moved = mesh;
+    lift(moved.vertices);
+    for (const int n : {1, 2, 3, 5})
+        run_on_threads(n, [&](Communicator& communicator) {
+            run_together(communicator, [&](Conversation& talk) {
+                RankSlice slice = hand_out(talk, mesh, block_size);
+                const SharedMeshSize size = measure(talk, slice);
+                CHECK(size.vertices == mesh.n_vertices());
+                CHECK(size.faces == mesh.n_faces());
+                CHECK(size.area == expected.area);
+                CHECK(size.mean_edge == expected.mean_edge);
+                CHECK(size.diagonal == extent_of(mesh.vertices));
+                const Points before = slice.vertices;
+                lift(slice.vertices);
+                CHECK(measure_moves(talk, before, slice.vertices).max ==
+                      (moved.vertices - mesh.vertices).rowwise().norm().maxCoeff());
+                if (!slice.corners.empty())
+                    slice.corners.front() = mesh.n_vertices();
+                CHECK_THROWS_WITH_AS(measure(talk, slice), doctest::Contains("face 0 (numbered from 0) names vertex"),
+                                     InputError);
+            });
+        });
+}
