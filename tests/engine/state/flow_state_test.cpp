@@ -217,6 +217,7 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"q", [](FlowOptions& o) { o.interface.q = 0.5; }},
         {"overlap", [](FlowOptions& o) { o.interface.overlap = 2; }},
         {"sweep", [](FlowOptions& o) { o.interface.sweep = Sweep::Fixed; }},
+        {"weld", [](FlowOptions& o) { o.motion.weld.reset(); }},
         {"boundary", [](FlowOptions& o) { o.motion.boundary = Boundary::Free; }},
         {"fixed_vertices", [](FlowOptions& o) { o.motion.fixed_vertices = {1}; }},
         {"rescale", [](FlowOptions& o) { o.motion.rescale = Rescale::Area; }},
