@@ -164,6 +164,50 @@ void require_sound_cut(const RankMesh& mesh)
                     fmt::format("a sub-mesh has several fans of faces at vertex {}", mesh.part.vertex_numbers[v]));
 }
 
+/// Some vertices of the whole mesh: how many, and the lowest number among them.
+struct CountedVertices {
+    std::int64_t n = 0;
+    std::int64_t lowest = -1;
+};
+
+/// Each vertex is counted where its lowest sub-mesh is. All ranks call this together.
+template <class Holds>
+CountedVertices count_vertices(Conversation& talk, const RankMesh& mesh, Holds&& holds)
+{
+    CountedVertices own;
+    std::vector<Index> around;
+    for (Index v = 0; v < mesh.part.mesh.n_vertices(); ++v) {
+        if (!holds(v))
+            continue;
+        labels_around(mesh.topology, mesh.part.labels, v, around);
+        if (!around.empty() && mesh.is_own[around.front()] != 0 && own.n++ == 0)
+            own.lowest = mesh.part.vertex_numbers[v];
+    }
+    CountedVertices all;
+    for (const CountedVertices& of_rank : talk.gather_all(std::vector<CountedVertices>{own})) {
+        if (of_rank.n > 0 && (all.n == 0 || of_rank.lowest < all.lowest))
+            all.lowest = of_rank.lowest;
+        all.n += of_rank.n;
+    }
+    return all;
+}
+
+/// Holds the vertices at which the Laplacian is not defined.
+/// @throws InputError if none of the whole mesh is left to move, for that is why.
+void hold_undefined(Conversation& talk, Laplacian laplacian, RankMesh& mesh)
+{
+    const auto undefined = vertices_without_row(mesh.part.mesh, mesh.topology, laplacian, run_in_parallel);
+    const CountedVertices moving = count_vertices(talk, mesh, [&](Index v) { return mesh.topology.moves(v); });
+    const CountedVertices held =
+        count_vertices(talk, mesh, [&](Index v) { return std::ranges::binary_search(undefined, v); });
+    hold(mesh.topology, undefined);
+    if (held.n == 0)
+        return;
+    mesh.remarks.push_back(remark_on_undefined_vertices(held.n, held.lowest, laplacian));
+    if (held.n == moving.n)
+        throw InputError("nothing can move: " + mesh.remarks.back());
+}
+
 /// For each sub-mesh of all ranks, those with which it shares a vertex of Γ; places among all.
 std::vector<std::vector<Index>> gather_adjacency(Conversation& talk, const RankMesh& mesh,
                                                  const std::vector<Index>& places, const Decomposition& decomposition,
@@ -274,16 +318,9 @@ RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& of
         free_boundary(mesh.topology);
     hold(mesh.topology,
          select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
-    hold(mesh.topology, vertices_without_row(mesh.part.mesh, mesh.topology, options.laplacian, run_in_parallel));
-    // Each is counted where its lowest sub-mesh is.
-    std::vector<Index> around;
-    const auto non_manifold = select(run_serially, mesh.part.mesh.n_vertices(), [&](Index v) {
-        if (mesh.topology.kind[v] != VertexKind::NonManifold)
-            return false;
-        labels_around(mesh.topology, mesh.part.labels, v, around);
-        return mesh.is_own[around.front()] != 0;
-    });
-    mesh.n_non_manifold = sum_of_all(talk, static_cast<std::int64_t>(non_manifold.size()));
+    hold_undefined(talk, options.laplacian, mesh);
+    const auto is_not_manifold = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
+    mesh.n_non_manifold = count_vertices(talk, mesh, is_not_manifold).n;
     if (mesh.n_non_manifold > 0)
         mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold));
     return mesh;

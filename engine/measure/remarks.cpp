@@ -21,6 +21,16 @@ std::string remark_on_non_manifold_vertices(std::int64_t n)
     return fmt::format("{} vertices are held fixed because the mesh is not manifold there.", n);
 }
 
+std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian)
+{
+    const bool lengths = traits_of(laplacian).divisor == Divisor::EdgeLengths;
+    return fmt::format(
+        "{} held fixed because {} leave the Laplacian undefined there, vertex {} (numbered from 0) among "
+        "them: inspect lists them.",
+        n == 1 ? "1 vertex is" : fmt::format("{} vertices are", n),
+        lengths ? "edges without length" : "faces without area", first);
+}
+
 void remark_on_drift(const FlowOptions& options, FlowReport& report)
 {
     if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)

@@ -17,6 +17,10 @@ std::string remark_on_repeated_faces(std::int64_t n);
 /// On vertices that are held.
 std::string remark_on_non_manifold_vertices(std::int64_t n);
 
+/// On vertices that are held where the Laplacian is not defined.
+/// @param first the lowest of them.
+std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian);
+
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);
 

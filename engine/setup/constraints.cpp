@@ -1,9 +1,11 @@
 #include "engine/setup/constraints.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <fmt/format.h>
 
+#include "engine/measure/remarks.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
@@ -36,17 +38,6 @@ std::size_t count_moving(const Topology& topology)
     return static_cast<std::size_t>(std::count(topology.fixed.begin(), topology.fixed.end(), 0));
 }
 
-/// @param held vertices at which the Laplacian is not defined.
-std::string remark_on(const std::vector<Index>& held, Laplacian laplacian)
-{
-    const bool lengths = traits_of(laplacian).divisor == Divisor::EdgeLengths;
-    return fmt::format(
-        "{} held fixed because {} leave the Laplacian undefined there, vertex {} (numbered from 0) among "
-        "them: inspect lists them.",
-        held.size() == 1 ? "1 vertex is" : fmt::format("{} vertices are", held.size()),
-        lengths ? "edges without length" : "faces without area", held.front());
-}
-
 }  // namespace
 
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
@@ -66,7 +57,8 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
     if (options.motion.strict || undefined.size() == count_moving(topology))
         require_sound_geometry(mesh, topology, options.laplacian, loop);
     if (!undefined.empty())
-        remarks.push_back(remark_on(undefined, options.laplacian));
+        remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),
+                                                       options.laplacian));
     hold(topology, undefined);
 }
 

@@ -172,6 +172,12 @@ TEST_CASE("ranks find the bits of one machine: vertices held, not manifold, far 
     for (Index v = 0; v < held.mesh.n_vertices(); v += 13)
         held.fixed.push_back(v);
     check_bits(held, 8, {1, 3, 5});
+    // A face without edges to speak of, at whose vertices nothing is defined.
+    PolygonMesh shrunk = make_triangles(700);
+    const auto corners_of_shrunk = shrunk.face(300);
+    for (const Index v : corners_of_shrunk)
+        shrunk.vertices.row(v) = shrunk.vertices.row(corners_of_shrunk.front()).eval();
+    check_bits({"shrunk", shrunk, options}, 8, {1, 3, 5});
     // Two sheets with a seam of four faces at each edge.
     PolygonMesh crossed = make_triangles(400);
     const Index n = crossed.n_vertices();
@@ -461,6 +467,11 @@ TEST_CASE("a failure on one rank ends all with one message")
             part.labels[0] = 0;
     };
     check_refusal<InputError>(flow(options, labels, share), 3, "sub-mesh 0 has faces of rank 0 and of rank 2");
+    // A mesh that is a line.
+    const auto flatten = [](MeshPart& part, int) { part.mesh.vertices.rightCols(2).setZero(); };
+    FlowOptions by_areas = options;
+    by_areas.laplacian = Laplacian::AlexaWardetzky;
+    check_refusal<InputError>(flow(by_areas, labels, flatten), 3, "nothing can move: ");
     // Two faces that belong elsewhere, which leaves sub-meshes in pieces or pinched.
     std::vector<Index> torn = labels;
     const auto first = std::ranges::find(torn, 2);
