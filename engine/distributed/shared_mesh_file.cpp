@@ -89,12 +89,6 @@ std::uint64_t bytes_in(const std::filesystem::path& path)
 
 }  // namespace
 
-void SharedMeshFile::write_labelled(Conversation&, const std::filesystem::path& path, const Points&,
-                                    const std::vector<Index>&)
-{
-    throw OptionError(path.string() + ": the cut of a mesh that ranks read in slices cannot be written");
-}
-
 std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
                                               const FileSharing& sharing, const Loop& loop)
 {

@@ -48,9 +48,8 @@ class SharedMeshFile {
 
     /// As write_labelled_ply, with the vertices as `write` takes them.
     /// @param labels of the faces of this rank's stretch.
-    /// @throws OptionError where rank 0 has not read all of the file.
     virtual void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
-                                const std::vector<Index>& labels);
+                                const std::vector<Index>& labels) = 0;
 
     /// On rank 0, if it has read all of the file: the mesh, with the positions read or written last. Else null.
     [[nodiscard]] virtual const MeshFile* whole() const { return nullptr; }

@@ -98,6 +98,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         RankSlice slice;
         talk.look_together([&] { slice.vertices = ply.vertices(vertices.begin, vertices.end); });
         others_ = find_faces(talk, ply, faces);
+        faces_begin_ = others_.begin;
         talk.look_together([&] {
             if (others_.begin == nowhere)
                 return;
@@ -143,7 +144,56 @@ class SlicedPlyFile final : public SharedMeshFile {
         });
     }
 
+    void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+                        const std::vector<Index>& labels) override
+    {
+        const InputFile input(file_);
+        const PlyStretches ply(file_.path(), input.content());
+        const Stretch faces(ply.n_faces(), talk, sharing_.block);
+        PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end);
+        mesh.vertices = vertices;
+        const auto long_faces = talk.gather_all(std::vector<char>{static_cast<char>(has_long_face(mesh) ? 1 : 0)});
+        const PlyCounts counts{ply.n_vertices(), ply.n_faces(), std::ranges::find(long_faces, 1) != long_faces.end()};
+        write_together(talk, path, [&](const SharedOutput& output) {
+            write_labelled_slice(talk, output, mesh, labels, counts);
+            return std::pair(std::vector<std::string>(), false);
+        });
+    }
+
   private:
+    /// So many elements are made at once, and written.
+    static constexpr Index at_once = 1 << 14;
+
+    /// @param mesh of this rank's stretch, with corners numbered in the whole mesh.
+    void write_labelled_slice(Conversation& talk, const SharedOutput& output, const PolygonMesh& mesh,
+                              const std::vector<Index>& labels, const PlyCounts& counts) const
+    {
+        constexpr std::size_t bytes_of_vertex = 3 * sizeof(double);
+        constexpr std::size_t bytes_of_label = 3 + sizeof(std::int32_t);
+        const std::string header = labelled_ply_header(counts);
+        if (talk.rank() == 0)
+            output.write(header, 0);
+        const Stretch own(counts.vertices, talk, sharing_.block);
+        for (Index begin = 0; begin < mesh.n_vertices(); begin += at_once) {
+            OutputBuffer piece;
+            write_ply_vertices(piece, mesh, begin, std::min(mesh.n_vertices(), begin + at_once));
+            output.write(piece.content(), header.size() + at(own.begin + begin) * bytes_of_vertex);
+        }
+        const std::size_t bytes = at(mesh.n_faces()) * ((counts.has_long_face ? 4 : 1) + bytes_of_label) +
+                                  at(mesh.n_corners()) * sizeof(std::int32_t);
+        std::size_t offset = header.size() + at(counts.vertices) * bytes_of_vertex;
+        const auto of_ranks = talk.gather_all(std::vector<std::size_t>{bytes});
+        for (int r = 0; r < talk.rank(); ++r)
+            offset += of_ranks[r];
+        for (Index begin = 0; begin < mesh.n_faces(); begin += at_once) {
+            OutputBuffer piece;
+            write_labelled_ply_faces(piece, mesh, labels, counts.has_long_face, begin,
+                                     std::min(mesh.n_faces(), begin + at_once));
+            output.write(piece.content(), offset);
+            offset += piece.content().size();
+        }
+    }
+
     static const char* end_of_vertices(const PlyStretches& ply)
     {
         const std::string_view all = ply.bytes_of_vertices(0, ply.n_vertices());
@@ -201,7 +251,6 @@ class SlicedPlyFile final : public SharedMeshFile {
             output.write(header.content(), 0);
         const std::size_t vertex_bytes = bytes_of_vertex(ply, changes);
         bool rounded = false;
-        constexpr Index at_once = 1 << 14;
         for (Index begin = own.begin; begin < own.end; begin += at_once) {
             const Index end = std::min(own.end, begin + at_once);
             OutputBuffer piece;
@@ -228,6 +277,7 @@ class SlicedPlyFile final : public SharedMeshFile {
     FileSharing sharing_;
     /// The bytes behind the vertices that this rank copies, and what it has read.
     ByteRange others_;
+    std::size_t faces_begin_ = 0;
     XXH64_hash_t checksum_ = 0;
 };
 

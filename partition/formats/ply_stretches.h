@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -105,5 +106,26 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
 bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, std::string_view content,
                           const PlyHeader& header, std::string_view bytes, const Points& positions,
                           const std::vector<PlyChange>& changes);
+
+/// Whether a face has more than 255 sides: then all lists of corners say their lengths in four bytes, else in one.
+bool has_long_face(const PolygonMesh& mesh);
+
+/// How much there is in a file.
+struct PlyCounts {
+    Index vertices = 0;
+    Index faces = 0;
+    bool has_long_face = false;
+};
+
+/// The header of a file as write_labelled_ply makes it.
+std::string labelled_ply_header(const PlyCounts& counts);
+
+/// Writes some of the vertices of such a file, 24 bytes each.
+void write_ply_vertices(ByteWriter& file, const PolygonMesh& mesh, Index begin, Index end);
+
+/// Writes some of the faces of such a file.
+/// @param labels #F.
+void write_labelled_ply_faces(ByteWriter& file, const PolygonMesh& mesh, std::span<const Index> labels,
+                              bool has_long_face, Index begin, Index end);
 
 }  // namespace seamflow

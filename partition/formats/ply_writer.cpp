@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -6,6 +7,7 @@
 
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_source.h"
+#include "partition/formats/ply_stretches.h"
 
 namespace seamflow {
 
@@ -24,12 +26,18 @@ const char* name_of(Encoding encoding)
     return "";
 }
 
-bool has_long_face(const PolygonMesh& mesh)
+std::string header_of(const PlyCounts& counts, Encoding encoding, const PlyExtras& extras)
 {
-    for (Index f = 0; f < mesh.n_faces(); ++f)
-        if (mesh.face(f).size() > 255)
-            return true;
-    return false;
+    const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    std::string header = fmt::format("ply\nformat {} 1.0\nelement vertex {}\n", name_of(encoding), counts.vertices);
+    header += "property double x\nproperty double y\nproperty double z\n";
+    header += extras.vertex_colours.empty() ? "" : colour;
+    for (const VertexValues& list : extras.vertex_values)
+        header += "property double " + list.name + "\n";
+    header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", counts.faces,
+                          counts.has_long_face ? "int" : "uchar");
+    header += extras.face_labels.empty() ? "" : colour + "property int label\n";
+    return header + "end_header\n";
 }
 
 /// What there is to write.
@@ -52,7 +60,6 @@ class PlyWriter {
     {
     }
 
-    void write_header();
     void write_vertex(Index v);
     void write_face(Index f);
 
@@ -92,20 +99,6 @@ class PlyWriter {
     bool begins_line_ = true;
 };
 
-void PlyWriter::write_header()
-{
-    const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    std::string header = fmt::format("ply\nformat {} 1.0\nelement vertex {}\n", name_of(encoding_), mesh_.n_vertices());
-    header += "property double x\nproperty double y\nproperty double z\n";
-    header += extras_.vertex_colours.empty() ? "" : colour;
-    for (const VertexValues& list : extras_.vertex_values)
-        header += "property double " + list.name + "\n";
-    header += fmt::format("element face {}\nproperty list {} int vertex_indices\n", mesh_.n_faces(),
-                          long_faces_ ? "int" : "uchar");
-    header += extras_.face_labels.empty() ? "" : colour + "property int label\n";
-    file_.text(header + "end_header\n");
-}
-
 void PlyWriter::write_colour(const Colour& colour)
 {
     for (const std::uint8_t channel : colour)
@@ -139,11 +132,42 @@ void PlyWriter::write_face(Index f)
 
 }  // namespace
 
+bool has_long_face(const PolygonMesh& mesh)
+{
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (mesh.face(f).size() > 255)
+            return true;
+    return false;
+}
+
+std::string labelled_ply_header(const PlyCounts& counts)
+{
+    constexpr std::array<Index, 1> any{};
+    return header_of(counts, Encoding::BinaryLittleEndian, {.face_labels = any});
+}
+
+void write_ply_vertices(ByteWriter& file, const PolygonMesh& mesh, Index begin, Index end)
+{
+    const PlyExtras none;
+    PlyWriter writer(file, {mesh, Encoding::BinaryLittleEndian, none, false});
+    for (Index v = begin; v < end; ++v)
+        writer.write_vertex(v);
+}
+
+void write_labelled_ply_faces(ByteWriter& file, const PolygonMesh& mesh, std::span<const Index> labels,
+                              bool has_long_face, Index begin, Index end)
+{
+    const PlyExtras extras{.face_labels = labels};
+    PlyWriter writer(file, {mesh, Encoding::BinaryLittleEndian, extras, has_long_face});
+    for (Index f = begin; f < end; ++f)
+        writer.write_face(f);
+}
+
 void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing,
                const PlyExtras& extras)
 {
     const PlyContent content{mesh, encoding, extras, has_long_face(mesh)};
-    PlyWriter(file, content).write_header();
+    file.text(header_of({mesh.n_vertices(), mesh.n_faces(), content.long_faces}, encoding, extras));
     constexpr std::size_t element_bytes = 32;
     const Index per_slice = elements_per_slice(slicing, element_bytes);
     write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,

@@ -31,6 +31,8 @@ struct Shared {
     PolygonMesh mesh;
     std::vector<Index> least_faces;
     std::string written;
+    /// A file with labels.
+    std::string labelled;
     std::vector<std::string> remarks;
     /// Of all of them; empty: there was none.
     std::string fault;
@@ -58,6 +60,10 @@ Shared pass_through(const std::filesystem::path& file, const std::filesystem::pa
                 const PolygonMesh mesh = gather_mesh(talk, slice);
                 lift(slice.vertices);
                 const auto remarks = opened->write(talk, result, slice.vertices);
+                std::vector<Index> labels(at(slice.n_faces()));
+                for (Index f = 0; f < slice.n_faces(); ++f)
+                    labels[f] = static_cast<Index>(slice.corners[slice.face_offsets[f]] % 7);
+                opened->write_labelled(talk, file.parent_path() / "labelled.ply", slice.vertices, labels);
                 const std::scoped_lock lock(mutex);
                 shared.least_faces.push_back(slice.n_faces());
                 if (talk.rank() > 0)
@@ -74,8 +80,10 @@ Shared pass_through(const std::filesystem::path& file, const std::filesystem::pa
     for (const std::string& fault : faults)
         CHECK(fault == faults.front());
     shared.fault = faults.front();
-    if (shared.fault.empty())
+    if (shared.fault.empty()) {
         shared.written = test::content_of(result);
+        shared.labelled = test::content_of(file.parent_path() / "labelled.ply");
+    }
     return shared;
 }
 
@@ -91,12 +99,18 @@ void check_as_on_one_machine(const std::filesystem::path& file, const std::files
     else
         write_mesh(result, moved, kind_for_writing(result, expected.kind));
     const std::string written = test::content_of(result);
+    std::vector<Index> labels;
+    for (Index f = 0; f < moved.n_faces(); ++f)
+        labels.push_back(moved.face(f).front() % 7);
+    write_labelled_ply(result.parent_path() / "labelled.ply", moved, labels);
+    const std::string labelled = test::content_of(result.parent_path() / "labelled.ply");
     for (const int n : {1, 2, 3, 5}) {
         CAPTURE(n);
         const Shared shared = pass_through(file, result, n, sharing);
         REQUIRE(shared.fault.empty());
         CHECK(test::identical(shared.mesh, expected.mesh));
         CHECK((shared.written == written));
+        CHECK((shared.labelled == labelled));
         CHECK(shared.remarks == remarks);
         CHECK(std::ranges::min(shared.least_faces) >= least_faces);
     }
@@ -213,10 +227,11 @@ TEST_CASE("the file may be written over itself, and is not touched by a failure"
     CHECK(test::contains(refused.fault, "nowhere"));
     const Shared expected = pass_through(file, directory / "out.ply", 1, sliced);
     const Shared over = pass_through(file, file, 3, sliced);
+    // The file, the other, and the one with labels.
     CHECK(over.fault.empty());
     CHECK((test::content_of(file) == expected.written));
     CHECK((before != expected.written));
-    CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 2);
+    CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 3);
 }
 
 TEST_CASE("faults of slices are those that one machine finds")
