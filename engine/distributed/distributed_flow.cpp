@@ -197,9 +197,16 @@ class RankFlow {
     [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Point& offset)
     {
         Points positions = part_.mesh.vertices;
+        std::vector<std::uint8_t> has_face(part_.vertex_numbers.size(), 0);
+        for (const Index v : part_.mesh.face_vertices)
+            has_face[v] = 1;
         std::vector<Index> elsewhere;
-        for (const Index v : part_.mesh.face_vertices) {
-            const auto found = std::ranges::lower_bound(mesh.part.vertex_numbers, part_.vertex_numbers[v]);
+        auto found = mesh.part.vertex_numbers.begin();
+        for (Index v = 0; v < part_.mesh.n_vertices(); ++v) {
+            if (has_face[v] == 0)
+                continue;
+            while (found != mesh.part.vertex_numbers.end() && *found < part_.vertex_numbers[v])
+                ++found;
             const auto known = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
             if (found != mesh.part.vertex_numbers.end() && *found == part_.vertex_numbers[v] &&
                 (mesh.n_repeated == 0 || mesh.has_own_faces(known)))
@@ -210,12 +217,10 @@ class RankFlow {
         if (mesh.n_repeated > 0)
             ask_for(mesh, elsewhere, positions);
         // Not by nothing, which would make 0 of -0.
-        if (!offset.isZero(0.0)) {
-            std::vector<Index> moved = part_.mesh.face_vertices;
-            sort_unique(moved);
-            for (const Index v : moved)
-                positions.row(v) = Point(positions.row(v)) + offset;
-        }
+        if (!offset.isZero(0.0))
+            for (Index v = 0; v < part_.mesh.n_vertices(); ++v)
+                if (has_face[v] != 0)
+                    positions.row(v) = Point(positions.row(v)) + offset;
         return positions;
     }
 

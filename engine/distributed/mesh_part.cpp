@@ -140,10 +140,16 @@ struct Place {
 std::vector<Place> merged(std::span<const MeshPart> parts, std::vector<Number> MeshPart::*numbers)
 {
     std::vector<Place> places;
-    for (std::size_t p = 0; p < parts.size(); ++p)
+    std::size_t n_of_first = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
         for (std::size_t i = 0; i < (parts[p].*numbers).size(); ++i)
             places.push_back({(parts[p].*numbers)[i], p, static_cast<Index>(i)});
-    std::ranges::stable_sort(places, {}, &Place::number);
+        n_of_first = p == 0 ? places.size() : n_of_first;
+    }
+    // The first has most, in order.
+    const auto others = places.begin() + static_cast<std::ptrdiff_t>(n_of_first);
+    std::ranges::stable_sort(others, places.end(), {}, &Place::number);
+    std::ranges::inplace_merge(places, others, {}, &Place::number);
     const auto are_same = [](const Place& one, const Place& other) { return one.number == other.number; };
     places.erase(std::unique(places.begin(), places.end(), are_same), places.end());
     return places;
@@ -254,6 +260,11 @@ MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
 
 MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers)
 {
+    if (talk.size() == 1) {
+        MeshPart all = own;
+        all.fixed.resize(all.vertex_numbers.size(), 0);
+        return all;
+    }
     const IndexLists faces_at = make_lists(own.mesh.n_vertices(), [&](auto&& add) {
         for (Index f = 0; f < own.mesh.n_faces(); ++f)
             for (const Index v : own.mesh.face(f))

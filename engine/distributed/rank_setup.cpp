@@ -157,11 +157,15 @@ void require_sound_cut(const RankMesh& mesh)
                                    mesh.known[labels[f]].number, mesh.part.face_numbers[f]));
 
     PinchMender pinches(faces, mesh.topology, labels, static_cast<Index>(mesh.known.size()));
-    for (Index f = 0; f < faces.n_faces(); ++f)
-        for (const Index v : faces.face(f))
-            if (is_own_face(f) && may_be_pinched(faces, mesh.topology, labels, v) && pinches.pinches_at(v) > 0)
-                refuse_cut(
-                    fmt::format("a sub-mesh has several fans of faces at vertex {}", mesh.part.vertex_numbers[v]));
+    const auto has_own_face = [&](Index v) {
+        return std::ranges::any_of(mesh.topology.corners_at(v),
+                                   [&](Index corner) { return is_own_face(mesh.topology.face_of[corner]); });
+    };
+    for (const Index v : select(run_in_parallel, faces.n_vertices(), [&](Index one) {
+             return may_be_pinched(faces, mesh.topology, labels, one) && has_own_face(one);
+         }))
+        if (pinches.pinches_at(v) > 0)
+            refuse_cut(fmt::format("a sub-mesh has several fans of faces at vertex {}", mesh.part.vertex_numbers[v]));
 }
 
 /// Some vertices of the whole mesh: how many, and the lowest number among them.

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "partition/errors.h"
-#include "partition/index_lists.h"
+#include "engine/distributed/corner_positions.h"
+#include "engine/tasks/parallel_loop.h"
 #include "partition/loop.h"
 #include "solvers/laplacian/geometry.h"
 
@@ -21,47 +20,33 @@ struct BlockSums {
     double edges = 0.0;
 };
 
-void require_corners_in_range(const RankSlice& slice, const SliceBounds& bounds, int rank)
+double length_around(const Points& corners)
 {
-    for (Index f = 0; f < slice.n_faces(); ++f)
-        for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
-            if (slice.corners[c] < 0 || slice.corners[c] >= bounds.vertices.back())
-                throw InputError(fmt::format("face {} (numbered from 0) names vertex {}, but the mesh has {} vertices",
-                                             bounds.faces[rank] + f, slice.corners[c], bounds.vertices.back()));
-}
-
-/// The faces of a stretch with the positions of their corners.
-PolygonMesh mesh_of_faces(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds)
-{
-    std::vector<std::int64_t> numbers = slice.corners;
-    sort_unique(numbers);
-    PolygonMesh mesh;
-    mesh.vertices = fetch_positions(talk, slice, numbers, bounds.vertices);
-    mesh.face_offsets = slice.face_offsets;
-    mesh.face_vertices.reserve(slice.corners.size());
-    for (const std::int64_t corner : slice.corners)
-        mesh.face_vertices.push_back(static_cast<Index>(std::ranges::lower_bound(numbers, corner) - numbers.begin()));
-    return mesh;
-}
-
-double length_around(std::span<const Index> corners, const Points& positions)
-{
+    const auto n = corners.rows();
     double around = 0.0;
-    for (std::size_t k = 0; k < corners.size(); ++k)
-        around += (positions.row(corners[(k + 1) % corners.size()]) - positions.row(corners[k])).norm();
+    for (Eigen::Index k = 0; k < n; ++k)
+        around += (corners.row((k + 1) % n) - corners.row(k)).norm();
     return around;
 }
 
-std::vector<BlockSums> sum_blocks(const PolygonMesh& mesh)
+/// Blocks of the faces of a stretch.
+std::vector<BlockSums> sum_blocks(const RankSlice& slice, const CornerPositions& positions)
 {
-    std::vector<BlockSums> blocks;
-    for_each_block(run_serially, mesh.n_faces(), [&](Index, Index begin, Index end) {
-        BlockSums sums;
+    std::vector<BlockSums> blocks(at(slice.n_faces() / block_size) + (slice.n_faces() % block_size > 0 ? 1 : 0));
+    for_each_block(run_in_parallel, slice.n_faces(), [&](Index block, Index begin, Index end) {
+        BlockSums& sums = blocks[block];
+        Points corners;
+        std::vector<Index> numbers;
         for (Index f = begin; f < end; ++f) {
-            sums.area += area(mesh.face(f), mesh.vertices);
-            sums.edges += length_around(mesh.face(f), mesh.vertices);
+            const Index n = slice.face_offsets[f + 1] - slice.face_offsets[f];
+            corners.resize(n, 3);
+            numbers.resize(at(n));
+            std::iota(numbers.begin(), numbers.end(), 0);
+            for (Index k = 0; k < n; ++k)
+                corners.row(k) = positions[slice.corners[slice.face_offsets[f] + k]];
+            sums.area += area(numbers, corners);
+            sums.edges += length_around(corners);
         }
-        blocks.push_back(sums);
     });
     return blocks;
 }
@@ -92,10 +77,10 @@ double extent_together(Conversation& talk, const Points& own)
 SharedMeshSize measure(Conversation& talk, const RankSlice& slice)
 {
     const SliceBounds bounds = gather_bounds(talk, slice);
-    talk.look_together([&] { require_corners_in_range(slice, bounds, talk.rank()); });
+    talk.look_together([&] { require_corners(slice, bounds, talk.rank()); });
     SharedMeshSize size{.vertices = bounds.vertices.back(), .faces = bounds.faces.back()};
     double edges = 0.0;
-    for (const BlockSums& sums : talk.gather_all(sum_blocks(mesh_of_faces(talk, slice, bounds)))) {
+    for (const BlockSums& sums : talk.gather_all(sum_blocks(slice, CornerPositions(talk, slice, bounds)))) {
         size.area += sums.area;
         edges += sums.edges;
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/distributed/corner_positions.h"
 #include "engine/distributed/cut/hilbert.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/index_lists.h"
@@ -16,39 +17,6 @@ namespace seamflow {
 namespace {
 
 using Number = std::int64_t;
-
-/// The positions of the corners of a stretch of faces.
-class CornerPositions {
-  public:
-    CornerPositions(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds)
-        : slice_(slice)
-        , first_(bounds.vertices[talk.rank()])
-        , end_(bounds.vertices[talk.rank() + 1])
-    {
-        for (const Number corner : slice.corners)
-            if (!is_own(corner))
-                others_.push_back(corner);
-        sort_unique(others_);
-        positions_ = fetch_positions(talk, slice, others_, bounds.vertices);
-    }
-
-    [[nodiscard]] Point operator[](Number corner) const
-    {
-        if (is_own(corner))
-            return slice_.vertices.row(corner - first_);
-        return positions_.row(std::ranges::lower_bound(others_, corner) - others_.begin());
-    }
-
-  private:
-    [[nodiscard]] bool is_own(Number corner) const { return corner >= first_ && corner < end_; }
-
-    const RankSlice& slice_;
-    Number first_;
-    Number end_;
-    /// Ascending, those of other stretches.
-    std::vector<Number> others_;
-    Points positions_;
-};
 
 /// #F of the stretch by 3.
 Points centroids_of(const RankSlice& slice, const CornerPositions& positions)
