@@ -3,7 +3,11 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
-install(DIRECTORY ${PROJECT_BINARY_DIR}/include/seamflow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+foreach(header IN LISTS SEAMFLOW_HEADERS)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${PROJECT_BINARY_DIR}/include/seamflow/${header}
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow/${folder})
+endforeach()
 foreach(folder IN ITEMS partition solvers engine)
     set_target_properties(seamflow_${folder} PROPERTIES INSTALL_RPATH $ORIGIN)
     install(TARGETS seamflow_${folder} EXPORT seamflow-${folder})
