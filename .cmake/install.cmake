@@ -3,7 +3,11 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/seamflow)
-install(DIRECTORY ${PROJECT_BINARY_DIR}/include/seamflow DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+foreach(header IN LISTS SEAMFLOW_HEADERS)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${PROJECT_BINARY_DIR}/include/seamflow/${header}
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seamflow/${folder})
+endforeach()
 set(installed_libraries partition solvers engine)
 if(TARGET seamflow_distributed)
     list(APPEND installed_libraries distributed)
