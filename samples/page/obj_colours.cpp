@@ -25,6 +25,12 @@ std::uint8_t eight_bits_of_part(double value)
     return static_cast<std::uint8_t>(std::lround(255.0 * (std::isnan(value) ? 0.5 : std::clamp(value, 0.0, 1.0))));
 }
 
+float finite_part(double value)
+{
+    const auto part = static_cast<float>(value);
+    return std::isfinite(part) ? part : 0.0F;
+}
+
 /// What is left of a line, with one blank between its words: a name may have some.
 std::string rest_of(TextScanner& scanner)
 {
@@ -160,7 +166,7 @@ void ObjColourReader::read_library()
 {
     const std::string name = rest_of(scanner_);
     try {
-        read_material_file(path_.parent_path() / name, descriptions_);
+        read_material_file(folder_of(path_) / name, descriptions_);
     } catch (const InputError& error) {
         result_.remarks.push_back(fmt::format("The page lacks the file's materials: {}.", error.what()));
     }
@@ -199,9 +205,9 @@ FileColours ObjColourReader::read()
         else if (is_obj_face(keyword))
             read_face();
         else if (keyword == "vt") {
-            const double u = scanner_.number_or_nan();
-            const double v = scanner_.number_or_nan();
-            result_.places.push_back({static_cast<float>(u), static_cast<float>(std::isnan(v) ? 0.0 : v)});
+            const float u = finite_part(scanner_.number_or_nan());
+            const float v = scanner_.has_token() ? finite_part(scanner_.number_or_nan()) : 0.0F;
+            result_.places.push_back({u, v});
         } else if (keyword == "usemtl")
             material_ = rest_of(scanner_);
         else if (keyword == "mtllib")

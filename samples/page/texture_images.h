@@ -8,12 +8,18 @@
 
 namespace seamflow {
 
+/// The folder of a file, which is never empty: a name in it is never taken for standard input.
+inline std::filesystem::path folder_of(const std::filesystem::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : ".";
+}
+
 /// The images that a mesh file names, as data URLs.
 class TextureImages {
   public:
     /// @param mesh the file that names them, or a file beside it that does.
     explicit TextureImages(const std::filesystem::path& mesh)
-        : folder_(mesh.parent_path())
+        : folder_(folder_of(mesh))
     {
     }
 

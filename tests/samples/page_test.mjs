@@ -495,6 +495,8 @@ test("a mesh stands on its flat base, else as its format has it", async () => {
             assert.deepEqual(guessUp(...box(axis, 0, [1, 1, 1]), name), { axis, sign: 1 });
             assert.deepEqual(guessUp(...box(axis, 1, [1, 1, 1]), name), { axis, sign: -1 });
         }
+    const slope = [Uint16Array.from([0, 0, 0, 0, 65535, 0, 65535, 0, 0, 65535, 65535, 0]), [1, 1, 0.6]];
+    assert.deepEqual(guessUp(...slope, Uint32Array.from([0, 1, 2]), "a.obj"), { axis: 2, sign: 1 });
     const round = (size, name) => guessUp(...box(3, 0, size), name);
     assert.deepEqual(round([1, 1, 1], "a.obj.gz"), { axis: 1, sign: 1 });
     for (const name of ["a.ply", "a.stl", "a.off"])

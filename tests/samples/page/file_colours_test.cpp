@@ -86,6 +86,22 @@ TEST_CASE("OBJ: numbers of places that there are not, and none at all, are no re
         }
 }
 
+TEST_CASE("places that are no numbers are 0")
+{
+    const ColouredFile file("a.obj");
+    file.beside("map.png", png);
+    file.beside("a.mtl", "newmtl m\nmap_Kd map.png\n");
+    const FileColours colours =
+        file.read("mtllib a.mtl\n" + square + "vt nan 1\nvt 1e99 .5\nvt .5\nusemtl m\nf 1/1 2/2 3/3\n");
+    CHECK(colours.places == std::vector<Place>{{0, 1}, {0, 0.5}, {0.5, 0}});
+}
+
+TEST_CASE("a material file called - is not standard input")
+{
+    CHECK(folder_of("a.obj") / "-" != "-");
+    CHECK(folder_of("b/a.obj") == "b");
+}
+
 TEST_CASE("images are looked for where the file says and beside it, and what is amiss is told")
 {
     const ColouredFile file("a.obj");
