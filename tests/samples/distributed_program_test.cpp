@@ -68,7 +68,7 @@ void write_labels_of(const fs::path& parts, const fs::path& labels)
 TEST_CASE("the file is the same for any number of ranks, and that of smooth with the same cut")
 {
     const Workshop w;
-    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 3000") == 0);
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 9000") == 0);
     for (const std::string name : {"mesh.obj", "ball.ply"}) {
         CAPTURE(name);
         const std::string options = " --time-step-edges 3 --steps 3 --converge never --threads 1";
@@ -86,6 +86,13 @@ TEST_CASE("the file is the same for any number of ranks, and that of smooth with
             CHECK((test::content_of(w.directory / "cut.ply") == cut));
             REQUIRE(on_ranks(w, n, name + " n" + extension + options + " --labels labels") == 0);
             CHECK((test::content_of(w.directory / ("n" + extension)) == expected));
+            if (extension != ".ply")
+                continue;
+            // In slices.
+            REQUIRE(on_ranks(w, n, name + " n.ply" + options + " --labels labels --parts cut.ply --whole-up-to 1") ==
+                    0);
+            CHECK((test::content_of(w.directory / "n.ply") == expected));
+            CHECK((test::content_of(w.directory / "cut.ply") == cut));
         }
     }
 }
@@ -142,6 +149,19 @@ TEST_CASE("what cannot be done is said once, with the exit status of smooth, and
         CHECK(messages(w, "smooth-distributed") == expected);
         CHECK(!w.has("n.obj"));
     }
+}
+
+TEST_CASE("files that no rank reads as a whole are refused with what to do, before anything is done")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 900") == 0);
+    CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 1% --whole-up-to 1") == 3);
+    REQUIRE(messages(w, "smooth-distributed").size() == 1);
+    CHECK(messages(w, "smooth-distributed").front().find("convert it to a binary .ply file") != std::string::npos);
+    CHECK(on_ranks(w, 2, "ball.ply n.obj --radius 1% --whole-up-to 1") == 2);
+    REQUIRE(messages(w, "smooth-distributed").size() == 1);
+    CHECK(messages(w, "smooth-distributed").front().find("as a .ply file") != std::string::npos);
+    CHECK(!w.has("n.obj"));
 }
 
 TEST_CASE("options of smooth that ranks do not know are refused by name")

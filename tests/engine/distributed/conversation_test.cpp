@@ -58,6 +58,7 @@ TEST_CASE("ranks as threads hear each other")
             test::check_collectives(communicator);
             test::check_arrivals(communicator);
             test::check_failures(communicator);
+            test::check_agreement(communicator);
         });
     }
 }

@@ -22,6 +22,7 @@ TEST_CASE("ranks of MPI hear each other")
     seamflow::test::check_collectives(*communicator);
     seamflow::test::check_arrivals(*communicator);
     seamflow::test::check_failures(*communicator);
+    seamflow::test::check_agreement(*communicator);
 }
 
 TEST_CASE("ranks of MPI find the bits of one machine")

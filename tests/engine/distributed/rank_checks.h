@@ -93,4 +93,28 @@ inline void check_failures(Communicator& communicator)
     }
 }
 
+/// What all ranks agree on is said without the name of a rank, however fast each of them learns of it.
+inline void check_agreement(Communicator& communicator)
+{
+    const int last = communicator.size() - 1;
+    for (int turn = 0; turn < 20; ++turn) {
+        std::string message;
+        try {
+            run_together(communicator, [&](Conversation& talk) {
+                int n = 0;
+                talk.at_first_rank([&] { n = 1; });
+                CHECK(n == (talk.rank() == 0 ? 1 : 0));
+                CHECK_THROWS_WITH_AS(talk.at_first_rank([] { throw OutputError("no room"); }), "no room", OutputError);
+                talk.look_together([&] {
+                    if (talk.rank() > last / 2)
+                        throw InputError("line " + std::to_string(talk.rank()));
+                });
+            });
+        } catch (const InputError& error) {
+            message = error.what();
+        }
+        CHECK(message == (last == 0 ? "" : "line " + std::to_string(last / 2 + 1)));
+    }
+}
+
 }  // namespace seamflow::test
