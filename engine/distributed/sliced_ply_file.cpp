@@ -30,7 +30,6 @@ struct ByteRange {
     std::size_t end = 0;
 
     [[nodiscard]] std::string_view of(std::string_view content) const { return content.substr(begin, end - begin); }
-    friend bool operator==(const ByteRange&, const ByteRange&) = default;
 };
 
 /// What a rank has of n elements.
