@@ -141,6 +141,9 @@ void require_alike_attached(Conversation& talk, const MeshPart& own)
 /// @throws InputError for a sub-mesh of this rank whose faces would have to be moved (see repair).
 void require_sound_cut(const RankMesh& mesh)
 {
+    // A mesh that is not cut may be of any kind.
+    if (mesh.all.size() == 1)
+        return;
     const PolygonMesh& faces = mesh.part.mesh;
     std::vector<Index> labels = mesh.part.labels;
     const auto is_own_face = [&](Index f) { return mesh.is_own[labels[f]] != 0; };
