@@ -46,7 +46,7 @@ void add_parameters(CLI::App& app, FlowOptions& options)
 
 void add_amount(CLI::App& app, SmoothingRequest& amount)
 {
-    auto* group = app.add_option_group("Amount of smoothing");
+    auto* group = app.add_option_group("Amount of smoothing", "in one of three ways");
     add_real(*group, "--time-step", amount.time_step, positive(), "of each step, in length²");
     add_real(*group, "--time-step-edges", amount.time_step_edges, positive(),
              "of each step, in squared mean edge lengths");
