@@ -7,6 +7,7 @@
 
 #include "engine/distributed/sliced_obj_file.h"
 #include "engine/distributed/sliced_ply_file.h"
+#include "engine/distributed/sliced_stl_file.h"
 #include "engine/distributed/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/io/gzip.h"
@@ -100,14 +101,16 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
         return std::make_unique<WholeMeshFile>(path, sharing, loop);
     const auto format = format_of(path);
     talk.at_first_rank([&] {
-        if ((format != FileFormat::Ply && format != FileFormat::Obj) || is_gzip_name(path))
+        if (format == FileFormat::Off || is_gzip_name(path))
             throw InputError(
                 fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; convert it to a "
                             "binary .ply or an .obj file, of which every rank reads a slice",
                             path.string(), size, sharing.whole_up_to));
         static_cast<void>(OpenFile(path));
     });
-    return format == FileFormat::Obj ? open_sliced_obj(path, sharing, loop) : open_sliced_ply(path, sharing);
+    if (format == FileFormat::Obj)
+        return open_sliced_obj(path, sharing, loop);
+    return format == FileFormat::Stl ? open_sliced_stl(path, sharing) : open_sliced_ply(path, sharing);
 }
 
 }  // namespace seamflow

@@ -69,7 +69,8 @@ TEST_CASE("the file is the same for any number of ranks, and that of smooth with
 {
     const Workshop w;
     REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 9000") == 0);
-    for (const std::string name : {"mesh.obj", "ball.ply"}) {
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.stl --vertices 2000") == 0);
+    for (const std::string name : {"mesh.obj", "ball.ply", "ball.stl"}) {
         CAPTURE(name);
         const std::string options = " --time-step-edges 3 --steps 3 --converge never --threads 1";
         const std::string extension = name.substr(4);

@@ -296,6 +296,101 @@ TEST_CASE("faults of slices of OBJ files are those that one machine finds first,
     CHECK(!std::filesystem::exists(directory / "out.obj"));
 }
 
+TEST_CASE("ranks read and write slices of binary STL files as one machine does")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    const FileKind binary{FileFormat::Stl, Encoding::BinaryLittleEndian};
+    write_mesh(file, make_triangles(700), binary);
+    check_as_on_one_machine(file, directory / "out.stl", sliced, 64);
+    // Every rank has a facet at the same two corners, and others alone; one of the two has both signs of zero.
+    std::string fan = std::string(80, ' ');
+    append(fan, std::uint32_t{500});
+    for (int f = 0; f < 500; ++f) {
+        const float zero = f % 3 == 1 ? -0.0F : 0.0F;
+        const auto x = static_cast<float>(f / 2);
+        for (const float number :
+             {0.F, 0.F, 0.F, zero, 0.F, zero, 0.F, 0.F, 1.F, x + 1.F, f % 2 == 0 ? 1.F : -1.F, 0.F})
+            append(fan, number);
+        append(fan, std::int16_t{7});
+    }
+    write_file(file, fan + "\n");
+    check_as_on_one_machine(file, directory / "out.stl", sliced, 64);
+}
+
+TEST_CASE("faults of slices of binary STL files are those that one machine finds")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    write_mesh(file, make_triangles(700), {FileFormat::Stl, Encoding::BinaryLittleEndian});
+    const std::string good = test::content_of(file);
+    std::vector<std::string> bad = {std::string("no STL"), good.substr(0, good.size() - 20), good + "more",
+                                    std::string(84, '\0')};
+    const std::size_t n_facets = (good.size() - 84) / 50;
+    for (const std::size_t facet : {std::size_t{0}, n_facets / 2, n_facets - 1})
+        for (const std::size_t other : {facet, n_facets / 3}) {
+            std::string damaged = good;
+            // Not a number; and the first corner as the second.
+            damaged.replace(84 + 50 * facet + 12 + 16, 4, "\xff\xff\xff\xff");
+            damaged.replace(84 + 50 * other + 12, 12, good.substr(84 + 50 * other + 24, 12));
+            bad.push_back(damaged);
+        }
+    for (const std::string& content : bad) {
+        CAPTURE(content.size());
+        write_file(file, content);
+        std::string expected;
+        try {
+            static_cast<void>(read_mesh(file));
+        } catch (const InputError& error) {
+            expected = error.what();
+        }
+        CAPTURE(expected);
+        REQUIRE(!expected.empty());
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            CHECK(pass_through(file, directory / "out.stl", n, sliced).fault == expected);
+        }
+    }
+}
+
+TEST_CASE("a result that binary STL cannot hold is refused as on one machine")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    const auto result = directory / "out.stl";
+    const FileKind binary{FileFormat::Stl, Encoding::BinaryLittleEndian};
+    write_mesh(file, make_triangles(700), binary);
+    const PolygonMesh mesh = read_mesh(file).mesh;
+    const auto last_face = mesh.face(mesh.n_faces() - 1);
+    for (const bool is_large : {true, false}) {
+        PolygonMesh moved = mesh;
+        if (is_large)
+            moved.vertices(mesh.n_vertices() - 2, 1) = 1e40;
+        moved.vertices.row(last_face[1]) = moved.vertices.row(last_face[2]);
+        std::string expected;
+        try {
+            write_mesh(result, moved, binary);
+        } catch (const OutputError& error) {
+            expected = error.what();
+        }
+        REQUIRE(!expected.empty());
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            run_on_threads(n, [&](Communicator& communicator) {
+                CHECK_THROWS_WITH_AS(run_together(communicator,
+                                                  [&](Conversation& talk) {
+                                                      const auto opened = open_together(talk, file, sliced);
+                                                      static_cast<void>(opened->read(talk));
+                                                      opened->write(talk, result,
+                                                                    hand_out(talk, moved, sliced.block).vertices);
+                                                  }),
+                                     expected.c_str(), OutputError);
+            });
+        }
+        CHECK(!std::filesystem::exists(result));
+    }
+}
+
 TEST_CASE("slices of PLY files keep what else there is, rounded or in wider numbers")
 {
     const test::TemporaryDirectory directory;
@@ -365,7 +460,7 @@ TEST_CASE("faults of slices are those that one machine finds")
 TEST_CASE("a file that changes while it is used is noticed")
 {
     const test::TemporaryDirectory directory;
-    for (const std::string extension : {".ply", ".obj"}) {
+    for (const std::string extension : {".ply", ".obj", ".stl"}) {
         CAPTURE(extension);
         const auto file = directory / ("in" + extension);
         const auto result = directory / ("out" + extension);
@@ -407,6 +502,9 @@ TEST_CASE("files that cannot be read in slices are refused with what to do")
     write_mesh(directory / "in.ply", make_triangles(300), {FileFormat::Ply, Encoding::Ascii});
     CHECK(test::contains(pass_through(directory / "in.ply", directory / "o.ply", 3, sliced).fault,
                          "export it as a binary PLY file"));
+    write_mesh(directory / "in.stl", make_triangles(300), {FileFormat::Stl, Encoding::Ascii});
+    CHECK(test::contains(pass_through(directory / "in.stl", directory / "o.stl", 3, sliced).fault,
+                         "export it as a binary STL file"));
 }
 
 TEST_CASE("sizes of a mesh that ranks have are those of one machine, bit for bit")
