@@ -15,6 +15,7 @@
 #include "engine/distributed/whole_mesh.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
+#include "partition/io/slices.h"
 #include "tests/support/flows.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
@@ -245,6 +246,10 @@ TEST_CASE("ranks read and write slices of OBJ files as one machine does")
         write_file(file, "\xEF\xBB\xBF" + varied_obj(300, end));
         check_as_on_one_machine(file, directory / "out.obj", sliced, 64);
     }
+    // Several pieces for the threads of each rank.
+    write_file(file, varied_obj(50'000, "\n"));
+    REQUIRE(std::filesystem::file_size(file) > 5 * 2 * Slicing{}.bytes);
+    check_as_on_one_machine(file, directory / "out.obj", sliced, 64);
     // Fewer lines than ranks, one of them longer than a share.
     write_file(file, "v 0 0 0\nv 1 0 0 \\\n\\\n\\\n1 .5 .5\nv 0 1 0\nf 1 2 3");
     check_as_on_one_machine(file, directory / "out.obj", sliced, 0);
