@@ -142,7 +142,7 @@ FlowReport run_flow(const SmoothCommand& command, PolygonMesh& mesh, const StepO
 /// Where steps have missed their tolerance, the results are not what was asked for.
 ExitStatus require_converged(const SmoothCommand& command, const FlowReport& report)
 {
-    const std::string missed = missed_tolerance(command, report);
+    const std::string missed = missed_tolerance(command, report.convergence);
     if (missed.empty())
         return ExitStatus::Success;
     std::cerr << "smooth: " << missed << "; " << command.output.string() << " has the last state\n";

@@ -3,6 +3,7 @@
 //     a slice of the file on every rank ──► cut ──► whole sub-meshes on every rank ──► flow ──► slices ──► file
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "engine/distributed/deal.h"
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/mpi_communicator.h"
+#include "engine/distributed/packing.h"
 #include "engine/distributed/shared_mesh_file.h"
 #include "engine/distributed/slice_measures.h"
 #include "engine/distributed/whole_mesh.h"
@@ -72,15 +74,19 @@ class RankRun {
     {
     }
 
-    void run()
+    ExitStatus run()
     {
         const Stopwatch whole;
         run_together(ranks_, [&](Conversation& talk) { begin(talk); });
         FlowOptions options = command_.options;
         options.cut = {};
-        about_file(command_.input, [&] { record_.report = distributed_mean_curvature_flow(ranks_, part_, options); });
+        options.motion.weld.reset();
+        options.report.measures = !command_.quiet || !command_.report.empty();
+        about_file(command_.input,
+                   [&] { record_.report = distributed_mean_curvature_flow(ranks_, part_, options, observer()); });
         record_.setup_seconds += record_.report.setup_seconds;
         run_together(ranks_, [&](Conversation& talk) { end(talk, whole); });
+        return require_converged();
     }
 
   private:
@@ -98,6 +104,7 @@ class RankRun {
         if (!command_.labels.empty())
             slice.labels = read_labels_together(talk, slice);
         std::vector<std::int64_t> fixed = read_fixed(talk);
+        std::vector<double> weights = read_weights(talk);
         record_.run.read_seconds = reading.seconds();
         print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
         print_amount(out_, record_.run.scale, command_.options);
@@ -110,6 +117,7 @@ class RankRun {
         part_.fixed.resize(part_.vertex_numbers.size());
         std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(),
                                [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
+        deal_weights(talk, std::move(weights), bounds);
         bring_back(talk, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         record_.setup_seconds = setting_up.seconds();
@@ -120,8 +128,13 @@ class RankRun {
     {
         record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
         about_file(command_.input, [&] {
+            MotionOptions& motion = command_.options.motion;
+            motion.weld = command_.weld ? std::optional(length_of(*command_.weld, record_.run.scale)) : std::nullopt;
             if (command_.attach)
-                command_.options.motion.attachment = attachment_of(*command_.attach, record_.run.scale);
+                motion.attachment = attachment_of(*command_.attach, record_.run.scale);
+            if (motion.attachment > 0.0)
+                record_.run.attachment = motion.attachment;
+            record_.run.has_attachment_weights = !command_.attach_weights.empty();
             command_.options.time_step = time_step_of(command_.amount, record_.run.scale, command_.options.steps);
         });
         record_.time_step = command_.options.time_step;
@@ -151,13 +164,55 @@ class RankRun {
         return talk.gather_all(own);
     }
 
+    /// The weights of --attach-weights, #V, at rank 0.
+    std::vector<double> read_weights(Conversation& talk)
+    {
+        std::vector<double> weights;
+        talk.at_first_rank([&] {
+            if (!command_.attach_weights.empty())
+                weights = read_vertex_weights(command_.attach_weights, static_cast<Index>(record_.size.vertices),
+                                              command_.attach_property);
+        });
+        return weights;
+    }
+
+    /// Gives the vertices of the part their weights: those of a seam the largest of all that move as one.
+    /// @param weights at rank 0.
+    void deal_weights(Conversation& talk, std::vector<double> weights, const SliceBounds& bounds)
+    {
+        if (command_.attach_weights.empty())
+            return;
+        std::vector<Bytes> to_each(static_cast<std::size_t>(talk.size()));
+        if (talk.rank() == 0) {
+            for (const SeamVertex& one : seams_.vertices)
+                weights[static_cast<std::size_t>(one.first)] = std::max(weights[static_cast<std::size_t>(one.first)],
+                                                                        weights[static_cast<std::size_t>(one.vertex)]);
+            for (std::size_t rank = 0; rank < to_each.size(); ++rank)
+                to_each[rank] = packed(std::vector<double>(weights.begin() + bounds.vertices[rank],
+                                                           weights.begin() + bounds.vertices[rank + 1]));
+        }
+        const auto own = unpacked<double>(talk.exchange(std::move(to_each)).front());
+        // As the first coordinates of points, which ranks can ask each other for.
+        RankSlice as_points;
+        as_points.vertices = Points::Zero(std::ssize(own), 3);
+        std::ranges::copy(own, as_points.vertices.col(0).begin());
+        const Points found = fetch_positions(talk, as_points, part_.vertex_numbers, bounds.vertices);
+        part_.attachment_weights.assign(found.col(0).begin(), found.col(0).end());
+    }
+
     /// Whether results can hold the mesh, and what they will not have of the input. On rank 0.
     void look_at_results()
     {
         std::error_code ignored;
-        file_->require_writable_as(command_.output);
+        std::vector<std::filesystem::path> results{command_.output};
+        if (command_.every_step)
+            results.push_back(command_.every_step->path(1));
+        for (const auto& path : results) {
+            file_->require_writable_as(path);
+            if (const MeshFile* const whole = file_->whole())
+                require_storable(whole->mesh, path, kind_for_writing(path, whole->kind));
+        }
         if (const MeshFile* const whole = file_->whole()) {
-            require_storable(whole->mesh, command_.output, kind_for_writing(command_.output, whole->kind));
             record_.remarks = remarks_on_losses(command_.output, true, *whole);
             if (file_->faults().count > 0)
                 record_.remarks.push_back(remark_on_faces(file_->faults(), command_.output, true, whole->kind));
@@ -174,7 +229,7 @@ class RankRun {
             record_.choices.push_back(found.choice);
         if (!command_.parts.empty())
             labels_ = labels_of_all_faces(talk, slice, found.left_out);
-        record_.remarks.insert(record_.remarks.begin(), found.remarks.begin(), found.remarks.end());
+        of_cut_ = std::move(found.remarks);
         seams_ = std::move(found.seams);
     }
 
@@ -189,21 +244,81 @@ class RankRun {
         sort_unique(fixed);
     }
 
+    /// Prints every step, and writes it where --every-step asks for that.
+    RankObserver observer()
+    {
+        if (!command_.verbose && !command_.every_step)
+            return {};
+        return [this](const RankStepState& state) {
+            if (command_.verbose)
+                print_rank_step(out_, state, command_.options.steps, record_.size.mean_edge);
+            if (!command_.every_step)
+                return;
+            const Stopwatch watch;
+            file_->write(state.talk, command_.every_step->path(state.step),
+                         vertices_of_stretch(state.talk, state.part));
+            record_.run.write_seconds += watch.seconds();
+        };
+    }
+
+    /// Where the vertices of this rank's stretch are after steps.
+    Points vertices_of_stretch(Conversation& talk, const MeshPart& part) const
+    {
+        RankSlice slice;
+        slice.vertices = slice_vertices_;
+        collect_positions(talk, part, slice);
+        bring_back(talk, seams_, slice);
+        return std::move(slice.vertices);
+    }
+
+    /// What was measured, and the remarks: of cut, flow and files, each once.
+    void note_flow()
+    {
+        std::vector<std::string> all = of_cut_;
+        for (const auto& remarks : {record_.report.remarks, record_.remarks})
+            for (const std::string& remark : remarks)
+                if (std::ranges::find(all, remark) == all.end())
+                    all.push_back(remark);
+        record_.remarks = std::move(all);
+        if (!record_.report.before)
+            return;
+        const std::vector<RankStepReport>& steps = record_.report.steps;
+        const auto look = [](const RankMeasures& measures) {
+            SurfaceLook seen{.area = measures.area, .volume = measures.volume, .roughness = {}};
+            if (seen.volume)
+                seen.volume = std::abs(*seen.volume);
+            return seen;
+        };
+        record_.run.surface.before = look(*record_.report.before);
+        record_.run.surface.after = look(steps.empty() ? *record_.report.before : *steps.back().measures);
+    }
+
+    /// Where steps have missed their tolerance, the results are not what was asked for.
+    ExitStatus require_converged() const
+    {
+        const std::string missed = missed_tolerance(command_, record_.report.convergence);
+        if (missed.empty())
+            return ExitStatus::Success;
+        if (ranks_.rank() == 0)
+            std::cerr << "smooth-distributed: " << missed << "; " << command_.output.string()
+                      << " has the last state\n";
+        return ExitStatus::ComputationFailed;
+    }
+
     /// Writes, and tells what was done.
     void end(Conversation& talk, const Stopwatch& whole)
     {
         const Stopwatch writing;
-        RankSlice slice;
-        slice.vertices = slice_vertices_;
-        collect_positions(talk, part_, slice);
-        bring_back(talk, seams_, slice);
+        const Points vertices = vertices_of_stretch(talk, part_);
         part_ = {};
-        record_.moved = measure_moves(talk, slice_vertices_, slice.vertices);
-        const auto remarks = file_->write(talk, command_.output, slice.vertices);
+        note_flow();
+        record_.run.surface.moved = measure_moves(talk, slice_vertices_, vertices);
+        const auto remarks = file_->write(talk, command_.output, vertices);
         record_.remarks.insert(record_.remarks.end(), remarks.begin(), remarks.end());
+        remark_on_loss(command_.options, record_.run.surface, record_.remarks, false);
         if (!command_.parts.empty())
-            file_->write_labelled(talk, command_.parts, slice.vertices, labels_);
-        record_.run.write_seconds = writing.seconds();
+            file_->write_labelled(talk, command_.parts, vertices, labels_);
+        record_.run.write_seconds += writing.seconds();
         record_.run.seconds = whole.seconds();
         RankRecord own{.vertices = record_.report.vertices,
                        .foreign_vertices = record_.report.foreign_vertices,
@@ -218,8 +333,6 @@ class RankRun {
             if (!command_.report.empty())
                 write_text(command_.report, distributed_report_json(record_, command_.options));
         });
-        if (command_.verbose)
-            print_rank_steps(out_, record_);
         print_distributed_result(out_, record_);
     }
 
@@ -235,6 +348,7 @@ class RankRun {
     Points slice_vertices_ = Points(0, 3);
     std::vector<Index> labels_;
     JoinedSeams seams_;
+    std::vector<std::string> of_cut_;
 };
 
 /// Rank 0 speaks for all.
@@ -263,7 +377,7 @@ ExitStatus smooth_distributed(Communicator& ranks, int argc, char** argv)
     const bool is_taken = is_standard_stream(command.flow.output) || is_standard_stream(command.flow.report);
     std::ostream& out = command.flow.quiet || ranks.rank() > 0 ? silence : is_taken ? std::cerr : std::cout;
     try {
-        RankRun(ranks, command, record, out).run();
+        return RankRun(ranks, command, record, out).run();
     } catch (...) {
         // The report says what standard error says, if it can be written.
         try {
@@ -273,7 +387,6 @@ ExitStatus smooth_distributed(Communicator& ranks, int argc, char** argv)
         }
         throw;
     }
-    return ExitStatus::Success;
 }
 
 }  // namespace

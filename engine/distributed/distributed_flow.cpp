@@ -149,6 +149,7 @@ class RankFlow {
             shown->mesh.vertices = positions_of_part(mesh, offset);
             on_step_({step, report.steps.back(), *shown, talk_});
         }
+        describe_convergence(*stepper, report);
         return positions_of_part(mesh, offset);
     }
 
@@ -191,6 +192,20 @@ class RankFlow {
         report.non_manifold_vertices = mesh.n_non_manifold;
         report.repeated_faces = mesh.n_repeated;
         report.remarks = mesh.remarks;
+    }
+
+    /// How well converged steps have kept to their tolerance, which all ranks know alike.
+    void describe_convergence(const Stepper& stepper, RankReport& report) const
+    {
+        report.convergence.approach = options_.accuracy.approach;
+        if (!options_.accuracy.tolerance)
+            return;
+        FlowReport own;
+        stepper.describe(own);
+        report.convergence.tolerance = options_.accuracy.tolerance;
+        report.convergence.steps_short_of_tolerance = own.convergence.steps_short_of_tolerance;
+        report.convergence.steps_stagnated = own.convergence.steps_stagnated;
+        report.remarks.insert(report.remarks.end(), own.remarks.begin(), own.remarks.end());
     }
 
     /// All ranks call this together.

@@ -10,6 +10,7 @@
 #include "engine/distributed/conversation.h"
 #include "engine/distributed/mesh_part.h"
 #include "engine/options/flow_options.h"
+#include "engine/options/flow_report.h"
 #include "partition/metrics/length_statistics.h"
 
 namespace seamflow {
@@ -60,6 +61,8 @@ struct RankReport {
     /// With ReportOptions::measures: the mesh before the first step.
     std::optional<RankMeasures> before = {};
     std::vector<RankStepReport> steps;
+    /// As that of FlowReport.
+    ConvergenceReport convergence = {};
     /// As those of FlowReport, of the whole mesh.
     std::vector<std::string> remarks;
 };

@@ -14,9 +14,6 @@ const char* const sweeps_alone = "ranks do not know such steps; smooth does";
 std::vector<SmoothProgram::Lack> lacks()
 {
     return {{"--preset", "presets measure the noise of the whole mesh; say --time-step, --time-step-edges or --radius"},
-            {"--boundary", "the rims of the mesh stay where they are; smooth can let them move"},
-            {"--attach-weights", "ranks know one attachment for all vertices (--attach); smooth knows others"},
-            {"--attach-property", "ranks know one attachment for all vertices (--attach); smooth knows others"},
             {"--strict", whole_mesh},
             {"--rescale", whole_mesh},
             {"--scheme", sweeps_alone},
@@ -24,7 +21,6 @@ std::vector<SmoothProgram::Lack> lacks()
             {"--overlap", sweeps_alone},
             {"--keep-gaps", sweeps_alone},
             {"--reference", whole_mesh},
-            {"--every-step", "it writes the result alone; smooth writes every step"},
             {"--trace", one_process},
             {"--task-graph", one_process},
             {"--html", "a page shows the whole mesh, which no rank has; smooth writes it"},
@@ -61,6 +57,10 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius: smooth alone, which "
                           "has the whole mesh, can measure its noise");
     settle_approach(command.flow.options.accuracy);
+    if (command.flow.options.motion.boundary != Boundary::Fixed &&
+        command.flow.options.accuracy.approach != Approach::Converged)
+        throw OptionError("rims move freely in converged steps of ranks alone: add --approach converged, or leave "
+                          "--boundary free out");
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;

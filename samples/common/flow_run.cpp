@@ -80,7 +80,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop&
     run.has_attachment_weights = !motion.attachment_weights.empty();
 }
 
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
+void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
+                    bool can_rescale)
 {
     constexpr double much = 0.2;
     constexpr double most = 0.5;  // of the area: noise alone may have much of it
@@ -94,12 +95,12 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
     }
     const double lost = 1.0 - *change.after.volume / *change.before.volume;
     if (lost > much)
-        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: --filter low-pass loses less, "
-                                      "--rescale volume scales it back, and less smoothing is gentler.",
-                                      100.0 * lost));
+        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: --filter low-pass loses less, {}and "
+                                      "less smoothing is gentler.",
+                                      100.0 * lost, can_rescale ? "--rescale volume scales it back, " : ""));
 }
 
-std::string missed_tolerance(const SmoothCommand& command, const FlowReport& report)
+std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)
 {
     const int missed = steps_failed(command, report);
     if (missed == 0)

@@ -22,9 +22,11 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop&
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark where
 /// it has lost much of its volume, or most of its area where it encloses none.
-void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks);
+/// @param can_rescale whether the user can ask for that.
+void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
+                    bool can_rescale = true);
 
 /// "the tolerance 1e-08 was missed in 2 steps"; empty where no step has failed (see steps_failed).
-std::string missed_tolerance(const SmoothCommand& command, const FlowReport& report);
+std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report);
 
 }  // namespace seamflow

@@ -13,6 +13,8 @@ namespace seamflow {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 std::string counted_as(std::int64_t n, const char* one, const char* several)
 {
     return fmt::format("{} {}", n, n == 1 ? one : several);
@@ -35,13 +37,51 @@ std::string range_of(const std::vector<RankRecord>& ranks, Value RankRecord::*me
                                                : fmt::format("{} to {}", (*least).*member, (*most).*member);
 }
 
+/// In units of `mean_edge`, and in units of length.
+void add_lengths(Json& json, const std::string& name, const LengthStatistics& lengths, double mean_edge)
+{
+    json[name + "_mean"] = lengths.mean / mean_edge;
+    json[name + "_rms"] = lengths.rms / mean_edge;
+    json[name + "_max"] = lengths.max / mean_edge;
+    json[name + "_mean_absolute"] = lengths.mean;
+    json[name + "_rms_absolute"] = lengths.rms;
+    json[name + "_max_absolute"] = lengths.max;
+}
+
+Json step_json(const RankStepReport& step, double mean_edge)
+{
+    Json json{{"seconds", step.seconds}};
+    if (step.measures)
+        add_lengths(json, "moved", step.measures->displacement, mean_edge);
+    if (step.iterations)
+        json["iterations"] = *step.iterations;
+    if (step.residual)
+        json["residual"] = *step.residual;
+    if (step.estimated_v_max)
+        json["estimated_v_max"] = *step.estimated_v_max;
+    return json;
+}
+
+Json area_and_volume(const SurfaceLook& look)
+{
+    return {{"area", look.area}, {"volume", look.volume ? Json(*look.volume) : Json(nullptr)}};
+}
+
 }  // namespace
 
-void print_rank_steps(std::ostream& out, const DistributedRecord& record)
+void print_rank_step(std::ostream& out, const RankStepState& state, int steps, double mean_edge)
 {
-    int step = 0;
-    for (const RankStepReport& report : record.report.steps)
-        out << fmt::format("step {} of {}  {:.3f} s\n", ++step, record.report.steps.size(), report.seconds);
+    const RankStepReport& report = state.report;
+    const double edge = mean_edge > 0.0 ? mean_edge : 1.0;
+    out << fmt::format("step {} of {}  {:.3f} s", state.step, steps, report.seconds);
+    if (report.measures)
+        out << fmt::format("  moved {:.3g}", report.measures->displacement.mean / edge);
+    if (report.iterations)
+        out << fmt::format("  iterations {}, residual {:.2g}", *report.iterations, report.residual.value_or(0.0));
+    if (report.estimated_v_max)
+        out << fmt::format("  estimated distance to the undecomposed flow {:.2g} mean edge lengths",
+                           *report.estimated_v_max);
+    out << std::endl;
 }
 
 void print_distributed_result(std::ostream& out, const DistributedRecord& record)
@@ -64,14 +104,20 @@ void print_distributed_result(std::ostream& out, const DistributedRecord& record
     for (const std::string& remark : record.remarks)
         out << "remark     " << remark << '\n';
     const double edge = record.size.mean_edge > 0.0 ? record.size.mean_edge : 1.0;
-    out << fmt::format("result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most", record.run.output,
-                       record.moved.mean / edge, record.moved.max / edge)
-        << std::endl;
+    const auto& [before, after, moved] = record.run.surface;
+    out << fmt::format(
+        "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; area {:.6g} -> {:.6g}",
+        record.run.output, moved.mean / edge, moved.max / edge, before.area, after.area);
+    if (before.volume && after.volume)
+        out << fmt::format(", volume {:.6g} -> {:.6g}", *before.volume, *after.volume);
+    if (!report.steps.empty() && report.steps.back().estimated_v_max.value_or(0.0) > 0.0)
+        out << fmt::format("; by estimate {:.2g} mean edge lengths at most from the undecomposed flow",
+                           *report.steps.back().estimated_v_max);
+    out << std::endl;
 }
 
 std::string distributed_report_json(const DistributedRecord& record, const FlowOptions& options)
 {
-    using Json = nlohmann::ordered_json;
     const RunRecord& run = record.run;
     const RankReport& report = record.report;
     Json json;
@@ -85,15 +131,22 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
     json["subdomains"] = report.sub_meshes;
     json["colours"] = report.colours;
     json["interface_vertices"] = report.interface_vertices;
+    json["non_manifold_vertices"] = report.non_manifold_vertices;
     json["laplacian"] = run.laplacian;
     json["flow"] = option_name(run.flow);
     json["filter"] = option_name(run.filter);
-    if (options.motion.attachment > 0.0)
-        json["attachment"] = options.motion.attachment;
+    if (run.attachment)
+        json["attachment"] = *run.attachment;
+    json["attachment_weights"] = run.has_attachment_weights;
     json["time_step"] = record.time_step;
     json["time_step_edges"] = record.time_step / (record.size.mean_edge * record.size.mean_edge);
     json["radius"] = smoothed_radius(record.time_step, std::max(options.steps, 1));
     json["approach"] = option_name(options.accuracy.approach);
+    if (report.convergence.tolerance) {
+        json["tolerance"] = *report.convergence.tolerance;
+        json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;
+        json["steps_stagnated"] = report.convergence.steps_stagnated;
+    }
     json["seconds"] = {{"read", run.read_seconds},
                        {"setup", record.setup_seconds},
                        {"step", seconds_of_steps(report)},
@@ -101,7 +154,7 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
                        {"total", run.seconds}};
     json["steps"] = Json::array();
     for (const RankStepReport& step : report.steps)
-        json["steps"].push_back({{"seconds", step.seconds}});
+        json["steps"].push_back(step_json(step, record.size.mean_edge));
     json["ranks"] = Json::array();
     for (const RankRecord& rank : record.ranks)
         json["ranks"].push_back({{"vertices", rank.vertices},
@@ -110,9 +163,8 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
                                  {"bytes", rank.bytes},
                                  {"threads", rank.threads},
                                  {"peak_memory_bytes", rank.peak_memory_bytes}});
-    json["moved_mean_absolute"] = record.moved.mean;
-    json["moved_rms_absolute"] = record.moved.rms;
-    json["moved_max_absolute"] = record.moved.max;
+    json["surface"] = {{"before", area_and_volume(run.surface.before)}, {"after", area_and_volume(run.surface.after)}};
+    add_lengths(json["surface"], "moved", run.surface.moved, record.size.mean_edge);
     json["choices"] = record.choices;
     json["remarks"] = record.remarks;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

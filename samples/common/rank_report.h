@@ -29,8 +29,6 @@ struct DistributedRecord {
     RunRecord run;
     SharedMeshSize size;
     double time_step = 0.0;
-    /// How far vertices have moved, in units of length.
-    LengthStatistics moved;
     /// From reading to the first step, wall-clock time.
     double setup_seconds = 0.0;
     /// Of rank 0.
@@ -40,10 +38,11 @@ struct DistributedRecord {
     std::vector<std::string> remarks;
 };
 
-/// What each step took.
-void print_rank_steps(std::ostream& out, const DistributedRecord& record);
+/// One line for a step.
+/// @param steps of how many. @param mean_edge of the input.
+void print_rank_step(std::ostream& out, const RankStepState& state, int steps, double mean_edge);
 
-/// What was chosen, the cut, time and memory, remarks, and where the result is.
+/// What was chosen, the cut, time and memory, remarks, where the result is, and how it differs from the input.
 void print_distributed_result(std::ostream& out, const DistributedRecord& record);
 
 /// REPORT.json, with the names and units of that of `smooth`.

@@ -357,11 +357,11 @@ SmoothCommand parse_flow_options(const std::vector<std::string>& words)
     return command;
 }
 
-int steps_failed(const SmoothCommand& command, const FlowReport& report)
+int steps_failed(const SmoothCommand& command, const ConvergenceReport& report)
 {
     if (!command.options.accuracy.tolerance)
         return 0;
-    return command.limits_iterations ? report.convergence.steps_stagnated : report.convergence.steps_short_of_tolerance;
+    return command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
 }
 
 }  // namespace seamflow

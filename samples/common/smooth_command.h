@@ -107,6 +107,6 @@ SmoothCommand parse_flow_options(const std::vector<std::string>& words);
 
 /// How many steps have failed because they missed the tolerance: all that missed it, or, where the user has limited the
 /// iterations, those that stagnated. 0 where the user has asked for no tolerance.
-int steps_failed(const SmoothCommand& command, const FlowReport& report);
+int steps_failed(const SmoothCommand& command, const ConvergenceReport& report);
 
 }  // namespace seamflow

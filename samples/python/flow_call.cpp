@@ -40,7 +40,7 @@ FlowResult call_flow(SmoothCommand command, PolygonMesh mesh, const FlowControl&
         return {.positions = std::move(mesh.vertices),
                 .labels = std::move(report.cut.labels),
                 .report = smooth_report_json(record, report),
-                .missed = missed_tolerance(command, report)};
+                .missed = missed_tolerance(command, report.convergence)};
     } catch (const InputError& error) {
         throw InputError(std::string("mesh: ").append(error.what()));
     }

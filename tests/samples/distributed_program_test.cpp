@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,28 @@ void write_labels_of(const fs::path& parts, const fs::path& labels)
         offset += 1 + 4 * std::size_t{number_at<std::uint8_t>(content, offset)} + 3;
         file << number_at<std::int32_t>(content, offset) << '\n';
         offset += 4;
+    }
+}
+
+/// Writes an OBJ file in which every face has vertices of its own.
+void write_soup(const fs::path& from, const fs::path& to)
+{
+    std::ifstream file(from);
+    std::ofstream soup(to);
+    std::vector<std::string> vertices;
+    std::size_t n = 0;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("v "))
+            vertices.push_back(line);
+        if (!line.starts_with("f "))
+            continue;
+        std::istringstream corners(line.substr(2));
+        std::string face = "f";
+        for (std::size_t v = 0; corners >> v;) {
+            soup << vertices.at(v - 1) << '\n';
+            face.append(" ").append(std::to_string(++n));
+        }
+        soup << face << '\n';
     }
 }
 
@@ -124,6 +147,93 @@ TEST_CASE("the report tells of every rank, and rank 0 alone prints")
         CHECK(report[name] == w.json("s.json")[name]);
 }
 
+TEST_CASE("what ranks measure is what smooth measures, and remarks come once")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.off --vertices 3000") == 0);
+    const std::string options = " --radius 12% --steps 3 --converge 1e-6 --threads 1 --verbose";
+    REQUIRE(on_ranks(w, 1, "ball.off 1.off --subdomains 7 --parts cut.ply" + options) == 0);
+    write_labels_of(w.directory / "cut.ply", w.directory / "labels");
+    REQUIRE(w.smooth("ball.off s.off --labels labels --report s.json" + options) == 0);
+    const test::Json expected = w.json("s.json");
+    for (const int n : {1, 2, 3}) {
+        CAPTURE(n);
+        REQUIRE(on_ranks(w, n, "ball.off n.off --labels labels --report n.json" + options) == 0);
+        CHECK((test::content_of(w.directory / "n.off") == test::content_of(w.directory / "s.off")));
+        CHECK(w.count_lines("said", "step ") == 3);
+        CHECK(w.count_lines("said", "remark     The surface has lost ") == 1);
+        CHECK(w.said().find(", volume ") != std::string::npos);
+        CHECK(w.said().find("; by estimate ") != std::string::npos);
+        const test::Json report = w.json("n.json");
+        for (const std::string name : {"tolerance", "steps_short_of_tolerance", "steps_stagnated",
+                                       "non_manifold_vertices", "attachment_weights"})
+            CHECK(report[name] == expected[name]);
+        for (const std::string when : {"before", "after"})
+            for (const std::string name : {"area", "volume"})
+                CHECK(report["surface"][when][name].get<double>() ==
+                      doctest::Approx(expected["surface"][when][name].get<double>()).epsilon(1e-12));
+        for (const std::string name : {"moved_mean", "moved_rms", "moved_max", "moved_max_absolute"})
+            CHECK(report["surface"][name].get<double>() ==
+                  doctest::Approx(expected["surface"][name].get<double>()).epsilon(1e-12));
+        REQUIRE(report["steps"].size() == 3);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const test::Json& step = report["steps"][i];
+            CHECK(step["iterations"] == expected["steps"][i]["iterations"]);
+            CHECK(step["residual"] == expected["steps"][i]["residual"]);
+            CHECK(step["moved_mean"].get<double>() > 0.0);
+            CHECK(step["estimated_v_max"].get<double>() ==
+                  doctest::Approx(expected["steps"][i]["estimated_v_max"].get<double>()).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("rims move freely, vertices are attached by weights, and every step is written, as with smooth")
+{
+    const Workshop w;
+    write_soup(w.directory / "mesh.obj", w.directory / "soup.obj");
+    for (const std::string mesh : {"mesh.obj", "soup.obj"}) {
+        CAPTURE(mesh);
+        const std::ptrdiff_t n_faces = w.count_lines(mesh, "f ");
+        std::ofstream labels(w.directory / "labels");
+        for (std::ptrdiff_t f = 0; f < n_faces; ++f)
+            labels << 8 * f / n_faces << '\n';
+        labels.close();
+        std::ofstream weights(w.directory / "weights");
+        for (std::ptrdiff_t v = w.count_lines(mesh, "v "); v > 0; --v)
+            weights << v * 37 % 101 << '\n';
+        weights.close();
+        for (const std::string options : {" --boundary free --converge 1e-6", " --converge never"}) {
+            CAPTURE(options);
+            const std::string all =
+                options + " --labels labels --radius 2% --steps 3 --attach-weights weights --threads 1 --every-step ";
+            REQUIRE(w.smooth(mesh + " s.obj" + all + "s%d.obj") == 0);
+            for (const int n : {1, 2, 3}) {
+                CAPTURE(n);
+                REQUIRE(on_ranks(w, n, mesh + " n.obj" + all + "n%d.obj") == 0);
+                for (const std::string step : {"", "1", "2", "3"})
+                    CHECK((test::content_of(w.directory / ("n" + step + ".obj")) ==
+                           test::content_of(w.directory / ("s" + step + ".obj"))));
+            }
+        }
+    }
+    CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 2% --boundary free") == 2);
+    REQUIRE(messages(w, "smooth-distributed").size() == 1);
+    CHECK(messages(w, "smooth-distributed").front().find("add --approach converged") != std::string::npos);
+}
+
+TEST_CASE("a tolerance that steps miss is told of as by smooth")
+{
+    const Workshop w;
+    const std::string options = " --radius 2% --steps 2 --subdomains 5 --converge 1e-100 --threads 1";
+    REQUIRE(w.smooth("mesh.obj s.obj" + options) == 4);
+    const auto expected = messages(w, "smooth");
+    REQUIRE(expected.size() == 1);
+    CHECK(w.count_lines("said", "remark     The tolerance was not reached in 2 steps") == 1);
+    REQUIRE(on_ranks(w, 3, "mesh.obj s.obj" + options) == 4);
+    CHECK(messages(w, "smooth-distributed") == expected);
+    CHECK(w.count_lines("said", "remark     The tolerance was not reached in 2 steps") == 1);
+}
+
 TEST_CASE("what cannot be done is said once, with the exit status of smooth, and nothing is written")
 {
     const Workshop w;
@@ -165,9 +275,8 @@ TEST_CASE("files that no rank reads as a whole are refused with what to do, befo
 TEST_CASE("options of smooth that ranks do not know are refused by name")
 {
     const Workshop w;
-    for (const std::string option :
-         {"--html p.html", "--boundary free", "--keep-edges 30", "--reference", "--rescale area", "--strict",
-          "--scheme explicit", "--checkpoint c", "--trace t.json", "--preset fair"}) {
+    for (const std::string option : {"--html p.html", "--keep-edges 30", "--reference", "--rescale area", "--strict",
+                                     "--scheme explicit", "--checkpoint c", "--trace t.json", "--preset fair"}) {
         CAPTURE(option);
         // MPI takes a program that is started alone as one rank.
         CHECK(w.run(SMOOTH_DISTRIBUTED " mesh.obj n.obj --radius 1% " + option) == 2);

@@ -45,14 +45,14 @@ TEST_CASE(
     report.convergence.steps_short_of_tolerance = 3;
     report.convergence.steps_stagnated = 1;
     SmoothCommand command;
-    CHECK(steps_failed(command, report) == 0);
+    CHECK(steps_failed(command, report.convergence) == 0);
     command.options.accuracy.tolerance = 1e-8;
-    CHECK(steps_failed(command, report) == 3);
+    CHECK(steps_failed(command, report.convergence) == 3);
     command.limits_iterations = true;
-    CHECK(steps_failed(command, report) == 1);
+    CHECK(steps_failed(command, report.convergence) == 1);
     report.convergence.steps_stagnated = 0;
-    CHECK(steps_failed(command, report) == 0);
+    CHECK(steps_failed(command, report.convergence) == 0);
     command.limits_iterations = false;
-    CHECK(steps_failed(command, report) == 3);
-    CHECK(steps_failed(command, FlowReport{}) == 0);
+    CHECK(steps_failed(command, report.convergence) == 3);
+    CHECK(steps_failed(command, ConvergenceReport{}) == 0);
 }
