@@ -214,7 +214,7 @@ TEST_CASE("faces that repeat others are left out of the cut, and have the labels
     std::vector<Index> repeats;
     for (Index f = 0; f < single.n_faces(); f += 3) {
         std::vector<Index> corners(single.face(f).rbegin(), single.face(f).rend());
-        std::ranges::rotate(corners, corners.begin() + 1);
+        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
         mesh.add_face(corners);
         repeats.push_back(f);
     }
