@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "engine/distributed/number_set.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
@@ -81,26 +83,32 @@ class Owners {
 std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std::int64_t first_face, int n_ranks)
 {
     std::vector<std::vector<Index>> faces(n_ranks);
-    for (Index f = 0; f < slice.n_faces(); ++f)
-        faces[owners[slice.labels[f]]].push_back(f);
+    for (Index f = 0, owner = 0; f < slice.n_faces(); ++f) {
+        if (f == 0 || slice.labels[f] != slice.labels[f - 1])
+            owner = owners[slice.labels[f]];
+        faces[owner].push_back(f);
+    }
     std::vector<Bytes> packed_faces;
     for (const auto& of_rank : faces) {
         std::vector<std::int64_t> numbers;
         std::vector<Index> labels;
         std::vector<Index> sizes;
-        std::vector<std::int64_t> corners;
         for (const Index f : of_rank) {
             numbers.push_back(first_face + f);
             labels.push_back(slice.labels[f]);
             sizes.push_back(slice.face_offsets[f + 1] - slice.face_offsets[f]);
-            corners.insert(corners.end(), slice.corners.begin() + slice.face_offsets[f],
-                           slice.corners.begin() + slice.face_offsets[f + 1]);
         }
+        const Index n_corners = std::reduce(sizes.begin(), sizes.end());
         Packer packer;
+        packer.reserve(4 * sizeof(std::size_t) + of_rank.size() * (sizeof(std::int64_t) + 2 * sizeof(Index)) +
+                       at(n_corners) * sizeof(std::int64_t));
         packer.put_all(std::span<const std::int64_t>(numbers));
         packer.put_all(std::span<const Index>(labels));
         packer.put_all(std::span<const Index>(sizes));
-        packer.put_all(std::span<const std::int64_t>(corners));
+        packer.put(at(n_corners));
+        for (const Index f : of_rank)
+            for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
+                packer.put(slice.corners[c]);
         packed_faces.push_back(packer.take());
     }
     return packed_faces;
@@ -108,50 +116,19 @@ std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std:
 
 /// Faces come from the ranks in ascending order of their numbers.
 /// @returns their corners, numbered in the whole mesh.
-std::vector<std::int64_t> unpack_faces(const std::vector<Bytes>& packed_faces, MeshPart& part)
+std::vector<std::int64_t> unpack_faces(std::vector<Bytes> packed_faces, MeshPart& part)
 {
     std::vector<std::int64_t> corners;
-    for (const Bytes& bytes : packed_faces) {
+    for (Bytes& bytes : packed_faces) {
         Unpacker unpacker(bytes);
-        const auto numbers = unpacker.get_all<std::int64_t>();
-        part.face_numbers.insert(part.face_numbers.end(), numbers.begin(), numbers.end());
-        const auto labels = unpacker.get_all<Index>();
-        part.labels.insert(part.labels.end(), labels.begin(), labels.end());
+        unpacker.append_all(part.face_numbers);
+        unpacker.append_all(part.labels);
         for (const Index size : unpacker.get_all<Index>())
             part.mesh.face_offsets.push_back(part.mesh.face_offsets.back() + size);
-        const auto more = unpacker.get_all<std::int64_t>();
-        corners.insert(corners.end(), more.begin(), more.end());
+        unpacker.append_all(corners);
+        bytes = {};
     }
     return corners;
-}
-
-/// Ascending, each once.
-std::vector<std::int64_t> distinct(const std::vector<std::int64_t>& numbers)
-{
-    // Most that are the same stand near each other.
-    std::vector<std::vector<std::int64_t>> of_block(numbers.size() / block_size + 1);
-    for_each_block(run_in_parallel, static_cast<Index>(numbers.size()), [&](Index block, Index begin, Index end) {
-        of_block[block].assign(numbers.begin() + begin, numbers.begin() + end);
-        sort_unique(of_block[block]);
-    });
-    std::vector<std::int64_t> all;
-    for (std::vector<std::int64_t>& some : of_block) {
-        all.insert(all.end(), some.begin(), some.end());
-        some = {};
-    }
-    sort_unique(all);
-    return all;
-}
-
-/// Sorted by the stretches to which they belong.
-/// @param numbers ascending.
-std::vector<std::vector<std::int64_t>> by_stretch(std::span<const std::int64_t> numbers,
-                                                  std::span<const std::int64_t> bounds)
-{
-    std::vector<std::vector<std::int64_t>> of_stretch(bounds.size() - 1);
-    for (const std::int64_t number : numbers)
-        of_stretch[stretch_of(bounds, number)].push_back(number);
-    return of_stretch;
 }
 
 }  // namespace
@@ -174,12 +151,17 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
                        std::span<const std::int64_t> bounds)
 {
     std::vector<Bytes> questions;
-    for (const auto& of_stretch : by_stretch(numbers, bounds))
-        questions.push_back(packed(of_stretch));
+    for (auto begin = numbers.begin(); const std::int64_t bound : bounds.subspan(1)) {
+        const auto end = std::lower_bound(begin, numbers.end(), bound);
+        questions.push_back(packed(std::span(begin, end)));
+        begin = end;
+    }
     std::vector<Bytes> answers;
     for (const Bytes& question : talk.exchange(std::move(questions))) {
         Packer packer;
-        for (const std::int64_t number : unpacked<std::int64_t>(question))
+        const auto asked = unpacked<std::int64_t>(question);
+        packer.reserve(asked.size() * 3 * sizeof(double));
+        for (const std::int64_t number : asked)
             packer.put_row(slice.vertices.row(number - bounds[talk.rank()]).data());
         answers.push_back(packer.take());
     }
@@ -213,12 +195,11 @@ MeshPart deal(Conversation& talk, const RankSlice& slice)
     MeshPart part;
     const std::vector<std::int64_t> corners =
         unpack_faces(talk.exchange(pack_faces(slice, owners, bounds.faces[talk.rank()], talk.size())), part);
-    part.vertex_numbers = distinct(corners);
+    const NumberSet vertices(corners);
+    part.vertex_numbers = vertices.numbers();
     part.mesh.face_vertices.resize(corners.size());
-    for_each(run_in_parallel, part.mesh.n_corners(), [&](Index c) {
-        part.mesh.face_vertices[c] =
-            static_cast<Index>(std::ranges::lower_bound(part.vertex_numbers, corners[c]) - part.vertex_numbers.begin());
-    });
+    for_each(run_in_parallel, part.mesh.n_corners(),
+             [&](Index c) { part.mesh.face_vertices[c] = vertices.place_of(corners[c]); });
     part.mesh.vertices = fetch_positions(talk, slice, part.vertex_numbers, bounds.vertices);
     return part;
 }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/distributed/number_set.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 
@@ -42,54 +43,92 @@ std::vector<std::vector<Value>> exchange_lists(Conversation& talk, const std::ve
     return from_each;
 }
 
+/// A vertex that a rank has met, but not all faces around it.
+struct MetVertex {
+    Number vertex;
+    /// One that has it.
+    std::int32_t rank;
+};
+
 /// Who has which vertex; each rank is the home of some of them.
 class VertexDirectory {
   public:
+    /// @param own ascending.
     VertexDirectory(Conversation& talk, std::span<const Number> own)
         : talk_(&talk)
     {
-        for (const auto& [vertex, rank] : sent_home(own))
-            owners_.push_back({vertex, rank});
+        std::vector<std::vector<Number>> to_homes(talk.size());
+        for (const Number vertex : own)
+            to_homes[home_of(vertex, talk.size())].push_back(vertex);
+        const auto from_each = exchange_lists(talk, to_homes);
+        // The vertices that are at home here are numbered as multiples of the number of ranks are.
+        std::vector<std::uint8_t> n_owners;
+        for (const std::vector<Number>& vertices : from_each)
+            for (const Number vertex : vertices) {
+                const auto place = static_cast<std::size_t>(vertex / talk.size());
+                n_owners.resize(std::max(n_owners.size(), place + 1), 0);
+                n_owners[place] = n_owners[place] > 0 ? 2 : 1;
+            }
+        for (int rank = 0; rank < talk.size(); ++rank)
+            for (const Number vertex : from_each[rank])
+                if (n_owners[static_cast<std::size_t>(vertex / talk.size())] > 1)
+                    owners_.push_back({vertex, rank});
         std::ranges::sort(owners_);
     }
 
-    /// For each rank, those of this rank's vertices that it wants to know of, ascending.
-    /// @param wanted what this rank wants to know of.
-    std::vector<std::vector<Number>> asked_of_this_rank(std::span<const Number> wanted)
+    /// For each rank, the vertices that it has in common with this one, ascending.
+    std::vector<std::vector<Number>> shared_with_each()
     {
         std::vector<std::vector<VertexAtRank>> to_owners(talk_->size());
-        for (const VertexAtRank& question : sent_home(wanted)) {
-            auto owner = std::ranges::lower_bound(owners_, question.vertex, {}, &VertexAtRank::vertex);
-            for (; owner != owners_.end() && owner->vertex == question.vertex; ++owner)
-                if (owner->rank != question.rank)
-                    to_owners[owner->rank].push_back(question);
-        }
+        for (const auto& [vertex, rank] : owners_)
+            for (const VertexAtRank& other : owners_of(vertex))
+                if (other.rank != rank)
+                    to_owners[rank].push_back(other);
+        return by_rank(to_owners);
+    }
+
+    /// For each rank, those of this rank's vertices that it has met, ascending.
+    /// @param met what this rank has met: none of its own.
+    std::vector<std::vector<Number>> met_by_each(std::span<const MetVertex> met)
+    {
+        std::vector<std::vector<MetVertex>> to_homes(talk_->size());
+        for (const MetVertex& one : met)
+            to_homes[home_of(one.vertex, talk_->size())].push_back(one);
+        std::vector<std::vector<VertexAtRank>> to_owners(talk_->size());
+        const auto from_each = exchange_lists(*talk_, to_homes);
+        for (int asking = 0; asking < talk_->size(); ++asking)
+            for (const auto& [vertex, rank] : from_each[asking]) {
+                const auto owners = owners_of(vertex);
+                for (const VertexAtRank& owner : owners)
+                    to_owners[owner.rank].push_back({vertex, asking});
+                if (owners.empty())
+                    to_owners[rank].push_back({vertex, asking});
+            }
+        return by_rank(to_owners);
+    }
+
+  private:
+    /// All ranks that have a vertex at home here; nothing if it is only one.
+    [[nodiscard]] std::span<const VertexAtRank> owners_of(Number vertex) const
+    {
+        return {std::ranges::lower_bound(owners_, vertex, {}, &VertexAtRank::vertex),
+                std::ranges::upper_bound(owners_, vertex, {}, &VertexAtRank::vertex)};
+    }
+
+    /// Sends vertices to ranks that have them. @returns those of this rank, sorted by the ranks that they came with.
+    std::vector<std::vector<Number>> by_rank(const std::vector<std::vector<VertexAtRank>>& to_owners)
+    {
         std::vector<std::vector<Number>> of_ranks(talk_->size());
-        for (const auto& questions : exchange_lists(*talk_, to_owners))
-            for (const auto& [vertex, rank] : questions)
+        for (const auto& vertices : exchange_lists(*talk_, to_owners))
+            for (const auto& [vertex, rank] : vertices)
                 of_ranks[rank].push_back(vertex);
         for (auto& vertices : of_ranks)
             sort_unique(vertices);
         return of_ranks;
     }
 
-  private:
-    /// What all ranks send to this one as the home of their vertices.
-    std::vector<VertexAtRank> sent_home(std::span<const Number> vertices)
-    {
-        std::vector<std::vector<Number>> to_homes(talk_->size());
-        for (const Number vertex : vertices)
-            to_homes[home_of(vertex, talk_->size())].push_back(vertex);
-        std::vector<VertexAtRank> arrived;
-        const auto from_each = exchange_lists(*talk_, to_homes);
-        for (int rank = 0; rank < talk_->size(); ++rank)
-            for (const Number vertex : from_each[rank])
-                arrived.push_back({vertex, rank});
-        return arrived;
-    }
-
     Conversation* talk_;
-    /// Of the vertices at home here, ascending.
+    /// Of those vertices at home here that several ranks have, ascending.
     std::vector<VertexAtRank> owners_;
 };
 
@@ -136,47 +175,82 @@ struct Place {
     Index index;
 };
 
-/// The places of what has a number in some parts, ascending, each number once.
-std::vector<Place> merged(std::span<const MeshPart> parts, std::vector<Number> MeshPart::*numbers)
+/// What has a number in some parts, but not in the own one: ascending, each number once.
+std::vector<Place> places_of_new(std::span<const Number> own, std::span<const MeshPart> parts,
+                                 std::vector<Number> MeshPart::*numbers)
 {
     std::vector<Place> places;
-    std::size_t n_of_first = 0;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (std::size_t p = 0; p < parts.size(); ++p)
         for (std::size_t i = 0; i < (parts[p].*numbers).size(); ++i)
-            places.push_back({(parts[p].*numbers)[i], p, static_cast<Index>(i)});
-        n_of_first = p == 0 ? places.size() : n_of_first;
-    }
-    // The first has most, in order.
-    const auto others = places.begin() + static_cast<std::ptrdiff_t>(n_of_first);
-    std::ranges::stable_sort(others, places.end(), {}, &Place::number);
-    std::ranges::inplace_merge(places, others, {}, &Place::number);
+            if (const Number number = (parts[p].*numbers)[i]; !std::ranges::binary_search(own, number))
+                places.push_back({number, p, static_cast<Index>(i)});
+    std::ranges::stable_sort(places, {}, &Place::number);
     const auto are_same = [](const Place& one, const Place& other) { return one.number == other.number; };
     places.erase(std::unique(places.begin(), places.end(), are_same), places.end());
     return places;
 }
 
-/// All faces and vertices of several parts, each once.
-MeshPart joined(std::span<const MeshPart> parts)
+/// Goes through what is own and what is new in ascending order of the numbers.
+template <class TakeOwn, class TakeNew>
+void merge(std::span<const Number> own, std::span<const Place> places, TakeOwn&& take_own, TakeNew&& take_new)
+{
+    auto next = places.begin();
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        for (; next != places.end() && next->number < own[i]; ++next)
+            take_new(*next);
+        take_own(static_cast<Index>(i));
+    }
+    for (; next != places.end(); ++next)
+        take_new(*next);
+}
+
+/// All faces and vertices of the own part and of others, each once.
+MeshPart joined(const MeshPart& own, std::span<const MeshPart> parts)
 {
     MeshPart all;
-    const std::vector<Place> vertices = merged(parts, &MeshPart::vertex_numbers);
-    all.mesh.vertices.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-    for (const auto& [number, p, v] : vertices) {
-        all.mesh.vertices.row(static_cast<Eigen::Index>(all.vertex_numbers.size())) = parts[p].mesh.vertices.row(v);
-        all.vertex_numbers.push_back(number);
-        all.fixed.push_back(parts[p].fixed.empty() ? 0 : parts[p].fixed[v]);
-        if (!parts[p].attachment_weights.empty())
-            all.attachment_weights.push_back(parts[p].attachment_weights[v]);
-    }
-    std::vector<Index> corners;
-    for (const auto& [number, p, f] : merged(parts, &MeshPart::face_numbers)) {
-        corners.clear();
-        for (const Index v : parts[p].mesh.face(f))
-            corners.push_back(local_number(all.vertex_numbers, parts[p].vertex_numbers[v]));
-        all.mesh.add_face(corners);
-        all.face_numbers.push_back(number);
-        all.labels.push_back(parts[p].labels[f]);
-    }
+    const std::vector<Place> vertices = places_of_new(own.vertex_numbers, parts, &MeshPart::vertex_numbers);
+    const std::vector<Place> faces = places_of_new(own.face_numbers, parts, &MeshPart::face_numbers);
+    const std::size_t n_vertices = own.vertex_numbers.size() + vertices.size();
+    const std::size_t n_faces = own.face_numbers.size() + faces.size();
+    all.mesh.vertices.resize(static_cast<Eigen::Index>(n_vertices), 3);
+    all.vertex_numbers.reserve(n_vertices);
+    all.fixed.reserve(n_vertices);
+    all.mesh.face_offsets.reserve(n_faces + 1);
+    all.mesh.face_vertices.reserve(own.mesh.face_vertices.size());
+    all.face_numbers.reserve(n_faces);
+    all.labels.reserve(n_faces);
+
+    const auto add_vertex = [&](const MeshPart& part, Index v) {
+        all.mesh.vertices.row(static_cast<Eigen::Index>(all.vertex_numbers.size())) = part.mesh.vertices.row(v);
+        all.vertex_numbers.push_back(part.vertex_numbers[v]);
+        all.fixed.push_back(part.fixed.empty() ? 0 : part.fixed[v]);
+        if (!part.attachment_weights.empty())
+            all.attachment_weights.push_back(part.attachment_weights[v]);
+    };
+    std::vector<Index> place_of_own;
+    place_of_own.reserve(own.vertex_numbers.size());
+    merge(
+        own.vertex_numbers, vertices,
+        [&](Index v) {
+            place_of_own.push_back(static_cast<Index>(all.vertex_numbers.size()));
+            add_vertex(own, v);
+        },
+        [&](const Place& place) { add_vertex(parts[place.part], place.index); });
+
+    const auto add_face = [&](const MeshPart& part, Index f, auto&& place_of) {
+        for (const Index v : part.mesh.face(f))
+            all.mesh.face_vertices.push_back(place_of(v));
+        all.mesh.face_offsets.push_back(all.mesh.n_corners());
+        all.face_numbers.push_back(part.face_numbers[f]);
+        all.labels.push_back(part.labels[f]);
+    };
+    merge(
+        own.face_numbers, faces, [&](Index f) { add_face(own, f, [&](Index v) { return place_of_own[v]; }); },
+        [&](const Place& place) {
+            const MeshPart& part = parts[place.part];
+            add_face(part, place.index,
+                     [&](Index v) { return local_number(all.vertex_numbers, part.vertex_numbers[v]); });
+        });
     return all;
 }
 
@@ -235,10 +309,11 @@ void require_valid(const MeshPart& part)
 MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
 {
     MeshPart some;
-    std::vector<Index> vertices;
     for (const Index f : faces)
-        vertices.insert(vertices.end(), part.mesh.face(f).begin(), part.mesh.face(f).end());
-    sort_unique(vertices);
+        some.mesh.face_vertices.insert(some.mesh.face_vertices.end(), part.mesh.face(f).begin(),
+                                       part.mesh.face(f).end());
+    const NumberSet places(some.mesh.face_vertices);
+    const std::vector<Index> vertices = places.numbers();
     some.mesh.vertices = part.mesh.vertices(vertices, Eigen::all);
     for (const Index v : vertices) {
         some.vertex_numbers.push_back(part.vertex_numbers[v]);
@@ -246,12 +321,10 @@ MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
         if (!part.attachment_weights.empty())
             some.attachment_weights.push_back(part.attachment_weights[v]);
     }
-    std::vector<Index> corners;
+    for (Index& v : some.mesh.face_vertices)
+        v = places.place_of(v);
     for (const Index f : faces) {
-        corners.clear();
-        for (const Index v : part.mesh.face(f))
-            corners.push_back(static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin()));
-        some.mesh.add_face(corners);
+        some.mesh.face_offsets.push_back(some.mesh.face_offsets.back() + static_cast<Index>(part.mesh.face(f).size()));
         some.face_numbers.push_back(part.face_numbers[f]);
         some.labels.push_back(part.labels[f]);
     }
@@ -271,25 +344,29 @@ MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers)
                 add(v, f);
     });
     VertexDirectory directory(talk, own.vertex_numbers);
-    std::vector<MeshPart> parts{own};
-    std::vector<Number> wanted = own.vertex_numbers;
-    std::vector<Number> known = own.vertex_numbers;
-    for (int layer = 0; layer < layers; ++layer) {
+    std::vector<MeshPart> parts;
+    std::vector<Number> known;
+    std::vector<std::vector<Number>> asked = directory.shared_with_each();
+    for (int layer = 1;; ++layer) {
         std::vector<Bytes> answers;
-        for (const auto& vertices : directory.asked_of_this_rank(wanted))
+        for (const auto& vertices : asked)
             answers.push_back(packed_part(some_faces(own, faces_around(own, faces_at, vertices))));
-        std::vector<Number> met;
-        for (const Bytes& answer : talk.exchange(std::move(answers))) {
-            const MeshPart& part = parts.emplace_back(unpacked_part(answer));
-            met.insert(met.end(), part.vertex_numbers.begin(), part.vertex_numbers.end());
+        std::vector<MetVertex> met;
+        const std::vector<Bytes> of_ranks = talk.exchange(std::move(answers));
+        for (int rank = 0; rank < talk.size(); ++rank) {
+            const MeshPart& part = parts.emplace_back(unpacked_part(of_ranks[rank]));
+            for (const Number vertex : part.vertex_numbers)
+                if (!std::ranges::binary_search(own.vertex_numbers, vertex) &&
+                    !std::ranges::binary_search(known, vertex))
+                    met.push_back({vertex, rank});
         }
-        sort_unique(met);
-        wanted.clear();
-        std::ranges::set_difference(met, known, std::back_inserter(wanted));
-        known.insert(known.end(), wanted.begin(), wanted.end());
-        std::ranges::sort(known);
+        if (layer == layers)
+            return joined(own, parts);
+        for (const MetVertex& one : met)
+            known.push_back(one.vertex);
+        sort_unique(known);
+        asked = directory.met_by_each(met);
     }
-    return joined(parts);
 }
 
 }  // namespace seamflow

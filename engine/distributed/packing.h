@@ -66,12 +66,19 @@ class Unpacker {
     template <class Value>
     [[nodiscard]] std::vector<Value> get_all()
     {
+        std::vector<Value> values;
+        append_all(values);
+        return values;
+    }
+
+    template <class Value>
+    void append_all(std::vector<Value>& values)
+    {
         const auto n = get<std::size_t>();
         if (n > left_.size() / sizeof(Value))
             throw std::logic_error("a message is shorter than it says");
-        std::vector<Value> values(n);
-        get_bytes(values.data(), n * sizeof(Value));
-        return values;
+        values.resize(values.size() + n);
+        get_bytes(values.data() + (values.size() - n), n * sizeof(Value));
     }
 
     [[nodiscard]] bool is_at_end() const { return left_.empty(); }
@@ -91,11 +98,18 @@ class Unpacker {
 
 /// Bytes of one list of values.
 template <class Value>
-Bytes packed(const std::vector<Value>& values)
+Bytes packed(std::span<const Value> values)
 {
     Packer packer;
-    packer.put_all(std::span<const Value>(values));
+    packer.reserve(sizeof(std::size_t) + values.size_bytes());
+    packer.put_all(values);
     return packer.take();
+}
+
+template <class Value>
+Bytes packed(const std::vector<Value>& values)
+{
+    return packed(std::span<const Value>(values));
 }
 
 /// The list of values that packed() has made bytes of.
