@@ -211,7 +211,36 @@ std::vector<Bytes> Conversation::exchange_with(std::span<const int> others, std:
 
 std::vector<Bytes> Conversation::gather_to_all(Bytes own)
 {
-    return exchange(std::vector<Bytes>(size(), std::move(own)));
+    // Every rank passes on what it knows: of itself and of the ranks before it, in each round of twice as many.
+    std::vector<Bytes> known{std::move(own)};
+    const auto after = [&](int n) { return (rank() + n) % size(); };
+    for (int n = 1; n < size(); n *= 2) {
+        const int n_passed = std::min(n, size() - n);
+        Packer packer;
+        for (int i = 0; i < n_passed; ++i)
+            packer.put_all(std::span<const std::byte>(known[i]));
+        send(after(n), CollectiveTag, packer.take());
+        const Bytes received = next_collective(after(size() - n));
+        Unpacker unpacker(received);
+        for (int i = 0; i < n_passed; ++i)
+            known.push_back(unpacker.get_all<std::byte>());
+    }
+    std::vector<Bytes> of_ranks(size());
+    for (int i = 0; i < size(); ++i)
+        of_ranks[after(size() - i)] = std::move(known[i]);
+    return of_ranks;
+}
+
+std::vector<Bytes> Conversation::bytes_at_first(Bytes own)
+{
+    if (rank() != 0) {
+        send(0, CollectiveTag, std::move(own));
+        return {};
+    }
+    std::vector<Bytes> of_ranks{std::move(own)};
+    for (int r = 1; r < size(); ++r)
+        of_ranks.push_back(next_collective(r));
+    return of_ranks;
 }
 
 /// If any rank has failed, all throw what the lowest of them has said.

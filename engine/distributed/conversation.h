@@ -80,10 +80,8 @@ class Conversation {
     std::vector<Value> gather_all(const std::vector<Value>& own)
     {
         std::vector<Value> all;
-        for (const Bytes& bytes : gather_to_all(packed(own))) {
-            const auto values = unpacked<Value>(bytes);
-            all.insert(all.end(), values.begin(), values.end());
-        }
+        for (const Bytes& bytes : gather_to_all(packed(own)))
+            Unpacker(bytes).append_all(all);
         return all;
     }
 
@@ -91,15 +89,9 @@ class Conversation {
     template <class Value>
     std::vector<Value> gather_at_first(const std::vector<Value>& own)
     {
-        std::vector<Bytes> to_each(static_cast<std::size_t>(size()));
-        to_each.front() = packed(own);
         std::vector<Value> all;
-        for (const Bytes& bytes : exchange(std::move(to_each))) {
-            if (bytes.empty())
-                continue;
-            const auto values = unpacked<Value>(bytes);
-            all.insert(all.end(), values.begin(), values.end());
-        }
+        for (const Bytes& bytes : bytes_at_first(packed(own)))
+            Unpacker(bytes).append_all(all);
         return all;
     }
 
@@ -148,6 +140,8 @@ class Conversation {
     void agree_on(const WorkOutcome& own);
     void send(int to, int tag, Bytes bytes);
     Bytes next_collective(int from);
+    /// What every rank gives, in the order of ranks, at rank 0; nothing at the others.
+    std::vector<Bytes> bytes_at_first(Bytes own);
 
     Communicator* communicator_;
     /// Per rank, what has arrived for collective functions, in order.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <latch>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -86,10 +87,12 @@ TEST_CASE("what one rank throws all throw, by its type")
 
 TEST_CASE("of several ranks that fail the lowest is heard")
 {
-    const auto thrown = thrown_by_ranks(4, [](Conversation& talk) {
-        wait_in_vain(talk);
-        if (talk.rank() >= 2)
+    std::latch both_are_here(2);
+    const auto thrown = thrown_by_ranks(4, [&](Conversation& talk) {
+        if (talk.rank() >= 2) {
+            both_are_here.arrive_and_wait();
             throw InputError("from " + std::to_string(talk.rank()));
+        }
         wait_in_vain(talk);
     });
     CHECK(all_are(thrown, "input: rank 2 on this process: from 2"));
