@@ -10,6 +10,7 @@
 
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/index_lists.h"
+#include "partition/vector_area.h"
 
 namespace seamflow {
 

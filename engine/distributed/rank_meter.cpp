@@ -18,7 +18,8 @@ namespace seamflow {
 namespace {
 
 /// What is added up.
-enum Sum : std::uint8_t { Area, Cones, EdgeLength, Edges, Vertices, Distance, SquaredDistance, n_sums };
+enum Sum : std::uint8_t { Area, Cones, EdgeLength, Edges, Vertices, Distance, SquaredDistance };
+constexpr std::size_t n_sums = SquaredDistance + 1;
 using Sums = std::array<double, n_sums>;
 
 void add_face(std::span<const Index> corners, const Points& positions, Sums& sums)

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/distributed/sliced_obj_file.h"
 #include "engine/distributed/sliced_ply_file.h"
+#include "engine/distributed/sliced_stl_file.h"
 #include "engine/distributed/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/io/gzip.h"
@@ -97,15 +99,18 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
     size = talk.gather_all(std::vector<std::uint64_t>{size}).front();
     if (size <= sharing.whole_up_to)
         return std::make_unique<WholeMeshFile>(path, sharing, loop);
+    const auto format = format_of(path);
     talk.at_first_rank([&] {
-        if (format_of(path) != FileFormat::Ply || is_gzip_name(path))
+        if (format == FileFormat::Off || is_gzip_name(path))
             throw InputError(
                 fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; convert it to a "
-                            "binary .ply file, of which every rank reads a slice",
+                            "binary .ply or an .obj file, of which every rank reads a slice",
                             path.string(), size, sharing.whole_up_to));
         static_cast<void>(OpenFile(path));
     });
-    return open_sliced_ply(path, sharing);
+    if (format == FileFormat::Obj)
+        return open_sliced_obj(path, sharing, loop);
+    return format == FileFormat::Stl ? open_sliced_stl(path, sharing) : open_sliced_ply(path, sharing);
 }
 
 }  // namespace seamflow

@@ -5,16 +5,16 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
-#include <fmt/format.h>
 #include <xxhash.h>
 
+#include "engine/distributed/shared_writing.h"
 #include "engine/distributed/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/formats/ply_stretches.h"
 #include "partition/formats/splicing.h"
-#include "partition/io/gzip.h"
 #include "partition/io/input_file.h"
 #include "partition/io/shared_output.h"
 
@@ -119,10 +119,7 @@ class SlicedPlyFile final : public SharedMeshFile {
 
     void require_writable_as(const std::filesystem::path& path) const override
     {
-        if (is_standard_stream(path) || is_gzip_name(path) || format_of(path) != FileFormat::Ply)
-            throw OptionError(path.string() +
-                              ": ranks that each have a slice of the mesh write it as a .ply file, not packed; convert "
-                              "that afterwards");
+        require_slices_of(FileFormat::Ply, path);
     }
 
     std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
@@ -133,14 +130,18 @@ class SlicedPlyFile final : public SharedMeshFile {
         const Stretch own(ply.n_vertices(), talk, sharing_.block);
         talk.look_together([&] {
             if (checksum(ply, own) != checksum_)
-                throw InputError(file_.path().string() +
-                                 ": the file has been changed since it was read, so that what it holds besides "
-                                 "positions cannot be taken over; leave it alone until the result is written");
+                throw InputError(changed_since_read(file_.path()));
         });
         const std::vector<PlyChange> changes = agree_on_changes(talk, ply, vertices);
-        return write_together(talk, path, [&](const SharedOutput& output) {
-            return write_slice(talk, output, ply, own, vertices, changes);
+        std::vector<std::string> remarks;
+        bool rounded = false;
+        write_together(talk, path, [&](const SharedOutput& output) {
+            std::tie(remarks, rounded) = write_slice(talk, output, ply, own, vertices, changes);
         });
+        const auto all_rounded = talk.gather_all(std::vector<char>{static_cast<char>(rounded ? 1 : 0)});
+        if (std::ranges::find(all_rounded, 1) != all_rounded.end())
+            remarks.push_back(rounding_remark(file_.path()));
+        return remarks;
     }
 
     void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
@@ -151,47 +152,12 @@ class SlicedPlyFile final : public SharedMeshFile {
         const Stretch faces(ply.n_faces(), talk, sharing_.block);
         PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end);
         mesh.vertices = vertices;
-        const auto long_faces = talk.gather_all(std::vector<char>{static_cast<char>(has_long_face(mesh) ? 1 : 0)});
-        const PlyCounts counts{ply.n_vertices(), ply.n_faces(), std::ranges::find(long_faces, 1) != long_faces.end()};
-        write_together(talk, path, [&](const SharedOutput& output) {
-            write_labelled_slice(talk, output, mesh, labels, counts);
-            return std::pair(std::vector<std::string>(), false);
-        });
+        write_labelled_together(talk, path, mesh, labels);
     }
 
   private:
     /// So many elements are made at once, and written.
     static constexpr Index at_once = 1 << 14;
-
-    /// @param mesh of this rank's stretch, with corners numbered in the whole mesh.
-    void write_labelled_slice(Conversation& talk, const SharedOutput& output, const PolygonMesh& mesh,
-                              const std::vector<Index>& labels, const PlyCounts& counts) const
-    {
-        constexpr std::size_t bytes_of_vertex = 3 * sizeof(double);
-        constexpr std::size_t bytes_of_label = 3 + sizeof(std::int32_t);
-        const std::string header = labelled_ply_header(counts);
-        if (talk.rank() == 0)
-            output.write(header, 0);
-        const Stretch own(counts.vertices, talk, sharing_.block);
-        for (Index begin = 0; begin < mesh.n_vertices(); begin += at_once) {
-            OutputBuffer piece;
-            write_ply_vertices(piece, mesh, begin, std::min(mesh.n_vertices(), begin + at_once));
-            output.write(piece.content(), header.size() + at(own.begin + begin) * bytes_of_vertex);
-        }
-        const std::size_t bytes = at(mesh.n_faces()) * ((counts.has_long_face ? 4 : 1) + bytes_of_label) +
-                                  at(mesh.n_corners()) * sizeof(std::int32_t);
-        std::size_t offset = header.size() + at(counts.vertices) * bytes_of_vertex;
-        const auto of_ranks = talk.gather_all(std::vector<std::size_t>{bytes});
-        for (int r = 0; r < talk.rank(); ++r)
-            offset += of_ranks[r];
-        for (Index begin = 0; begin < mesh.n_faces(); begin += at_once) {
-            OutputBuffer piece;
-            write_labelled_ply_faces(piece, mesh, labels, counts.has_long_face, begin,
-                                     std::min(mesh.n_faces(), begin + at_once));
-            output.write(piece.content(), offset);
-            offset += piece.content().size();
-        }
-    }
 
     static const char* end_of_vertices(const PlyStretches& ply)
     {
@@ -215,26 +181,6 @@ class SlicedPlyFile final : public SharedMeshFile {
             for (std::size_t k = 0; k < fits.size(); ++k)
                 fits[k] = fits[k] && of_rank[k];
         return changes_of_positions(ply.vertex_element(), fits);
-    }
-
-    /// Rank 0 makes the file, all write their slices, and rank 0 gives it its name.
-    /// @param write_own @returns remarks, and whether positions were rounded.
-    template <class Write>
-    std::vector<std::string> write_together(Conversation& talk, const std::filesystem::path& path, Write&& write_own)
-    {
-        std::optional<SharedOutput> output;
-        talk.at_first_rank([&] { output.emplace(path); });
-        const std::string temporary = output ? output->temporary().string() : std::string();
-        const auto name = talk.gather_all(std::vector<char>(temporary.begin(), temporary.end()));
-        if (!output)
-            output.emplace(path, std::string(name.begin(), name.end()));
-        auto [remarks, rounded] = write_own(*output);
-        output->finish();
-        const auto all_rounded = talk.gather_all(std::vector<char>{static_cast<char>(rounded ? 1 : 0)});
-        if (std::ranges::find(all_rounded, 1) != all_rounded.end())
-            remarks.push_back(rounding_remark(file_.path()));
-        talk.at_first_rank([&] { output->commit(); });
-        return remarks;
     }
 
     std::pair<std::vector<std::string>, bool> write_slice(Conversation& talk, const SharedOutput& output,

@@ -28,11 +28,11 @@ class TaskGraph::Nodes {
     /// The failure of the task with the lowest number.
     class FirstFailure {
       public:
-        void record(TaskGraph::Node node, std::exception_ptr failure)
+        void record(TaskGraph::Node node, std::exception_ptr thrown)
         {
             const std::lock_guard lock(mutex_);
             if (!failure_ || node < node_)
-                failure_ = std::move(failure), node_ = node;
+                failure_ = std::move(thrown), node_ = node;
             failed_.store(true, std::memory_order_release);
         }
 
@@ -42,8 +42,8 @@ class TaskGraph::Nodes {
         void rethrow()
         {
             failed_.store(false, std::memory_order_release);
-            if (auto failure = std::exchange(failure_, nullptr))
-                std::rethrow_exception(failure);
+            if (auto thrown = std::exchange(failure_, nullptr))
+                std::rethrow_exception(thrown);
         }
 
       private:

@@ -15,6 +15,7 @@
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
+#include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
 #include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
@@ -92,10 +93,7 @@ InputFile MeshSource::read_again(const Loop& loop) const
 {
     InputFile input(file_);
     if (checksum(input.content(), loop) != content_checksum_)
-        throw InputError(
-            path().string() +
-            ": the file has been changed since it was read, so that what it holds besides positions cannot "
-            "be taken over; leave it alone until the result is written");
+        throw InputError(changed_since_read(path()));
     return input;
 }
 

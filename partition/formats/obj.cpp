@@ -141,17 +141,9 @@ void ObjReader::require_no_open_reference(Index n) const
 PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
 {
     const std::vector<ObjCounts> counts = count_obj(whole, slices, loop);
-    const Index n_vertices = counts.back().n_vertices;
-    if (n_vertices == 0)
+    if (counts.back().n_vertices == 0)
         throw InputError("no vertices");
-    PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(n_vertices);
-    append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
-        ObjReader reader(TextScanner(whole, slices[i]), {mesh.vertices, counts[i].n_vertices, faces});
-        reader.read();
-        reader.require_no_open_reference(n_vertices);
-    });
-    return mesh;
+    return read_obj_slices(whole, slices, counts, counts.back().n_vertices, loop);
 }
 
 std::string_view extra_of_statement(std::string_view keyword)
@@ -209,6 +201,40 @@ std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::
         counts[i + 1].n_normals = sum_of_counts(counts[i].n_normals, counts[i + 1].n_normals);
     }
     return counts;
+}
+
+PolygonMesh read_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
+                            std::span<const ObjCounts> counts, Index n_vertices, const Loop& loop)
+{
+    PolygonMesh mesh;
+    const Index first = counts.front().n_vertices;
+    mesh.vertices = uninitialised_points(counts.back().n_vertices - first);
+    append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
+        ObjReader reader(TextScanner(whole, slices[i]), {mesh.vertices, counts[i].n_vertices, faces, first});
+        reader.read();
+        reader.require_no_open_reference(n_vertices);
+    });
+    return mesh;
+}
+
+ObjFaults faults_of_obj_slice(const TextScanner& scanner, const ObjCounts& counts, const ObjCounts& end,
+                              Index n_vertices)
+{
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(end.n_vertices - counts.n_vertices);
+    ObjReader reader(scanner, {mesh.vertices, counts.n_vertices, mesh, counts.n_vertices});
+    ObjFaults faults;
+    try {
+        reader.read();
+    } catch (const InputError& error) {
+        faults.of_line = error.what();
+    }
+    try {
+        reader.require_no_open_reference(n_vertices);
+    } catch (const InputError& error) {
+        faults.of_reference = error.what();
+    }
+    return faults;
 }
 
 PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)

@@ -36,6 +36,26 @@ struct ObjCounts {
 /// @throws InputError if there are more than 2^31 - 1 of a kind.
 std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop);
 
+/// Reads some slices of a file.
+/// @param counts what stands before each of them, in the whole file, and behind the last.
+/// @param n_vertices of the whole file.
+/// @returns the vertices of these slices, and their faces with corners numbered in the whole file.
+/// @throws InputError if there is any fault, not necessarily naming the line (see faults_of_obj_slice).
+PolygonMesh read_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
+                            std::span<const ObjCounts> counts, Index n_vertices, const Loop& loop);
+
+/// The first faults of a slice, as read_obj says them; empty: there are none.
+struct ObjFaults {
+    std::string of_line;
+    /// That a vertex which a face names does not come. read_obj says so only where all lines are without fault.
+    std::string of_reference;
+};
+
+/// @param scanner of the slice, which knows the number of its first line. @param counts, end what stands before the
+/// slice and behind it. @param n_vertices of the whole file.
+ObjFaults faults_of_obj_slice(const TextScanner& scanner, const ObjCounts& counts, const ObjCounts& end,
+                              Index n_vertices);
+
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
 /// passed over: they describe no polygon.
@@ -56,6 +76,13 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 /// @throws OutputError
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
                                      const PolygonMesh& mesh, const Slicing& slicing);
+
+/// Writes some slices of a file again as rewrite_obj does, but with all normals as they were.
+/// @param counts as of read_obj_slices. @param positions of the vertices of these slices.
+/// @returns one text for each slice.
+std::vector<OutputBuffer> rewrite_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
+                                             std::span<const ObjCounts> counts, const Points& positions,
+                                             const Loop& loop);
 
 /// The corners of faces, numbered as in PolygonMesh::face_vertices, that name each normal (`vn`) of a file that
 /// `read_obj` has read, in ascending order. Numbers of normals that there are not do not count.

@@ -135,19 +135,23 @@ std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
 }
 
 /// Writes a slice again.
-/// @param counts what stands before it. @param end what stands before the next. @param normals null: there are none.
+/// @param counts what stands before it. @param end what stands before the next.
+/// @param positions from vertex `first` of the file on. @param normals null: they stay.
 StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, ObjCounts counts, const ObjCounts& end,
-                             const PolygonMesh& mesh, const NormalUpdate* normals)
+                             const Points& positions, Index first, const NormalUpdate* normals)
 {
     StayingNormals staying;
     while (counts != end && scanner.next_line()) {
         const std::string_view keyword = scanner.token();
         if (keyword == "v")
-            exchange_position(scanner, splicer, mesh.vertices.row(counts.n_vertices++));
+            exchange_position(scanner, splicer, positions.row(counts.n_vertices++ - first));
         if (keyword != "vn")
             continue;
+        const Index normal = counts.n_normals++;
+        if (normals == nullptr)
+            continue;
         const WrittenNormal given = read_normal(scanner);
-        if (const auto now = (*normals)(counts.n_normals++, given.value, staying))
+        if (const auto now = (*normals)(normal, given.value, staying))
             exchange_normal(splicer, given, *now);
     }
     splicer.finish();
@@ -191,9 +195,21 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
         staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
-                                   mesh, normals ? &*normals : nullptr);
+                                   mesh.vertices, 0, normals ? &*normals : nullptr);
     });
     return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
+}
+
+std::vector<OutputBuffer> rewrite_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
+                                             std::span<const ObjCounts> counts, const Points& positions,
+                                             const Loop& loop)
+{
+    std::vector<OutputBuffer> texts(slices.size());
+    for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
+        rewrite_slice(TextScanner(whole, slices[i]), Splicer(texts[i], slices[i]), counts[i], counts[i + 1], positions,
+                      counts.front().n_vertices, nullptr);
+    });
+    return texts;
 }
 
 }  // namespace seamflow

@@ -95,10 +95,10 @@ PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content)
 Points PlyStretches::vertices(Index begin, Index end) const
 {
     Points points = uninitialised_points(end - begin);
-    PolygonMesh none;
+    PolygonMesh unused;
     const auto first = static_cast<std::size_t>(bytes_of_vertices(begin, end).data() - content_.data());
     PlyBinarySource source(path_, content_, first, header_.encoding);
-    ElementReader<PlyBinarySource> reader(source, n_vertices(), MeshSlice{points, 0, none});
+    ElementReader<PlyBinarySource> reader(source, n_vertices(), MeshSlice{points, 0, unused});
     reader.read(vertex_element(), at(begin), at(end));
     return points;
 }
@@ -117,9 +117,9 @@ PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end) const
     PolygonMesh mesh;
     if (begin == end)
         return mesh;
-    Points none(0, 3);
+    Points unused(0, 3);
     PlyBinarySource source(path_, content_, byte, header_.encoding);
-    ElementReader<PlyBinarySource> reader(source, n_vertices(), MeshSlice{none, 0, mesh});
+    ElementReader<PlyBinarySource> reader(source, n_vertices(), MeshSlice{unused, 0, mesh});
     reader.read(*faces_, at(begin), at(end));
     return mesh;
 }

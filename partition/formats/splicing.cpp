@@ -98,6 +98,12 @@ std::optional<Point> MovedNormals::of_face(Index f, const Point& given) const
     return on_the_side_of(given, normal(before_), normal(mesh_.vertices));
 }
 
+std::string changed_since_read(const std::filesystem::path& source)
+{
+    return source.string() + ": the file has been changed since it was read, so that what it holds besides positions "
+                             "cannot be taken over; leave it alone until the result is written";
+}
+
 std::string rounding_remark(const std::filesystem::path& source)
 {
     return source.string() + " holds positions in single precision, and so does the result; text formats (" +

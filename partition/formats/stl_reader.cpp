@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -331,6 +332,44 @@ bool is_text_stl(std::string_view file)
 }
 
 }  // namespace
+
+StlStretches::StlStretches(std::filesystem::path path, std::string_view content)
+    : path_(std::move(path))
+    , content_(content)
+{
+    if (is_text_stl(content))
+        throw InputError(path_.string() +
+                         ": the file is text, so that ranks cannot read it in slices; export it as a binary STL file");
+    ByteScanner scanner(path_, content, std::min(title_bytes, content.size()), std::endian::little);
+    require_room_for_facets(scanner, content);
+    if (declared_facets(content) > std::uint64_t{std::numeric_limits<Index>::max()})
+        throw InputError(
+            fmt::format("{}: the file has {} facets, more than 2147483647; divide the mesh into several files",
+                        path_.string(), declared_facets(content)));
+    n_facets_ = static_cast<Index>(declared_facets(content));
+}
+
+std::string_view StlStretches::bytes(Index begin, Index end) const
+{
+    return content_.substr(header_bytes + facet_bytes * at(begin), facet_bytes * at(end - begin));
+}
+
+PointNumbers StlStretches::facets(Index begin, Index end, PolygonMesh& faces) const
+{
+    ByteScanner scanner(path_, content_, header_bytes + facet_bytes * at(begin), std::endian::little);
+    Points none(0, 3);
+    FacetCollector collector(scanner, {none, 0, faces});
+    read_facets(scanner, at(begin), at(end), collector);
+    return collector.take_points();
+}
+
+void StlStretches::require_end() const
+{
+    ByteScanner scanner(path_, content_, header_bytes + facet_bytes * at(n_facets_), std::endian::little);
+    scanner.require_end();
+    if (n_facets_ == 0)
+        scanner.fail("the file has no vertices; export the mesh again");
+}
 
 bool is_stl(std::string_view file)
 {

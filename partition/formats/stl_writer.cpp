@@ -43,52 +43,38 @@ void require_no_isolated_vertex(const std::filesystem::path& path, const Polygon
                                 unused - used.begin()));
 }
 
-void require_floats(const std::filesystem::path& path, const PolygonMesh& mesh)
+template <class Scalar>
+void require_distinct_corners(const std::filesystem::path& path, Index f, std::span<const Index> corners,
+                              const StlFacet& facet)
 {
-    for (Index v = 0; v < mesh.n_vertices(); ++v)
-        if (mesh.vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
+    for (std::size_t k = 0; k < 3; ++k)
+        if (facet[k].cast<Scalar>() == facet[(k + 1) % 3].cast<Scalar>())
             refuse_mesh(path,
-                        fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single precision "
-                                    "of binary STL",
-                                    v));
+                        fmt::format("the vertices {} and {} of face {} (all numbered from 0) are one and the "
+                                    "same point{}",
+                                    corners[k], corners[(k + 1) % 3], f,
+                                    std::is_same_v<Scalar, float> ? " in the single precision of binary STL" : ""));
 }
 
-template <class Scalar>
-bool coincide(const PolygonMesh& mesh, Index v, Index w)
+StlFacet facet_of(const PolygonMesh& mesh, Index f)
 {
-    return mesh.vertices.row(v).cast<Scalar>() == mesh.vertices.row(w).cast<Scalar>();
+    const auto corners = mesh.face(f);
+    return {mesh.vertices.row(corners[0]), mesh.vertices.row(corners[1]), mesh.vertices.row(corners[2])};
 }
-
-template <class Scalar>
-void require_distinct_corners(const std::filesystem::path& path, const PolygonMesh& mesh)
-{
-    const std::string precision = std::is_same_v<Scalar, float> ? " in the single precision of binary STL" : "";
-    for (Index f = 0; f < mesh.n_faces(); ++f) {
-        const auto corners = mesh.face(f);
-        for (std::size_t k = 0; k < 3; ++k)
-            if (coincide<Scalar>(mesh, corners[k], corners[(k + 1) % 3]))
-                refuse_mesh(path,
-                            fmt::format("the vertices {} and {} of face {} (all numbered from 0) are one and the same "
-                                        "point{}",
-                                        corners[k], corners[(k + 1) % 3], f, precision));
-    }
-}
-
-using Facet = std::array<Eigen::Vector3d, 3>;
 
 /// Of unit length; zero for a triangle without area. Scaled beforehand, lest products of large or small coordinates
 /// overflow or vanish.
-Eigen::Vector3f normal_of(const Facet& triangle)
+Eigen::Vector3f normal_of(const StlFacet& triangle)
 {
     const double scale = std::max({triangle[0].cwiseAbs().maxCoeff(), triangle[1].cwiseAbs().maxCoeff(),
                                    triangle[2].cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
-    const Eigen::Vector3d origin = triangle[0] / scale;
-    const Eigen::Vector3d u = triangle[1] / scale - origin;
-    const Eigen::Vector3d v = triangle[2] / scale - origin;
+    const Eigen::Vector3d origin = triangle[0].transpose() / scale;
+    const Eigen::Vector3d u = triangle[1].transpose() / scale - origin;
+    const Eigen::Vector3d v = triangle[2].transpose() / scale - origin;
     return u.stableNormalized().cross(v.stableNormalized()).stableNormalized().cast<float>();
 }
 
-void write_text_facet(ByteWriter& file, const Facet& triangle)
+void write_text_facet(ByteWriter& file, const StlFacet& triangle)
 {
     file.line("facet normal", normal_of(triangle));
     file.text("outer loop\n");
@@ -97,18 +83,20 @@ void write_text_facet(ByteWriter& file, const Facet& triangle)
     file.text("endloop\nendfacet\n");
 }
 
-void write_binary_facet(ByteWriter& file, const Facet& triangle)
+}  // namespace
+
+void write_binary_stl_facet(ByteWriter& file, const StlFacet& facet)
 {
-    const Eigen::Vector3f normal = normal_of(triangle);
+    const Eigen::Vector3f normal = normal_of(facet);
     for (const float x : {normal[0], normal[1], normal[2]})
         file.binary(x, std::endian::little);
-    for (const auto& point : triangle)
+    for (const auto& point : facet)
         for (const double x : {point[0], point[1], point[2]})
             file.binary(static_cast<float>(x), std::endian::little);
     file.binary(std::uint16_t{0}, std::endian::little);
 }
 
-void write_binary_header(OutputFile& file, Index n_faces)
+void write_binary_stl_header(ByteWriter& file, Index n_faces)
 {
     std::string title = "binary STL";
     title.resize(80, ' ');
@@ -116,17 +104,33 @@ void write_binary_header(OutputFile& file, Index n_faces)
     file.binary(static_cast<std::uint32_t>(n_faces), std::endian::little);
 }
 
-}  // namespace
+void require_floats(const std::filesystem::path& path, const Points& vertices, Index first)
+{
+    for (Index v = 0; v < vertices.rows(); ++v)
+        if (vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()})
+            refuse_mesh(path,
+                        fmt::format("vertex {} (numbered from 0) has a coordinate too large for the single precision "
+                                    "of binary STL",
+                                    first + v));
+}
+
+void require_distinct_floats(const std::filesystem::path& path, Index f, std::span<const Index> corners,
+                             const StlFacet& facet)
+{
+    require_distinct_corners<float>(path, f, corners, facet);
+}
 
 void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding)
 {
     require_triangles(path, mesh);
     require_no_isolated_vertex(path, mesh);
     if (encoding == Encoding::Ascii) {
-        require_distinct_corners<double>(path, mesh);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            require_distinct_corners<double>(path, f, mesh.face(f), facet_of(mesh, f));
     } else {
-        require_floats(path, mesh);
-        require_distinct_corners<float>(path, mesh);
+        require_floats(path, mesh.vertices);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            require_distinct_floats(path, f, mesh.face(f), facet_of(mesh, f));
     }
 }
 
@@ -135,15 +139,13 @@ void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
     if (encoding == Encoding::Ascii)
         file.text("solid mesh\n");
     else
-        write_binary_header(file, mesh.n_faces());
+        write_binary_stl_header(file, mesh.n_faces());
     constexpr std::size_t bytes_per_facet = 128;
     write_elements(file, mesh.n_faces(), elements_per_slice(slicing, bytes_per_facet), slicing.loop,
                    [&](ByteWriter& slice, Index f) {
-                       Facet triangle;
-                       for (std::size_t k = 0; k < 3; ++k)
-                           triangle[k] = mesh.vertices.row(mesh.face(f)[k]).transpose();
+                       const StlFacet triangle = facet_of(mesh, f);
                        encoding == Encoding::Ascii ? write_text_facet(slice, triangle)
-                                                   : write_binary_facet(slice, triangle);
+                                                   : write_binary_stl_facet(slice, triangle);
                    });
     if (encoding == Encoding::Ascii)
         file.text("endsolid mesh\n");

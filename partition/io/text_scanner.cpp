@@ -76,14 +76,14 @@ TextScanner::TextScanner(const std::filesystem::path& path, std::string_view tex
         next_ += 3;
 }
 
-TextScanner::TextScanner(const TextScanner& whole, std::string_view slice)
+TextScanner::TextScanner(const TextScanner& whole, std::string_view slice, std::size_t lines_before)
     : TextScanner(whole)
 {
     note_faults_in(nullptr);
     cursor_ = line_end_ = next_ = slice.data();
     end_ = slice.data() + slice.size();
     continued_ = false;
-    line_ = 0;
+    line_ = lines_before;
 }
 
 /// Behind the line break of the line that goes on from there.

@@ -31,8 +31,9 @@ class TextScanner final : public InputPosition {
     /// @param text has to outlive the scanner.
     TextScanner(const std::filesystem::path& path, std::string_view text, TextSyntax syntax = {});
 
-    /// A scanner for a slice of the text of another: its lines end alike, but are counted from 1.
-    TextScanner(const TextScanner& whole, std::string_view slice);
+    /// A scanner for a slice of the text of another: its lines end alike.
+    /// @param lines_before its first line, from which lines are counted: those of the slice alone without it.
+    TextScanner(const TextScanner& whole, std::string_view slice, std::size_t lines_before = 0);
 
     /// The rest of the text in slices that begin and end where lines do, none within a line that is continued.
     /// @param bytes how long they are, up to the end of a line.

@@ -181,7 +181,7 @@ CentreFans fans_around_centres(const PolygonMesh& mesh, const Points& positions)
         const auto face = mesh.face(f);
         const Point centre = centre_of(face, positions);
         if (face.size() > 3 && turns_one_way(face, centre, positions)) {
-            const auto number = mesh.n_vertices() + static_cast<Index>(centres.size());
+            const auto number = static_cast<Index>(positions.rows()) + static_cast<Index>(centres.size());
             centres.push_back(centre);
             for (std::size_t k = 0; k < face.size(); ++k)
                 fans.triangles.add_face(std::array{number, face[k], face[(k + 1) % face.size()]});

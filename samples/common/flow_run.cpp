@@ -84,8 +84,15 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
                     bool can_rescale)
 {
     constexpr double much = 0.2;
-    if (!change.before.volume || !change.after.volume || options.motion.rescale != Rescale::None)
+    constexpr double most = 0.5;  // of the area: noise alone may have much of it
+    if (options.motion.rescale != Rescale::None)
         return;
+    if (!change.before.volume || !change.after.volume) {
+        if (change.after.area < most * change.before.area)
+            remarks.push_back(fmt::format("The surface has lost {:.0f}% of its area: less smoothing is gentler.",
+                                          100.0 * (1.0 - change.after.area / change.before.area)));
+        return;
+    }
     const double lost = 1.0 - *change.after.volume / *change.before.volume;
     if (lost > much)
         remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: --filter low-pass loses less, {}and "

@@ -21,7 +21,7 @@ RunRecord begin_record(const SmoothCommand& command);
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run);
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark where
-/// it has lost much of its volume.
+/// it has lost much of its volume, or most of its area where it encloses none.
 /// @param can_rescale whether the user can ask for that.
 void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
                     bool can_rescale = true);

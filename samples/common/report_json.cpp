@@ -224,7 +224,6 @@ std::string compare_report_json(const Comparison& comparison)
 
 std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found)
 {
-    using Json = nlohmann::ordered_json;
     const auto& sides = found.counts.faces_by_sides;
     const MeshDefects& defects = found.defects;
     const Json json{

@@ -46,7 +46,7 @@ void add_parameters(CLI::App& app, FlowOptions& options)
 
 void add_amount(CLI::App& app, SmoothingRequest& amount)
 {
-    auto* group = app.add_option_group("Amount of smoothing", "one of");
+    auto* group = app.add_option_group("Amount of smoothing", "in one of three ways");
     add_real(*group, "--time-step", amount.time_step, positive(), "of each step, in length²");
     add_real(*group, "--time-step-edges", amount.time_step_edges, positive(),
              "of each step, in squared mean edge lengths");
@@ -97,7 +97,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--preset", command.preset,
                    "options that suit a kind of mesh; those that are given go before them. " + describe_presets() +
                        " [scan if no amount is given; cad with --keep-edges]")
-        ->check(CLI::IsMember(names))
+        ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_choice(app, "--flow", options.flow,

@@ -13,7 +13,7 @@
 #include "samples/common/smoothing_request.h"
 #include "samples/common/step_pattern.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
 }
 

@@ -92,7 +92,8 @@ TEST_CASE("the file is the same for any number of ranks, and that of smooth with
 {
     const Workshop w;
     REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 9000") == 0);
-    for (const std::string name : {"mesh.obj", "ball.ply"}) {
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.stl --vertices 2000") == 0);
+    for (const std::string name : {"mesh.obj", "ball.ply", "ball.stl"}) {
         CAPTURE(name);
         const std::string options = " --time-step-edges 3 --steps 3 --converge never --threads 1";
         const std::string extension = name.substr(4);
@@ -107,12 +108,10 @@ TEST_CASE("the file is the same for any number of ranks, and that of smooth with
             REQUIRE(on_ranks(w, n, name + " n" + extension + options + " --subdomains 9 --parts cut.ply") == 0);
             CHECK((test::content_of(w.directory / ("n" + extension)) == expected));
             CHECK((test::content_of(w.directory / "cut.ply") == cut));
-            if (extension != ".ply")
-                continue;
             // In slices.
-            REQUIRE(on_ranks(w, n, name + " n.ply" + options + " --labels labels --parts cut.ply --whole-up-to 1") ==
-                    0);
-            CHECK((test::content_of(w.directory / "n.ply") == expected));
+            const std::string by_slices = " --labels labels --parts cut.ply --whole-up-to 1";
+            REQUIRE(on_ranks(w, n, name + " n" + extension + options + by_slices) == 0);
+            CHECK((test::content_of(w.directory / ("n" + extension)) == expected));
             CHECK((test::content_of(w.directory / "cut.ply") == cut));
         }
     }
@@ -349,9 +348,10 @@ TEST_CASE("files that no rank reads as a whole are refused with what to do, befo
 {
     const Workshop w;
     REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 900") == 0);
-    CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 1% --whole-up-to 1") == 3);
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.off --vertices 900") == 0);
+    CHECK(on_ranks(w, 2, "ball.off n.off --radius 1% --whole-up-to 1") == 3);
     REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().find("convert it to a binary .ply file") != std::string::npos);
+    CHECK(messages(w, "smooth-distributed").front().find("convert it to a binary .ply or") != std::string::npos);
     CHECK(on_ranks(w, 2, "ball.ply n.obj --radius 1% --whole-up-to 1") == 2);
     REQUIRE(messages(w, "smooth-distributed").size() == 1);
     CHECK(messages(w, "smooth-distributed").front().find("as a .ply file") != std::string::npos);

@@ -2,7 +2,7 @@
 
 #include "tests/samples/workshop.h"
 
-using test::Workshop;
+using seamflow::test::Workshop;
 
 namespace {
 

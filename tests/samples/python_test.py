@@ -156,7 +156,7 @@ class WrongInput(unittest.TestCase):
             (ValueError, "--overlap is for --conditions schwarz", (V, SIDES), {"overlap": 2, "radius": 1}),
             (ValueError, "--fix holds some", (V, SIDES), {"fixed": [0], "rescale": "area", "radius": 1}),
             (ValueError, "--labels", (V, SIDES), {"labels": [0] * 6, "subdomains": 2, "radius": 1}),
-            (TypeError, "no keyword radios; there are .*radius", (V, SIDES), {"radios": 1}),
+            (TypeError, "no keyword radios; there are .*labels.*radius", (V, SIDES), {"radios": 1}),
             (TypeError, "no keyword fix_property", (V, SIDES), {"fix_property": "a"}),
             (TypeError, "plain is True or False", (V, SIDES), {"plain": 1}),
             (TypeError, "radius is a number or a text", (V, SIDES), {"radius": [1]}),

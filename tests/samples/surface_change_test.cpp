@@ -1,9 +1,13 @@
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "engine/tasks/parallel_loop.h"
 #include "partition/vector_area.h"
+#include "samples/common/flow_run.h"
 #include "samples/common/meshes.h"
 #include "samples/common/surface_change.h"
 
@@ -43,6 +47,37 @@ TEST_CASE("the roughness of a large mesh is told by a sample, and all numbers ar
     CHECK(in_parallel.before.volume == change.after.volume);
     CHECK(in_parallel.before.roughness.rms == change.after.roughness.rms);
     CHECK(in_parallel.moved.max == 0.0);
+}
+
+TEST_CASE("polygons are as rough as all of the mesh is when it is looked at as a whole")
+{
+    for (const PolygonMesh& mesh : {make_quads(900), make_hexagons(900), make_mixed_polygons(900)}) {
+        const SurfaceChange change = SurfaceChangeMeter(mesh, run_serially).measure(mesh, {}, run_serially);
+        CHECK(change.before.roughness.rms == roughness(mesh, mesh.vertices).rms);
+        CHECK(change.before.roughness.percentile_95 == roughness(mesh, mesh.vertices).percentile_95);
+    }
+}
+
+TEST_CASE("a loss of much of the volume is remarked on, or of most of the area where there is no volume")
+{
+    const auto remark = [](std::optional<double> volume, double area, Rescale rescale = Rescale::None) {
+        SurfaceChange change;
+        change.before.area = 1.0;
+        change.after.area = area;
+        if (volume)
+            change.before.volume = 1.0;
+        change.after.volume = volume;
+        FlowOptions options;
+        options.motion.rescale = rescale;
+        std::vector<std::string> remarks;
+        remark_on_loss(options, change, remarks);
+        return remarks.empty() ? std::string() : remarks.front();
+    };
+    CHECK(remark(0.75, 0.9).find("lost 25% of its volume") != std::string::npos);
+    CHECK(remark(0.85, 0.3).empty());
+    CHECK(remark({}, 0.25).find("lost 75% of its area") != std::string::npos);
+    CHECK(remark({}, 0.55).empty());
+    CHECK(remark({}, 0.25, Rescale::Area).empty());
 }
 
 TEST_CASE("a mesh without faces has no surface")

@@ -141,8 +141,8 @@ std::vector<std::uint8_t> counts_of(const std::vector<Value>& values)
     std::ranges::sort(sorted);
     std::vector<std::uint8_t> counts;
     for (const Value& value : values) {
-        const auto found = std::ranges::equal_range(sorted, value);
-        counts.push_back(static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(std::ssize(found), 3)));
+        const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
+        counts.push_back(static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(last - first, 3)));
     }
     return counts;
 }

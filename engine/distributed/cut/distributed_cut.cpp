@@ -17,6 +17,7 @@
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/workers.h"
 #include "partition/cut/cut.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
+#include <span>
 
 #include "engine/distributed/cut/band.h"
 #include "engine/tasks/parallel_loop.h"
@@ -96,8 +97,9 @@ void bring_back(Conversation& talk, const JoinedSeams& seams, RankSlice& slice)
     const SliceBounds bounds = gather_bounds(talk, slice);
     const std::int64_t begin = bounds.vertices[talk.rank()];
     const std::int64_t end = bounds.vertices[talk.rank() + 1];
-    const auto own = std::ranges::subrange(std::ranges::lower_bound(seams.vertices, begin, {}, &SeamVertex::vertex),
-                                           std::ranges::lower_bound(seams.vertices, end, {}, &SeamVertex::vertex));
+    const auto first = std::ranges::lower_bound(seams.vertices, begin, {}, &SeamVertex::vertex);
+    const auto last = std::ranges::lower_bound(seams.vertices, end, {}, &SeamVertex::vertex);
+    const std::span<const SeamVertex> own(first, last);
     std::vector<std::int64_t> firsts;
     for (const SeamVertex& one : own)
         firsts.push_back(one.first);

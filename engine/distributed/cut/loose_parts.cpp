@@ -68,12 +68,12 @@ WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vecto
 LooseFaces find_loose(const WholeParts& whole)
 {
     LooseFaces loose;
-    const auto& [part, has_twin] = whole;
+    const MeshPart& part = whole.part;
     const PolygonMesh& mesh = part.mesh;
     const Topology topology = make_topology(mesh, run_in_parallel);
     const Components components = connected_components(mesh.n_faces(), [&](Index f, auto&& visit) {
         for_each_neighbour(mesh, topology, f, [&](Index h, Index g) {
-            if (has_twin[h] != 0 && part.labels[f] == part.labels[g])
+            if (whole.has_twin[h] != 0 && part.labels[f] == part.labels[g])
                 visit(g);
         });
     });

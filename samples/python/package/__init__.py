@@ -174,7 +174,8 @@ def _weights(value, count):
 def _words(keyword, value):
     """A keyword as on a command line; nothing where it is None or False."""
     if keyword not in _OPTIONS:
-        raise TypeError(f"smooth() has no keyword {keyword}; there are {', '.join(sorted(_OPTIONS))}")
+        known = sorted({*_OPTIONS, "fixed", "labels", "attach_weights", "progress"})
+        raise TypeError(f"smooth() has no keyword {keyword}; there are {', '.join(known)}")
     name, _, _, is_flag = _OPTIONS[keyword]
     if is_flag:
         if value is not None and not isinstance(value, (bool, np.bool_)):

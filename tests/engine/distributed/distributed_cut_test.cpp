@@ -149,9 +149,10 @@ TEST_CASE("a mesh of one chunk is cut as on one machine")
 
 TEST_CASE("a mesh of several chunks is cut alike by any number of ranks, and every part is sound")
 {
-    for (const auto& [name, mesh] : examples())
+    for (const auto& example : examples())
         for (const Index chunk : {300, 1000}) {
-            CAPTURE(name);
+            const PolygonMesh& mesh = example.second;
+            CAPTURE(example.first);
             CAPTURE(chunk);
             constexpr Index k = 20;
             const FoundCut found = cut_by_ranks(mesh, k, chunk, 1);
@@ -196,8 +197,9 @@ TEST_CASE("what is not manifold is cut alike by any number of ranks, and every p
         for (const int n : {2, 5})
             CHECK(cut_by_ranks(fins, 16, chunk, n).labels == found.labels);
     }
-    for (const auto& [name, mesh, topology] : test::assorted_meshes()) {
-        CAPTURE(name);
+    for (const test::NamedMesh& example : test::assorted_meshes()) {
+        const PolygonMesh& mesh = example.mesh;
+        CAPTURE(example.name);
         const FoundCut found = cut_by_ranks(mesh, 3, 5, 1);
         check_sound(mesh, found);
         CHECK(cut_by_ranks(mesh, 3, 5, 3).labels == found.labels);
@@ -212,7 +214,7 @@ TEST_CASE("faces that repeat others are left out of the cut, and have the labels
     std::vector<Index> repeats;
     for (Index f = 0; f < single.n_faces(); f += 3) {
         std::vector<Index> corners(single.face(f).rbegin(), single.face(f).rend());
-        std::ranges::rotate(corners, corners.begin() + 1);
+        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
         mesh.add_face(corners);
         repeats.push_back(f);
     }
@@ -298,8 +300,9 @@ TEST_CASE("labels without any sense are mended alike by any number of ranks")
 
 TEST_CASE("labels of any kind are mended alike by any number of ranks")
 {
-    for (const auto& [name, mesh] : examples()) {
-        CAPTURE(name);
+    for (const auto& example : examples()) {
+        const PolygonMesh& mesh = example.second;
+        CAPTURE(example.first);
         // Stripes across the order of the faces, with single faces strewn in and gaps in their numbers.
         std::vector<Index> given(mesh.n_faces());
         const std::vector<Index> strewn = test::random_labels(mesh.n_faces(), 40, 7);

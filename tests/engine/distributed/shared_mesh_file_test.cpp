@@ -15,6 +15,7 @@
 #include "engine/distributed/whole_mesh.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
+#include "partition/io/slices.h"
 #include "tests/support/flows.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
@@ -177,6 +178,33 @@ std::string colourful_ply(int n_columns, const std::string& coordinate)
     return bytes + "\n";
 }
 
+/// A strip of quads and triangles, with all that an OBJ file may have besides, faces among the vertices, and vertices
+/// that come after their faces.
+std::string varied_obj(int n_columns, const std::string& end)
+{
+    std::string text = "# made by hand" + end + "mtllib colours.mtl" + end;
+    for (int c = 0; c < n_columns; ++c) {
+        const std::string x = std::to_string(c) + (c % 4 == 0 ? ".0" : "");
+        text += "v  " + x + " 0 0" + (c % 5 == 0 ? " \t1 0.5 .25" : "") + end;
+        text += "v " + x + (c % 3 == 0 ? " \\" + end : "") + " 1e0 +0 # the other" + end;
+        text += "vt 0.5 " + x + end;
+        if (c == 0)
+            continue;
+        const auto v = std::to_string(2 * c - 1);
+        if (c % 4 == 0)
+            text += "f -4/-2 -2/-1 -1/ -3//" + end;
+        else if (c % 4 == 1)
+            text += "f " + v + " " + std::to_string(2 * c + 1) + (c % 8 == 1 ? " \\" + end : "") + " " +
+                    std::to_string(2 * c) + end + "f -3 -2/1 -1" + end + end;
+        else if (c % 4 == 2 && c + 1 < n_columns)
+            text += "g part" + end + "f " + v + " " + std::to_string(2 * c + 1) + " " + std::to_string(2 * c + 2) +
+                    " " + std::to_string(2 * c) + end;
+        else
+            text += "l 1 2" + end + "fo -4 -2 -1 -3" + end;
+    }
+    return text + "# the end";
+}
+
 }  // namespace
 
 TEST_CASE("ranks read and write small files of every format as one machine does")
@@ -203,6 +231,169 @@ TEST_CASE("ranks read and write slices of binary PLY files as one machine does")
             write_mesh(file, mesh, {FileFormat::Ply, encoding});
             check_as_on_one_machine(file, directory / "out.ply", sliced, 64);
         }
+}
+
+TEST_CASE("ranks read and write slices of OBJ files as one machine does")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.obj";
+    for (const PolygonMesh& mesh : {make_triangles(700), make_mixed_polygons(700)}) {
+        write_mesh(file, mesh, FileKind{});
+        check_as_on_one_machine(file, directory / "out.obj", sliced, 64);
+    }
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        CAPTURE(end == "\n");
+        write_file(file, "\xEF\xBB\xBF" + varied_obj(300, end));
+        check_as_on_one_machine(file, directory / "out.obj", sliced, 64);
+    }
+    // Several pieces for the threads of each rank.
+    write_file(file, varied_obj(50'000, "\n"));
+    REQUIRE(std::filesystem::file_size(file) > 5 * 2 * Slicing{}.bytes);
+    check_as_on_one_machine(file, directory / "out.obj", sliced, 64);
+    // Fewer lines than ranks, one of them longer than a share.
+    write_file(file, "v 0 0 0\nv 1 0 0 \\\n\\\n\\\n1 .5 .5\nv 0 1 0\nf 1 2 3");
+    check_as_on_one_machine(file, directory / "out.obj", sliced, 0);
+}
+
+TEST_CASE("normals of OBJ files in slices stay, and a remark says so")
+{
+    const test::TemporaryDirectory directory;
+    const std::string normals = "vn 0 0 1\nvn 1 0 0\n";
+    const std::string faces = "f 1//1 2//2 3//-1\n";
+    write_file(directory / "in.obj", "v 1 0 0\nv 1 1 0\nv 0 1 0\n" + normals + faces);
+    const Shared shared = pass_through(directory / "in.obj", directory / "out.obj", 2, sliced);
+    CHECK(shared.written.ends_with(normals + faces));
+    REQUIRE(shared.remarks.size() == 1);
+    CHECK(test::contains(shared.remarks.front(), "the 2 normals (vn) of"));
+}
+
+TEST_CASE("faults of slices of OBJ files are those that one machine finds first, with their lines")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.obj";
+    const std::string good = varied_obj(300, "\n") + "\n";
+    const auto middle = good.find('\n', good.size() / 2) + 1;
+    std::vector<std::string> bad = {"# nothing\n\n", "g nothing\n# here"};
+    for (const std::string fault : {"v 1 2\n", "v 1 2 nan\n", "f 1 2\n", "f 1 2 1\n", "f 1 2 0\n", "f 1 2 -100000\n",
+                                    "f 1 2 3x\n", "f 1 2 100000\n", "f 1 2 9999999999\n", "v 1 2 3 4 5 6 7 8 9\n"}) {
+        bad.push_back(good + fault);
+        bad.push_back(good.substr(0, middle) + "# \\\n" + fault + good.substr(middle));
+        bad.push_back(fault + good);
+        // The other one is found first: by one machine at the end of all lines.
+        bad.push_back("f 1 2 5000\n" + good + fault);
+        bad.push_back(good.substr(0, middle) + fault + good.substr(middle) + "f 1 2 1\nf 1 2 6000\n");
+    }
+    for (const std::string& content : bad) {
+        write_file(file, content);
+        std::string expected;
+        try {
+            static_cast<void>(read_mesh(file));
+        } catch (const InputError& error) {
+            expected = error.what();
+        }
+        CAPTURE(expected);
+        REQUIRE(!expected.empty());
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            CHECK(pass_through(file, directory / "out.obj", n, sliced).fault == expected);
+        }
+    }
+    CHECK(!std::filesystem::exists(directory / "out.obj"));
+}
+
+TEST_CASE("ranks read and write slices of binary STL files as one machine does")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    const FileKind binary{FileFormat::Stl, Encoding::BinaryLittleEndian};
+    write_mesh(file, make_triangles(700), binary);
+    check_as_on_one_machine(file, directory / "out.stl", sliced, 64);
+    // Every rank has a facet at the same two corners, and others alone; one of the two has both signs of zero.
+    std::string fan = std::string(80, ' ');
+    append(fan, std::uint32_t{500});
+    for (int f = 0; f < 500; ++f) {
+        const float zero = f % 3 == 1 ? -0.0F : 0.0F;
+        const auto x = static_cast<float>(f / 2);
+        for (const float number :
+             {0.F, 0.F, 0.F, zero, 0.F, zero, 0.F, 0.F, 1.F, x + 1.F, f % 2 == 0 ? 1.F : -1.F, 0.F})
+            append(fan, number);
+        append(fan, std::int16_t{7});
+    }
+    write_file(file, fan + "\n");
+    check_as_on_one_machine(file, directory / "out.stl", sliced, 64);
+}
+
+TEST_CASE("faults of slices of binary STL files are those that one machine finds")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    write_mesh(file, make_triangles(700), {FileFormat::Stl, Encoding::BinaryLittleEndian});
+    const std::string good = test::content_of(file);
+    std::vector<std::string> bad = {std::string("no STL"), good.substr(0, good.size() - 20), good + "more",
+                                    std::string(84, '\0')};
+    const std::size_t n_facets = (good.size() - 84) / 50;
+    for (const std::size_t facet : {std::size_t{0}, n_facets / 2, n_facets - 1})
+        for (const std::size_t other : {facet, n_facets / 3}) {
+            std::string damaged = good;
+            // Not a number; and the first corner as the second.
+            damaged.replace(84 + 50 * facet + 12 + 16, 4, "\xff\xff\xff\xff");
+            damaged.replace(84 + 50 * other + 12, 12, good.substr(84 + 50 * other + 24, 12));
+            bad.push_back(damaged);
+        }
+    for (const std::string& content : bad) {
+        CAPTURE(content.size());
+        write_file(file, content);
+        std::string expected;
+        try {
+            static_cast<void>(read_mesh(file));
+        } catch (const InputError& error) {
+            expected = error.what();
+        }
+        CAPTURE(expected);
+        REQUIRE(!expected.empty());
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            CHECK(pass_through(file, directory / "out.stl", n, sliced).fault == expected);
+        }
+    }
+}
+
+TEST_CASE("a result that binary STL cannot hold is refused as on one machine")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    const auto result = directory / "out.stl";
+    const FileKind binary{FileFormat::Stl, Encoding::BinaryLittleEndian};
+    write_mesh(file, make_triangles(700), binary);
+    const PolygonMesh mesh = read_mesh(file).mesh;
+    const auto last_face = mesh.face(mesh.n_faces() - 1);
+    for (const bool is_large : {true, false}) {
+        PolygonMesh moved = mesh;
+        if (is_large)
+            moved.vertices(mesh.n_vertices() - 2, 1) = 1e40;
+        moved.vertices.row(last_face[1]) = moved.vertices.row(last_face[2]);
+        std::string expected;
+        try {
+            write_mesh(result, moved, binary);
+        } catch (const OutputError& error) {
+            expected = error.what();
+        }
+        REQUIRE(!expected.empty());
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            run_on_threads(n, [&](Communicator& communicator) {
+                CHECK_THROWS_WITH_AS(run_together(communicator,
+                                                  [&](Conversation& talk) {
+                                                      const auto opened = open_together(talk, file, sliced);
+                                                      static_cast<void>(opened->read(talk));
+                                                      opened->write(talk, result,
+                                                                    hand_out(talk, moved, sliced.block).vertices);
+                                                  }),
+                                     expected.c_str(), OutputError);
+            });
+        }
+        CHECK(!std::filesystem::exists(result));
+    }
 }
 
 TEST_CASE("slices of PLY files keep what else there is, rounded or in wider numbers")
@@ -274,41 +465,51 @@ TEST_CASE("faults of slices are those that one machine finds")
 TEST_CASE("a file that changes while it is used is noticed")
 {
     const test::TemporaryDirectory directory;
-    const auto file = directory / "in.ply";
-    write_mesh(file, make_triangles(700), {FileFormat::Ply, Encoding::BinaryLittleEndian});
-    const std::size_t size = test::content_of(file).size();
-    for (const std::size_t place : {size / 4, size - 2}) {
-        std::string fault;
-        run_on_threads(3, [&](Communicator& communicator) {
-            try {
-                run_together(communicator, [&](Conversation& talk) {
-                    const auto opened = open_together(talk, file, sliced);
-                    const RankSlice slice = opened->read(talk);
-                    talk.at_first_rank([&] {
-                        std::fstream changed(file, std::ios::binary | std::ios::in | std::ios::out);
-                        changed.seekp(static_cast<std::streamoff>(place)) << 'x';
+    for (const std::string extension : {".ply", ".obj", ".stl"}) {
+        CAPTURE(extension);
+        const auto file = directory / ("in" + extension);
+        const auto result = directory / ("out" + extension);
+        write_mesh(file, make_triangles(700), kind_for_writing(file, {FileFormat::Off, Encoding::Ascii}));
+        const std::size_t size = test::content_of(file).size();
+        for (const std::size_t place : {size / 4, size - 2}) {
+            std::string fault;
+            run_on_threads(3, [&](Communicator& communicator) {
+                try {
+                    run_together(communicator, [&](Conversation& talk) {
+                        const auto opened = open_together(talk, file, sliced);
+                        const RankSlice slice = opened->read(talk);
+                        talk.at_first_rank([&] {
+                            std::fstream changed(file, std::ios::binary | std::ios::in | std::ios::out);
+                            changed.seekp(static_cast<std::streamoff>(place)) << 'x';
+                        });
+                        opened->write(talk, result, slice.vertices);
                     });
-                    opened->write(talk, directory / "out.ply", slice.vertices);
-                });
-            } catch (const InputError& error) {
-                if (communicator.rank() == 0)
-                    fault = error.what();
-            }
-        });
-        CHECK(test::contains(fault, "has been changed since it was read"));
-        CHECK(!std::filesystem::exists(directory / "out.ply"));
+                } catch (const InputError& error) {
+                    if (communicator.rank() == 0)
+                        fault = error.what();
+                }
+            });
+            CHECK(test::contains(fault, "has been changed since it was read"));
+            CHECK(!std::filesystem::exists(result));
+            write_mesh(file, make_triangles(700), kind_for_writing(file, {FileFormat::Off, Encoding::Ascii}));
+        }
     }
 }
 
 TEST_CASE("files that cannot be read in slices are refused with what to do")
 {
     const test::TemporaryDirectory directory;
-    write_mesh(directory / "in.obj", make_triangles(300), FileKind{});
-    CHECK(test::contains(pass_through(directory / "in.obj", directory / "o.obj", 3, sliced).fault,
-                         "convert it to a binary .ply file"));
+    for (const std::string name : {"in.off", "in.obj.gz"}) {
+        write_mesh(directory / name, make_triangles(300), kind_for_writing(directory / name, FileKind{}));
+        CHECK(test::contains(pass_through(directory / name, directory / "o.obj", 3, sliced).fault,
+                             "convert it to a binary .ply or an .obj file"));
+    }
     write_mesh(directory / "in.ply", make_triangles(300), {FileFormat::Ply, Encoding::Ascii});
     CHECK(test::contains(pass_through(directory / "in.ply", directory / "o.ply", 3, sliced).fault,
                          "export it as a binary PLY file"));
+    write_mesh(directory / "in.stl", make_triangles(300), {FileFormat::Stl, Encoding::Ascii});
+    CHECK(test::contains(pass_through(directory / "in.stl", directory / "o.stl", 3, sliced).fault,
+                         "export it as a binary STL file"));
 }
 
 TEST_CASE("sizes of a mesh that ranks have are those of one machine, bit for bit")

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "engine/tasks/parallel_loop.h"
