@@ -11,11 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/deal.h"
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/mpi_communicator.h"
 #include "engine/distributed/packing.h"
+#include "engine/distributed/rank_checkpoint.h"
 #include "engine/distributed/shared_mesh_file.h"
 #include "engine/distributed/slice_measures.h"
 #include "engine/distributed/whole_mesh.h"
@@ -82,8 +85,10 @@ class RankRun {
         options.cut = {};
         options.motion.weld.reset();
         options.report.measures = !command_.quiet || !command_.report.empty();
-        about_file(command_.input,
-                   [&] { record_.report = distributed_mean_curvature_flow(ranks_, part_, options, observer()); });
+        about_file(command_.input, [&] {
+            record_.report =
+                distributed_mean_curvature_flow(ranks_, part_, options, observer(), resume_ ? &*resume_ : nullptr);
+        });
         record_.setup_seconds += record_.report.setup_seconds;
         run_together(ranks_, [&](Conversation& talk) { end(talk, whole); });
         return require_converged();
@@ -103,6 +108,7 @@ class RankRun {
         const SliceBounds bounds = gather_bounds(talk, slice);
         if (!command_.labels.empty())
             slice.labels = read_labels_together(talk, slice);
+        const std::uint64_t mesh = command_.checkpoint.empty() ? 0 : checksum_of_mesh(talk, slice);
         std::vector<std::int64_t> fixed = read_fixed(talk);
         std::vector<double> weights = read_weights(talk);
         record_.run.read_seconds = reading.seconds();
@@ -117,6 +123,8 @@ class RankRun {
         part_.fixed.resize(part_.vertex_numbers.size());
         std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(),
                                [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
+        if (!command_.checkpoint.empty())
+            find_checkpoint(talk, mesh, slice, bounds, fixed, weights);
         deal_weights(talk, std::move(weights), bounds);
         bring_back(talk, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
@@ -200,6 +208,44 @@ class RankRun {
         part_.attachment_weights.assign(found.col(0).begin(), found.col(0).end());
     }
 
+    /// Where an earlier run was, if there was one.
+    /// @param mesh checksum of the input. @param slice with the labels of the cut. @param weights at rank 0.
+    void find_checkpoint(Conversation& talk, std::uint64_t mesh, const RankSlice& slice, const SliceBounds& bounds,
+                         const std::vector<std::int64_t>& fixed, const std::vector<double>& weights)
+    {
+        FlowOptions options = command_.options;
+        options.motion.fixed_vertices.assign(fixed.begin(), fixed.end());
+        options.motion.attachment_weights = weights;
+        // They do not change the result.
+        options.report = {};
+        FlowIdentity identity = identify(PolygonMesh{}, options);
+        for (FlowIdentity::Entry& entry : identity.entries)
+            if (entry.name == "mesh")
+                entry.value = fmt::format("{} vertices and {} faces with checksum {:x}", record_.size.vertices,
+                                          record_.size.faces, mesh);
+        identity.entries.push_back({"cut", fmt::format("that with checksum {:x}", checksum_of_labels(talk, slice))});
+        checkpoint_.emplace(command_.checkpoint, std::move(identity));
+        resume_ = checkpoint_->find(talk, bounds.vertices, command_.options.steps);
+        if (!resume_)
+            return;
+        out_ << "resumed    after step " << resume_->step << ", from " << checkpoint_->file().string() << std::endl;
+        if (command_.every_step)
+            record_.remarks.push_back(fmt::format(
+                "--every-step has no files of the steps up to {}, which an earlier run took.", resume_->step));
+    }
+
+    /// Keeps the state after a step where the period or the end of the run asks for it.
+    void keep_checkpoint(const RankStepState& state)
+    {
+        const CheckpointPeriod& period = command_.checkpoint_period;
+        const std::uint8_t is_due = since_kept_.seconds() >= period.seconds ? 1 : 0;
+        const bool is_kept = state.talk.tell_all(std::vector<std::uint8_t>{is_due}).front() != 0;
+        if (state.step != command_.options.steps && (state.step % period.steps != 0 || !is_kept))
+            return;
+        checkpoint_->keep(state.talk, state.capture(slice_vertices_));
+        since_kept_.lap();
+    }
+
     /// Whether results can hold the mesh, and what they will not have of the input. On rank 0.
     void look_at_results()
     {
@@ -244,20 +290,22 @@ class RankRun {
         sort_unique(fixed);
     }
 
-    /// Prints every step, and writes it where --every-step asks for that.
+    /// Prints every step, and writes it where --every-step or --checkpoint asks for that.
     RankObserver observer()
     {
-        if (!command_.verbose && !command_.every_step)
+        if (!command_.verbose && !command_.every_step && !checkpoint_)
             return {};
         return [this](const RankStepState& state) {
             if (command_.verbose)
                 print_rank_step(out_, state, command_.options.steps, record_.size.mean_edge);
-            if (!command_.every_step)
-                return;
-            const Stopwatch watch;
-            file_->write(state.talk, command_.every_step->path(state.step),
-                         vertices_of_stretch(state.talk, state.part));
-            record_.run.write_seconds += watch.seconds();
+            if (command_.every_step) {
+                const Stopwatch watch;
+                file_->write(state.talk, command_.every_step->path(state.step),
+                             vertices_of_stretch(state.talk, state.part));
+                record_.run.write_seconds += watch.seconds();
+            }
+            if (checkpoint_)
+                keep_checkpoint(state);
         };
     }
 
@@ -282,7 +330,6 @@ class RankRun {
         record_.remarks = std::move(all);
         if (!record_.report.before)
             return;
-        const std::vector<RankStepReport>& steps = record_.report.steps;
         const auto look = [](const RankMeasures& measures) {
             SurfaceLook seen{.area = measures.area, .volume = measures.volume, .roughness = {}};
             if (seen.volume)
@@ -290,7 +337,7 @@ class RankRun {
             return seen;
         };
         record_.run.surface.before = look(*record_.report.before);
-        record_.run.surface.after = look(steps.empty() ? *record_.report.before : *steps.back().measures);
+        record_.run.surface.after = look(*record_.report.after);
     }
 
     /// Where steps have missed their tolerance, the results are not what was asked for.
@@ -349,6 +396,9 @@ class RankRun {
     std::vector<Index> labels_;
     JoinedSeams seams_;
     std::vector<std::string> of_cut_;
+    std::optional<RankCheckpoint> checkpoint_;
+    std::optional<RankFlowState> resume_;
+    Stopwatch since_kept_;
 };
 
 /// Rank 0 speaks for all.

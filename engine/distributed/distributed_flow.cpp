@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/distributed/conversation.h"
+#include "engine/distributed/deal.h"
 #include "engine/distributed/packing.h"
 #include "engine/distributed/rank_exchange.h"
 #include "engine/distributed/rank_meter.h"
@@ -101,11 +102,13 @@ void in_step(int step, Body&& body)
 /// A distributed flow on one rank.
 class RankFlow {
   public:
-    RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options, const RankObserver& on_step)
+    RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options, const RankObserver& on_step,
+             const RankFlowState* resume)
         : talk_(talk)
         , part_(part)
         , options_(completed(options, part))
         , on_step_(on_step)
+        , resume_(resume)
         , progress_(control_)
     {
     }
@@ -142,18 +145,59 @@ class RankFlow {
         }
         report.setup_seconds = watch.seconds();
         std::optional<MeshPart> shown = on_step_ ? std::optional(part_) : std::nullopt;
-        for (int step = 1; step <= options_.steps; ++step) {
+        if (resume_ != nullptr)
+            restore(mesh, *stepper);
+        if (meter_ && resume_ != nullptr)
+            report.after = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
+        else
+            report.after = report.before;
+        for (int step = resume_ != nullptr ? resume_->step + 1 : 1; step <= options_.steps; ++step) {
             report.steps.push_back(take_step(step, mesh, limit, *stepper));
+            report.after = report.steps.back().measures;
             if (!shown)
                 continue;
             shown->mesh.vertices = positions_of_part(mesh, offset);
-            on_step_({step, report.steps.back(), *shown, talk_});
+            on_step_({step, report.steps.back(), *shown, talk_,
+                      [&](const Points& vertices) { return capture(mesh, step, vertices); }});
         }
         describe_convergence(*stepper, report);
         return positions_of_part(mesh, offset);
     }
 
   private:
+    /// Brings the vertices that this rank knows to where they were after a step.
+    void restore(RankMesh& mesh, Stepper& stepper)
+    {
+        RankSlice stretch;
+        stretch.vertices = resume_->vertices;
+        const SliceBounds bounds = gather_bounds(talk_, stretch);
+        const std::vector<std::int64_t>& numbers = mesh.part.vertex_numbers;
+        talk_.look_together([&] {
+            if (!numbers.empty() && numbers.back() >= bounds.vertices.back())
+                throw InputError("the state to go on from has fewer vertices than the mesh");
+        });
+        const StepMemory memory{.positions = fetch_positions(talk_, stretch, numbers, bounds.vertices),
+                                .arrays = {},
+                                .numbers = {static_cast<double>(resume_->step)}};
+        talk_.look_together([&] {
+            if (!memory.positions.allFinite())
+                throw InputError("the state to go on from has vertices that are not finite");
+        });
+        stepper.restore(memory);
+        mesh.part.mesh.vertices = memory.positions;
+    }
+
+    /// All ranks call this together.
+    [[nodiscard]] RankFlowState capture(const RankMesh& mesh, int step, const Points& vertices)
+    {
+        MeshPart near = part_;
+        near.mesh.vertices = positions_of_part(mesh, Point::Zero());
+        RankSlice stretch;
+        stretch.vertices = vertices;
+        collect_positions(talk_, near, stretch);
+        return {.step = step, .vertices = std::move(stretch.vertices)};
+    }
+
     RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, Stepper& stepper)
     {
         const Stopwatch watch;
@@ -274,6 +318,7 @@ class RankFlow {
     const MeshPart& part_;
     FlowOptions options_;
     const RankObserver& on_step_;
+    const RankFlowState* resume_;
     FlowControl control_;
     Progress progress_;
     std::optional<RankMeter> meter_;
@@ -282,7 +327,7 @@ class RankFlow {
 }  // namespace
 
 RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
-                                           const RankObserver& on_step)
+                                           const RankObserver& on_step, const RankFlowState* resume)
 {
     RankReport report;
     Points positions;
@@ -290,8 +335,10 @@ RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart&
         require_valid(options);
         require_for_ranks(options);
         require_valid(part);
+        if (resume != nullptr && is_converged(options))
+            throw OptionError("ranks cannot go on from a state of converged steps: take sweeps, or begin anew");
         Workers workers(options.resources.threads);
-        workers.execute([&] { positions = RankFlow(talk, part, options, on_step).run(report); });
+        workers.execute([&] { positions = RankFlow(talk, part, options, on_step, resume).run(report); });
     });
     part.mesh.vertices = std::move(positions);
     return report;

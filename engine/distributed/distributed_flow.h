@@ -60,11 +60,24 @@ struct RankReport {
     double setup_seconds = 0.0;
     /// With ReportOptions::measures: the mesh before the first step.
     std::optional<RankMeasures> before = {};
+    /// Those that this flow took: not those before the state that it went on from.
     std::vector<RankStepReport> steps;
+    /// With ReportOptions::measures: the mesh after all steps.
+    std::optional<RankMeasures> after = {};
     /// As that of FlowReport.
     ConvergenceReport convergence = {};
     /// As those of FlowReport, of the whole mesh.
     std::vector<std::string> remarks;
+};
+
+/// What sweeps of ranks need to go on after a complete step as if they had never ended: see RankStepState::capture. It
+/// belongs to the mesh as it was before the first step, and to the options.
+struct RankFlowState {
+    /// Number of the step; those after it are taken.
+    int step = 0;
+    /// This rank's share: stretches of all ranks, in their order, make up the mesh. #V of the stretch by 3, near the
+    /// origin, where the flow goes on; for vertices without faces anything.
+    Points vertices = Points(0, 3);
 };
 
 /// What an observer on a rank sees after each step.
@@ -76,6 +89,9 @@ struct RankStepState {
     const MeshPart& part;
     /// For what observers on all ranks do together: its collective functions.
     Conversation& talk;
+    /// The state to go on from. All ranks call it together.
+    /// @param vertices #V of this rank's stretch by 3, as in RankFlowState; those without faces stay.
+    std::function<RankFlowState(const Points& vertices)> capture;
 };
 
 /// Called after each step, on all ranks, in the thread that called the flow. What one throws, all ranks throw.
@@ -95,10 +111,12 @@ using RankObserver = std::function<void(const RankStepState&)>;
 /// mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
+/// @param resume of sweeps, or null: the flow goes on from there, on any number of ranks, with the same bits; part and
+///        options are as before the first step. On all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several
 ///         ranks, or for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow
 ///         would move its faces); ComputationError naming step and sub-mesh.
 RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
-                                           const RankObserver& on_step = {});
+                                           const RankObserver& on_step = {}, const RankFlowState* resume = nullptr);
 
 }  // namespace seamflow

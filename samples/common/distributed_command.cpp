@@ -23,9 +23,7 @@ std::vector<SmoothProgram::Lack> lacks()
             {"--reference", whole_mesh},
             {"--trace", one_process},
             {"--task-graph", one_process},
-            {"--html", "a page shows the whole mesh, which no rank has; smooth writes it"},
-            {"--checkpoint", "it starts anew; smooth can go on from a checkpoint"},
-            {"--checkpoint-every", "it starts anew; smooth can go on from a checkpoint"}};
+            {"--html", "a page shows the whole mesh, which no rank has; smooth writes it"}};
 }
 
 /// Steps of ranks are in sub-meshes: sweeps where no tolerance is asked for.
@@ -61,6 +59,9 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         command.flow.options.accuracy.approach != Approach::Converged)
         throw OptionError("rims move freely in converged steps of ranks alone: add --approach converged, or leave "
                           "--boundary free out");
+    if (!command.flow.checkpoint.empty() && command.flow.options.accuracy.approach == Approach::Converged)
+        throw OptionError("ranks keep checkpoints of sweeps alone: leave out --checkpoint, or what asks for converged "
+                          "steps; smooth knows both");
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;
