@@ -314,7 +314,7 @@ class RankRun {
     {
         RankSlice slice;
         slice.vertices = slice_vertices_;
-        collect_positions(talk, part, slice);
+        collect_positions(talk, part.vertex_numbers, part.mesh.vertices, slice);
         bring_back(talk, seams_, slice);
         return std::move(slice.vertices);
     }

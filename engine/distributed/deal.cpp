@@ -204,14 +204,15 @@ MeshPart deal(Conversation& talk, const RankSlice& slice)
     return part;
 }
 
-void collect_positions(Conversation& talk, const MeshPart& part, RankSlice& slice)
+void collect_positions(Conversation& talk, std::span<const std::int64_t> numbers, const Points& positions,
+                       RankSlice& slice)
 {
     const SliceBounds bounds = gather_bounds(talk, slice);
     std::vector<Packer> to_each(talk.size());
-    for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
-        Packer& packer = to_each[stretch_of(bounds.vertices, part.vertex_numbers[v])];
-        packer.put(part.vertex_numbers[v]);
-        packer.put_row(part.mesh.vertices.row(static_cast<Eigen::Index>(v)).data());
+    for (std::size_t v = 0; v < numbers.size(); ++v) {
+        Packer& packer = to_each[stretch_of(bounds.vertices, numbers[v])];
+        packer.put(numbers[v]);
+        packer.put_row(positions.row(static_cast<Eigen::Index>(v)).data());
     }
     std::vector<Bytes> bytes;
     for (Packer& packer : to_each)

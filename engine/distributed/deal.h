@@ -54,8 +54,11 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
 MeshPart deal(Conversation& talk, const RankSlice& slice);
 
 /// Puts the positions of all parts into the stretches of vertices to which they belong. All ranks call this together.
-/// @param part as it was dealt; positions of a vertex that several ranks have are the same.
+/// @param numbers of the vertices of a part, as it was dealt. @param positions correspond; those of a vertex that
+/// several
+///        ranks have are the same.
 /// @param slice as it was dealt out: vertices without faces keep their positions.
-void collect_positions(Conversation& talk, const MeshPart& part, RankSlice& slice);
+void collect_positions(Conversation& talk, std::span<const std::int64_t> numbers, const Points& positions,
+                       RankSlice& slice);
 
 }  // namespace seamflow

@@ -102,7 +102,7 @@ void in_step(int step, Body&& body)
 /// A distributed flow on one rank.
 class RankFlow {
   public:
-    RankFlow(Conversation& talk, const MeshPart& part, const FlowOptions& options, const RankObserver& on_step,
+    RankFlow(Conversation& talk, MeshPart& part, const FlowOptions& options, const RankObserver& on_step,
              const RankFlowState* resume)
         : talk_(talk)
         , part_(part)
@@ -144,7 +144,6 @@ class RankFlow {
             report.before = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
         }
         report.setup_seconds = watch.seconds();
-        std::optional<MeshPart> shown = on_step_ ? std::optional(part_) : std::nullopt;
         if (resume_ != nullptr)
             restore(mesh, *stepper);
         if (meter_ && resume_ != nullptr)
@@ -154,11 +153,8 @@ class RankFlow {
         for (int step = resume_ != nullptr ? resume_->step + 1 : 1; step <= options_.steps; ++step) {
             report.steps.push_back(take_step(step, mesh, limit, *stepper));
             report.after = report.steps.back().measures;
-            if (!shown)
-                continue;
-            shown->mesh.vertices = positions_of_part(mesh, offset);
-            on_step_({step, report.steps.back(), *shown, talk_,
-                      [&](const Points& vertices) { return capture(mesh, step, vertices); }});
+            if (on_step_)
+                show(step, report.steps.back(), mesh, offset);
         }
         describe_convergence(*stepper, report);
         return positions_of_part(mesh, offset);
@@ -187,14 +183,27 @@ class RankFlow {
         mesh.part.mesh.vertices = memory.positions;
     }
 
+    /// Shows the part as it is now. What it was before the first step comes back, whatever the observer throws.
+    void show(int step, const RankStepReport& report, const RankMesh& mesh, const Point& offset)
+    {
+        Points positions = positions_of_part(mesh, offset);
+        part_.mesh.vertices.swap(positions);
+        try {
+            on_step_(
+                {step, report, part_, talk_, [&](const Points& vertices) { return capture(mesh, step, vertices); }});
+        } catch (...) {
+            part_.mesh.vertices.swap(positions);
+            throw;
+        }
+        part_.mesh.vertices.swap(positions);
+    }
+
     /// All ranks call this together.
     [[nodiscard]] RankFlowState capture(const RankMesh& mesh, int step, const Points& vertices)
     {
-        MeshPart near = part_;
-        near.mesh.vertices = positions_of_part(mesh, Point::Zero());
         RankSlice stretch;
         stretch.vertices = vertices;
-        collect_positions(talk_, near, stretch);
+        collect_positions(talk_, part_.vertex_numbers, positions_of_part(mesh, Point::Zero()), stretch);
         return {.step = step, .vertices = std::move(stretch.vertices)};
     }
 
@@ -315,7 +324,7 @@ class RankFlow {
     }
 
     Conversation& talk_;
-    const MeshPart& part_;
+    MeshPart& part_;
     FlowOptions options_;
     const RankObserver& on_step_;
     const RankFlowState* resume_;

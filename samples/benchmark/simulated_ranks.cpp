@@ -38,7 +38,7 @@ RunOnRanks run_on_ranks(const PolygonMesh& mesh, FlowOptions flow, int n)
         options.cut = {};
         RankReport report = distributed_mean_curvature_flow(communicator, part, options);
         run_together(communicator, [&](Conversation& talk) {
-            collect_positions(talk, part, slice);
+            collect_positions(talk, part.vertex_numbers, part.mesh.vertices, slice);
             Points positions = gather_positions(talk, slice.vertices);
             if (talk.rank() == 0)
                 run.positions = std::move(positions);

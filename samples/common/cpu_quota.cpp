@@ -6,6 +6,8 @@
 #include <string>
 #include <thread>
 
+#include <fmt/format.h>
+
 namespace seamflow {
 
 namespace {
@@ -40,7 +42,7 @@ std::optional<int> cpu_quota(const fs::path& root)
         const std::size_t second = line.find(':', first + 1);
         if (second == std::string::npos)
             continue;
-        const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
         const bool is_unified = controllers == ",,";
         if (!is_unified && controllers.find(",cpu,") == std::string::npos)
             continue;

@@ -66,7 +66,7 @@ TEST_CASE("positions come back to where they were read")
                 RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
                 MeshPart part = deal(talk, slice);
                 part.mesh.vertices *= 2.0;
-                collect_positions(talk, part, slice);
+                collect_positions(talk, part.vertex_numbers, part.mesh.vertices, slice);
                 PolygonMesh moved = mesh;
                 moved.vertices.topRows(mesh.n_vertices() - 1) *= 2.0;
                 CHECK(test::same_bits(slice.vertices, test::slice_of(moved, labels, talk.rank(), n).vertices));
