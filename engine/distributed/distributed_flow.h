@@ -85,7 +85,8 @@ struct RankStepState {
     /// Number of the step, from 1.
     int step = 0;
     const RankStepReport& report;
-    /// The part of this rank, as it was given, after the step.
+    /// The part of this rank that the flow was given, with the positions after the step. If the flow fails it is what
+    /// it was before the first.
     const MeshPart& part;
     /// For what observers on all ranks do together: its collective functions.
     Conversation& talk;

@@ -208,6 +208,8 @@ void hold_undefined(Conversation& talk, Laplacian laplacian, RankMesh& mesh)
     const CountedVertices held =
         count_vertices(talk, mesh, [&](Index v) { return std::ranges::binary_search(undefined, v); });
     hold(mesh.topology, undefined);
+    if (moving.n == 0)
+        mesh.remarks.push_back(remark_on_unmoving_mesh());
     if (held.n == 0)
         return;
     mesh.remarks.push_back(remark_on_undefined_vertices(held.n, held.lowest, laplacian));

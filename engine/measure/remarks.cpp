@@ -31,6 +31,12 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
         lengths ? "edges without length" : "faces without area", first);
 }
 
+std::string remark_on_unmoving_mesh()
+{
+    return "No vertex can move: each is fixed, on the boundary, or where the mesh is not manifold. A boundary that is "
+           "free would move.";
+}
+
 void remark_on_drift(const FlowOptions& options, FlowReport& report)
 {
     if (report.steps.empty() || report.steps.back().estimated_v_max.value_or(0.0) <= 1.0)

@@ -60,6 +60,8 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),
                                                        options.laplacian));
     hold(topology, undefined);
+    if (count_moving(topology) == 0 && mesh.n_faces() > 0)
+        remarks.push_back(remark_on_unmoving_mesh());
 }
 
 bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)

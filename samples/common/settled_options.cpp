@@ -118,6 +118,8 @@ std::string given_against_presets(const CLI::App& app)
 void apply_preset(const CLI::App& app, SmoothCommand& command)
 {
     const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
+    if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
+        throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");
     if (command.preset.empty() && has_amount)
         return;
     if (const std::string other = given_against_presets(app); !other.empty())

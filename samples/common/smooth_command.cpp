@@ -46,14 +46,13 @@ void add_parameters(CLI::App& app, FlowOptions& options)
 
 void add_amount(CLI::App& app, SmoothingRequest& amount)
 {
-    auto* group = app.add_option_group("Amount of smoothing", "in one of three ways");
+    auto* group = app.add_option_group("Amount of smoothing", "in one of these ways");
     add_real(*group, "--time-step", amount.time_step, positive(), "of each step, in length²");
     add_real(*group, "--time-step-edges", amount.time_step_edges, positive(),
              "of each step, in squared mean edge lengths");
     add_length(*group, "--radius", amount.radius,
                "bumps of this radius and smaller lose half their height or more over all steps; in units of length, or "
                "in % of the bounding box's diagonal");
-    group->require_option(0, 1);
 }
 
 /// "scan: what it is for (--steps 3); cad: …".
@@ -76,7 +75,11 @@ std::string describe_presets()
 void add_weld(CLI::App& app, SmoothCommand& command)
 {
     const auto parse = [](const std::string& text) -> std::optional<LengthOnMesh> {
-        return text == "never" ? std::nullopt : std::optional(parse_length(text));
+        try {
+            return text == "never" ? std::nullopt : std::optional(parse_length(text));
+        } catch (const OptionError& error) {
+            throw OptionError(std::string(error.what()) + ", nor never");
+        }
     };
     add_parsed(
         app, "--weld", command.weld, parse, "never|LENGTH",

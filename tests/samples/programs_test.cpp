@@ -47,6 +47,15 @@ TEST_CASE("unusable input ends with 3")
     CHECK_FALSE(w.has("out.obj"));
 }
 
+TEST_CASE("what an option does not take is said with all that it takes")
+{
+    const Workshop w;
+    CHECK(w.smooth("sphere.obj out.obj --radius 1% --time-step 2") == 2);
+    CHECK(w.said().find("--time-step, --time-step-edges and --radius all say how much to smooth") != std::string::npos);
+    CHECK(w.smooth("sphere.obj out.obj --weld always") == 2);
+    CHECK(w.said().find("(2%), nor never") != std::string::npos);
+}
+
 TEST_CASE("output that cannot be written ends with 5, before the work begins")
 {
     const Workshop w;

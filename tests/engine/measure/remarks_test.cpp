@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include <doctest/doctest.h>
 
@@ -30,6 +31,18 @@ TEST_CASE("a surface that collapses is remarked on, one that is smoothed is not"
     options.time_step = 1e6;
     PolygonMesh collapsed = make_quads(400);
     CHECK(speaks_of(mean_curvature_flow(collapsed, options), "has shrunk to"));
+}
+
+TEST_CASE("a mesh none of whose vertices can move is remarked on, one of which some can is not")
+{
+    FlowOptions options;
+    options.cut.subdomains = 1;
+    options.time_step = 1e-3;
+    PolygonMesh open = make_quads(400);
+    CHECK_FALSE(speaks_of(mean_curvature_flow(open, options), "No vertex can move"));
+    options.motion.fixed_vertices.resize(at(open.n_vertices()));
+    std::iota(options.motion.fixed_vertices.begin(), options.motion.fixed_vertices.end(), 0);
+    CHECK(speaks_of(mean_curvature_flow(open, options), "No vertex can move"));
 }
 
 TEST_CASE("the estimate of the last step is remarked on")
