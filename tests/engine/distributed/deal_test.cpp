@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include "partition/errors.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
 
@@ -93,4 +95,47 @@ TEST_CASE("a corner that is none of the mesh's vertices is named on all ranks")
         const std::string face = std::to_string(mesh.n_faces() / 3 + 1);
         CHECK(message.starts_with("rank 1 on this process: face " + face + " (numbered from 0) names vertex "));
     });
+}
+
+TEST_CASE("a part grows by whole layers of faces, whoever has them")
+{
+    for (const PolygonMesh& mesh : {make_triangles(400), make_mixed_polygons(300), test::bow_tie()}) {
+        MeshPart whole{.mesh = mesh, .vertex_numbers = {}, .face_numbers = {}, .labels = {}};
+        for (Index v = 0; v < mesh.n_vertices(); ++v)
+            whole.vertex_numbers.push_back(v);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            whole.face_numbers.push_back(f);
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            whole.labels.push_back(f % 7);
+        for (const int n : {1, 2, 3, 5, 8})
+            for (const Index n_together : {1, 30}) {
+                CAPTURE(n);
+                CAPTURE(n_together);
+                run_on_threads(n, [&](Communicator& communicator) {
+                    std::vector<Index> faces;
+                    for (Index f = 0; f < mesh.n_faces(); ++f)
+                        if (f / n_together % n == communicator.rank())
+                            faces.push_back(f);
+                    const MeshPart own = some_faces(whole, faces);
+                    MeshPart grown;
+                    run_together(communicator, [&](Conversation& talk) { grown = grown_by_layers(talk, own, 2); });
+                    for (int layer = 0; layer < 2; ++layer) {
+                        std::set<Index> vertices;
+                        for (const Index f : faces)
+                            vertices.insert(mesh.face(f).begin(), mesh.face(f).end());
+                        faces.clear();
+                        for (Index f = 0; f < mesh.n_faces(); ++f)
+                            if (std::ranges::any_of(mesh.face(f), [&](Index v) { return vertices.contains(v); }))
+                                faces.push_back(f);
+                    }
+                    const MeshPart expected = some_faces(whole, faces);
+                    CHECK(grown.face_numbers == expected.face_numbers);
+                    CHECK(grown.vertex_numbers == expected.vertex_numbers);
+                    CHECK(grown.labels == expected.labels);
+                    CHECK(grown.mesh.face_offsets == expected.mesh.face_offsets);
+                    CHECK(grown.mesh.face_vertices == expected.mesh.face_vertices);
+                    CHECK(test::same_bits(grown.mesh.vertices, expected.mesh.vertices));
+                });
+            }
+    }
 }
