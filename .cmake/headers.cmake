@@ -3,20 +3,20 @@
 # #include <seamflow/engine/mean_curvature_flow.h>, with an installed library or one that is built along. The test
 # consumer.headers checks that none is missing.
 set(SEAMFLOW_HEADERS
-    engine/distributed/communicator.h
-    engine/distributed/conversation.h
     engine/distributed/cut/distributed_cut.h
     engine/distributed/cut/joined_seams.h
     engine/distributed/cut/repeated_faces.h
-    engine/distributed/deal.h
     engine/distributed/distributed_flow.h
-    engine/distributed/mesh_part.h
-    engine/distributed/mpi_communicator.h
-    engine/distributed/packing.h
-    engine/distributed/shared_mesh_file.h
-    engine/distributed/slice_measures.h
-    engine/distributed/thread_communicator.h
-    engine/distributed/whole_mesh.h
+    engine/distributed/files/shared_mesh_file.h
+    engine/distributed/parts/deal.h
+    engine/distributed/parts/mesh_part.h
+    engine/distributed/parts/slice_measures.h
+    engine/distributed/parts/whole_mesh.h
+    engine/distributed/ranks/communicator.h
+    engine/distributed/ranks/conversation.h
+    engine/distributed/ranks/mpi_communicator.h
+    engine/distributed/ranks/packing.h
+    engine/distributed/ranks/thread_communicator.h
     engine/eigen.h
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/deal.h"
-#include "engine/distributed/packing.h"
+#include "engine/distributed/parts/deal.h"
 #include "engine/distributed/rank_exchange.h"
 #include "engine/distributed/rank_meter.h"
 #include "engine/distributed/rank_setup.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/packing.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
 #include "engine/setup/automatic_choices.h"

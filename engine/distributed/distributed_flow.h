@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/distributed/communicator.h"
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/mesh_part.h"
+#include "engine/distributed/parts/mesh_part.h"
+#include "engine/distributed/ranks/communicator.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "engine/options/flow_options.h"
 #include "engine/options/flow_report.h"
 #include "partition/metrics/length_statistics.h"

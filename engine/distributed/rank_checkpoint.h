@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/deal.h"
 #include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "engine/state/flow_identity.h"
 
 namespace seamflow {

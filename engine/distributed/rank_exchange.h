@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/mesh_part.h"
+#include "engine/distributed/parts/mesh_part.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/tasks/step_graph.h"
 #include "partition/decomposition/decomposition.h"

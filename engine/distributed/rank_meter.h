@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "engine/distributed/conversation.h"
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/rank_setup.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "partition/index_lists.h"
 #include "solvers/interface/interface_sums.h"
 

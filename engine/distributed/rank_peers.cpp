@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/distributed/packing.h"
+#include "engine/distributed/ranks/packing.h"
 
 namespace seamflow {
 

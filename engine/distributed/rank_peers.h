@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "solvers/interface/interface_peers.h"
 
 namespace seamflow {

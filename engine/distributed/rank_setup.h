@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/mesh_part.h"
+#include "engine/distributed/parts/mesh_part.h"
 #include "engine/distributed/rank_exchange.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/options/flow_options.h"
 #include "engine/steppers/schur_stepper.h"

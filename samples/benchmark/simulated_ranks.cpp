@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "engine/distributed/cut/distributed_cut.h"
-#include "engine/distributed/deal.h"
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/thread_communicator.h"
-#include "engine/distributed/whole_mesh.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/whole_mesh.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 
 namespace seamflow {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/distributed/shared_mesh_file.h"
+#include "engine/distributed/files/shared_mesh_file.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smooth_command.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/slice_measures.h"
+#include "engine/distributed/parts/slice_measures.h"
 #include "engine/options/flow_options.h"
 #include "samples/common/run_record.h"
 

@@ -70,9 +70,9 @@ if(EXISTS "${seamflow_DIR}/seamflow-distributed-targets.cmake")
     find_package(seamflow REQUIRED COMPONENTS distributed)
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp" [[
 #include <atomic>
-#include <seamflow/engine/distributed/mpi_communicator.h>
-#include <seamflow/engine/distributed/shared_mesh_file.h>
-#include <seamflow/engine/distributed/thread_communicator.h>
+#include <seamflow/engine/distributed/ranks/mpi_communicator.h>
+#include <seamflow/engine/distributed/files/shared_mesh_file.h>
+#include <seamflow/engine/distributed/ranks/thread_communicator.h>
 int main(int argc, char**)
 {
     std::atomic<int> n = 0;

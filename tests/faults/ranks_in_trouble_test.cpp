@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 #include "engine/mean_curvature_flow.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/faults/every_allocation.h"

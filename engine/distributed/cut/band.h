@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/deal.h"
-#include "engine/distributed/mesh_part.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/mesh_part.h"
+#include "engine/distributed/ranks/conversation.h"
 
 namespace seamflow {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "engine/distributed/corner_positions.h"
 #include "engine/distributed/cut/hilbert.h"
+#include "engine/distributed/parts/corner_positions.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"

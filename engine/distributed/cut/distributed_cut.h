@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
 #include "engine/distributed/cut/joined_seams.h"
 #include "engine/distributed/cut/repeated_faces.h"
-#include "engine/distributed/deal.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "engine/options/flow_options.h"
 
 namespace seamflow {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/deal.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {

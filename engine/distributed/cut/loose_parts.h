@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
 #include "engine/distributed/cut/band.h"
 #include "engine/distributed/cut/mending.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "partition/index_lists.h"
 
 namespace seamflow {

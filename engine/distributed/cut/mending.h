@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/deal.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
 
 namespace seamflow {
 

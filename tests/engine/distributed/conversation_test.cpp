@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/distributed/conversation.h"
-#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 #include "tests/engine/distributed/rank_checks.h"
 
 using namespace seamflow;

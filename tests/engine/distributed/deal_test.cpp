@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/distributed/deal.h"
-#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 #include "partition/errors.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"

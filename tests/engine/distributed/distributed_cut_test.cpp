@@ -11,7 +11,7 @@
 
 #include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/cut/hilbert.h"
-#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 #include "partition/cut/cut.h"
 #include "partition/repair/repair.h"
 #include "partition/vector_area.h"

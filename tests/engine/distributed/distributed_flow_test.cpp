@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/thread_communicator.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/mpi_communicator.h"
+#include "engine/distributed/ranks/mpi_communicator.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/engine/distributed/rank_checks.h"
 #include "tests/support/flows.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/distributed/deal.h"
-#include "engine/distributed/mesh_part.h"
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/mesh_part.h"
 #include "partition/index_lists.h"
 
 namespace seamflow::test {

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/distributed/conversation.h"
+#include "engine/distributed/ranks/conversation.h"
 #include "partition/errors.h"
 
 /// What holds of ranks of any kind: called by each of them.

@@ -9,10 +9,10 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/distributed/shared_mesh_file.h"
-#include "engine/distributed/slice_measures.h"
-#include "engine/distributed/thread_communicator.h"
-#include "engine/distributed/whole_mesh.h"
+#include "engine/distributed/files/shared_mesh_file.h"
+#include "engine/distributed/parts/slice_measures.h"
+#include "engine/distributed/parts/whole_mesh.h"
+#include "engine/distributed/ranks/thread_communicator.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/io/slices.h"

@@ -1,0 +1,116 @@
+#include "engine/distributed/files/shared_mesh_file.h"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/distributed/files/sliced_obj_file.h"
+#include "engine/distributed/files/sliced_ply_file.h"
+#include "engine/distributed/files/sliced_stl_file.h"
+#include "engine/distributed/parts/whole_mesh.h"
+#include "partition/errors.h"
+#include "partition/io/gzip.h"
+#include "partition/io/input_file.h"
+
+namespace seamflow {
+
+namespace {
+
+/// A file that rank 0 reads and writes alone.
+class WholeMeshFile final : public SharedMeshFile {
+  public:
+    WholeMeshFile(std::filesystem::path path, const FileSharing& sharing, Loop loop)
+        : path_(std::move(path))
+        , sharing_(sharing)
+        , loop_(std::move(loop))
+    {
+    }
+
+    RankSlice read(Conversation& talk) override
+    {
+        talk.at_first_rank([&] { file_ = read_faulty_mesh(path_, faults_, loop_); });
+        is_read_ = talk.rank() == 0;
+        return hand_out(talk, file_.mesh, sharing_.block);
+    }
+
+    void require_writable_as(const std::filesystem::path& path) const override
+    {
+        if (is_read_)
+            static_cast<void>(kind_for_writing(path, file_.kind));
+    }
+
+    std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
+                                   const Points& vertices) override
+    {
+        take_positions(talk, vertices);
+        std::vector<std::string> remarks;
+        talk.at_first_rank([&] {
+            const FileKind kind = kind_for_writing(path, file_.kind);
+            if (kind.format == file_.kind.format)
+                remarks = write_mesh_like(*file_.source, path, file_.mesh, loop_);
+            else
+                write_mesh(path, file_.mesh, kind, loop_);
+        });
+        return remarks;
+    }
+
+    void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+                        const std::vector<Index>& labels) override
+    {
+        take_positions(talk, vertices);
+        const std::vector<Index> all = talk.gather_at_first(labels);
+        talk.at_first_rank([&] { write_labelled_ply(path, file_.mesh, all, loop_); });
+    }
+
+    [[nodiscard]] const MeshFile* whole() const override { return is_read_ ? &file_ : nullptr; }
+
+  private:
+    void take_positions(Conversation& talk, const Points& vertices)
+    {
+        Points all = gather_positions(talk, vertices);
+        if (talk.rank() == 0)
+            file_.mesh.vertices = std::move(all);
+    }
+
+    std::filesystem::path path_;
+    FileSharing sharing_;
+    Loop loop_;
+    /// Of rank 0.
+    MeshFile file_;
+    bool is_read_ = false;
+};
+
+/// 0 for what is no file of that name: whoever reads it says so.
+std::uint64_t bytes_in(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const std::uintmax_t size = is_standard_stream(path) ? 0 : std::filesystem::file_size(path, error);
+    return error ? 0 : size;
+}
+
+}  // namespace
+
+std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
+                                              const FileSharing& sharing, const Loop& loop)
+{
+    std::uint64_t size = 0;
+    talk.at_first_rank([&] { size = bytes_in(path); });
+    size = talk.gather_all(std::vector<std::uint64_t>{size}).front();
+    if (size <= sharing.whole_up_to)
+        return std::make_unique<WholeMeshFile>(path, sharing, loop);
+    const auto format = format_of(path);
+    talk.at_first_rank([&] {
+        if (format == FileFormat::Off || is_gzip_name(path))
+            throw InputError(
+                fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; convert it to a "
+                            "binary .ply or an .obj file, of which every rank reads a slice",
+                            path.string(), size, sharing.whole_up_to));
+        static_cast<void>(OpenFile(path));
+    });
+    if (format == FileFormat::Obj)
+        return open_sliced_obj(path, sharing, loop);
+    return format == FileFormat::Stl ? open_sliced_stl(path, sharing) : open_sliced_ply(path, sharing);
+}
+
+}  // namespace seamflow

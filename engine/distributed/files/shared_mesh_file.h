@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/io/fault_log.h"
+#include "partition/loop.h"
+
+namespace seamflow {
+
+/// How ranks share the work on a file. What they read and write does not depend on it.
+struct FileSharing {
+    /// Rank 0 alone reads and writes files of up to so many bytes, in any format.
+    std::uint64_t whole_up_to = std::uint64_t{16} << 20;
+    /// The stretches of ranks begin at multiples of so many vertices and faces.
+    Index block = block_size;
+};
+
+/// A mesh file that ranks read together, and write again with other positions. All ranks call its functions together.
+class SharedMeshFile {
+  public:
+    SharedMeshFile() = default;
+    SharedMeshFile(const SharedMeshFile&) = delete;
+    SharedMeshFile& operator=(const SharedMeshFile&) = delete;
+    virtual ~SharedMeshFile() = default;
+
+    /// This rank's stretch, without labels.
+    /// @throws InputError as read_mesh, but for faces that read_faulty_mesh leaves out.
+    virtual RankSlice read(Conversation& talk) = 0;
+
+    /// Checks, before the long work begins, that `write` can write such a file.
+    /// @throws OptionError
+    virtual void require_writable_as(const std::filesystem::path& path) const = 0;
+
+    /// Writes the mesh: in the form of the file (see write_mesh_like) where the format of `path` is the same, else as a
+    /// plain mesh. It appears whole or not at all.
+    /// @param vertices where the vertices of this rank's stretch are now.
+    /// @returns remarks for the user, on rank 0.
+    /// @throws OutputError, InputError (see write_mesh_like).
+    virtual std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
+                                           const Points& vertices) = 0;
+
+    /// As write_labelled_ply, with the vertices as `write` takes them.
+    /// @param labels of the faces of this rank's stretch.
+    virtual void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+                                const std::vector<Index>& labels) = 0;
+
+    /// On rank 0, if it has read all of the file: the mesh, with the positions read or written last. Else null.
+    [[nodiscard]] virtual const MeshFile* whole() const { return nullptr; }
+
+    /// Which faces of the file have been left out. Of rank 0.
+    [[nodiscard]] const FaultLog& faults() const { return faults_; }
+
+  protected:
+    FaultLog faults_{.of_faces_alone = true};
+};
+
+/// @param loop runs what is done slice by slice, as long as the file is used.
+/// @throws InputError for a file that cannot be opened, or that is too large for its format.
+std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
+                                              const FileSharing& sharing = {}, const Loop& loop = run_serially);
+
+}  // namespace seamflow

@@ -1,0 +1,88 @@
+#include "engine/distributed/files/shared_writing.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/distributed/parts/stretches.h"
+#include "partition/errors.h"
+#include "partition/formats/ply_stretches.h"
+#include "partition/io/gzip.h"
+#include "partition/io/input_file.h"
+
+namespace seamflow {
+
+namespace {
+
+/// @param first_vertex, first_face_byte where what this rank writes begins, the latter behind the vertices.
+void write_labelled_stretch(const SharedOutput& output, const PolygonMesh& mesh, const std::vector<Index>& labels,
+                            const PlyCounts& counts, std::size_t first_vertex, std::size_t first_face_byte)
+{
+    constexpr Index at_once = 1 << 14;
+    constexpr std::size_t bytes_of_vertex = 3 * sizeof(double);
+    const std::string header = labelled_ply_header(counts);
+    if (first_vertex == 0)
+        output.write(header, 0);
+    for (Index begin = 0; begin < mesh.n_vertices(); begin += at_once) {
+        OutputBuffer piece;
+        write_ply_vertices(piece, mesh, begin, std::min(mesh.n_vertices(), begin + at_once));
+        output.write(piece.content(), header.size() + (first_vertex + at(begin)) * bytes_of_vertex);
+    }
+    std::size_t offset = header.size() + at(counts.vertices) * bytes_of_vertex + first_face_byte;
+    for (Index begin = 0; begin < mesh.n_faces(); begin += at_once) {
+        OutputBuffer piece;
+        write_labelled_ply_faces(piece, mesh, labels, counts.has_long_face, begin,
+                                 std::min(mesh.n_faces(), begin + at_once));
+        output.write(piece.content(), offset);
+        offset += piece.content().size();
+    }
+}
+
+}  // namespace
+
+void require_slices_of(FileFormat format, const std::filesystem::path& path)
+{
+    if (is_standard_stream(path) || is_gzip_name(path) || format_of(path) != format)
+        throw OptionError(fmt::format("{}: ranks that each have a slice of the mesh write it as a {} file, not packed; "
+                                      "convert that afterwards",
+                                      path.string(), extension_of(format)));
+}
+
+void write_together(Conversation& talk, const std::filesystem::path& path,
+                    const std::function<void(const SharedOutput&)>& write_own)
+{
+    std::optional<SharedOutput> output;
+    talk.at_first_rank([&] { output.emplace(path); });
+    const std::string temporary = output ? output->temporary().string() : std::string();
+    const auto name = talk.gather_all(std::vector<char>(temporary.begin(), temporary.end()));
+    if (!output)
+        output.emplace(path, std::string(name.begin(), name.end()));
+    write_own(*output);
+    output->finish();
+    // All of them have written.
+    static_cast<void>(talk.gather_all(std::vector<char>{}));
+    talk.at_first_rank([&] { output->commit(); });
+}
+
+void write_labelled_together(Conversation& talk, const std::filesystem::path& path, const PolygonMesh& mesh,
+                             const std::vector<Index>& labels)
+{
+    const auto vertices = gather_bounds_of(talk, mesh.n_vertices());
+    const auto faces = gather_bounds_of(talk, mesh.n_faces());
+    const auto long_faces = talk.gather_all(std::vector<char>{static_cast<char>(has_long_face(mesh) ? 1 : 0)});
+    const PlyCounts counts{static_cast<Index>(vertices.back()), static_cast<Index>(faces.back()),
+                           std::ranges::find(long_faces, 1) != long_faces.end()};
+    constexpr std::size_t bytes_of_label = 3 + sizeof(std::int32_t);
+    const std::size_t bytes = at(mesh.n_faces()) * ((counts.has_long_face ? 4 : 1) + bytes_of_label) +
+                              at(mesh.n_corners()) * sizeof(std::int32_t);
+    const auto face_bytes = gather_bounds_of(talk, static_cast<std::int64_t>(bytes));
+    write_together(talk, path, [&](const SharedOutput& output) {
+        write_labelled_stretch(output, mesh, labels, counts, static_cast<std::size_t>(vertices[talk.rank()]),
+                               static_cast<std::size_t>(face_bytes[talk.rank()]));
+    });
+}
+
+}  // namespace seamflow

@@ -1,0 +1,236 @@
+#include "engine/distributed/files/sliced_ply_file.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <xxhash.h>
+
+#include "engine/distributed/files/shared_writing.h"
+#include "engine/distributed/parts/whole_mesh.h"
+#include "partition/errors.h"
+#include "partition/formats/ply_stretches.h"
+#include "partition/formats/splicing.h"
+#include "partition/io/input_file.h"
+#include "partition/io/shared_output.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+
+/// The bytes of a file from one to another.
+struct ByteRange {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+
+    [[nodiscard]] std::string_view of(std::string_view content) const { return content.substr(begin, end - begin); }
+};
+
+/// What a rank has of n elements.
+struct Stretch {
+    Index begin = 0;
+    Index end = 0;
+
+    Stretch(Index n, const Conversation& talk, Index block)
+        : begin(static_cast<Index>(begin_of_stretch(n, talk.rank(), talk.size(), block)))
+        , end(static_cast<Index>(begin_of_stretch(n, talk.rank() + 1, talk.size(), block)))
+    {
+    }
+};
+
+/// @returns nowhere if they are not all there.
+std::size_t end_of_faces(const PlyStretches& ply, std::size_t byte, const Stretch& faces)
+{
+    try {
+        return ply.end_of_faces(byte, faces.begin, faces.end);
+    } catch (const InputError&) {
+        return nowhere;
+    }
+}
+
+/// Where the faces of this rank stand. If every rank's end where the next rank's begin, all of them do where they seem
+/// to: it is so if all are triangles. If not, one rank after another goes past its faces.
+/// @returns an end that is nowhere if that is not in the file, and the same for the begin on all ranks behind.
+ByteRange find_faces(Conversation& talk, const PlyStretches& ply, const Stretch& faces)
+{
+    ByteRange own{ply.likely_begin(faces.begin), 0};
+    own.end = end_of_faces(ply, own.begin, faces);
+    const auto likely = talk.gather_all(std::vector<ByteRange>{own});
+    const auto gap = std::ranges::adjacent_find(
+        likely, [](const ByteRange& range, const ByteRange& next) { return range.end != next.begin; });
+    if (gap == likely.end() && likely.back().end != nowhere)
+        return own;
+    std::size_t next = ply.likely_begin(0);
+    for (int r = 0; r < talk.size(); ++r) {
+        std::vector<std::size_t> end;
+        if (r == talk.rank()) {
+            own = {next, next == nowhere ? nowhere : end_of_faces(ply, next, faces)};
+            end.push_back(own.end);
+        }
+        next = talk.gather_all(end).front();
+    }
+    return own;
+}
+
+class SlicedPlyFile final : public SharedMeshFile {
+  public:
+    SlicedPlyFile(const std::filesystem::path& path, const FileSharing& sharing)
+        : file_(path)
+        , sharing_(sharing)
+    {
+    }
+
+    RankSlice read(Conversation& talk) override
+    {
+        const InputFile input(file_);
+        std::optional<PlyStretches> opened;
+        talk.look_together([&] { opened.emplace(file_.path(), input.content()); });
+        const PlyStretches& ply = *opened;
+        const Stretch vertices(ply.n_vertices(), talk, sharing_.block);
+        const Stretch faces(ply.n_faces(), talk, sharing_.block);
+        RankSlice slice;
+        talk.look_together([&] { slice.vertices = ply.vertices(vertices.begin, vertices.end); });
+        others_ = find_faces(talk, ply, faces);
+        faces_begin_ = others_.begin;
+        talk.look_together([&] {
+            if (others_.begin == nowhere)
+                return;
+            PolygonMesh mesh = ply.faces(others_.begin, faces.begin, faces.end);
+            slice.face_offsets = std::move(mesh.face_offsets);
+            slice.corners.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
+        });
+        talk.look_together([&] {
+            if (talk.rank() == talk.size() - 1)
+                ply.require_end(others_.end);
+        });
+        if (talk.rank() == 0)
+            others_.begin = static_cast<std::size_t>(end_of_vertices(ply) - ply.content().data());
+        if (talk.rank() == talk.size() - 1)
+            others_.end = ply.content().size();
+        checksum_ = checksum(ply, vertices);
+        return slice;
+    }
+
+    void require_writable_as(const std::filesystem::path& path) const override
+    {
+        require_slices_of(FileFormat::Ply, path);
+    }
+
+    std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
+                                   const Points& vertices) override
+    {
+        const InputFile input(file_);
+        const PlyStretches ply(file_.path(), input.content());
+        const Stretch own(ply.n_vertices(), talk, sharing_.block);
+        talk.look_together([&] {
+            if (checksum(ply, own) != checksum_)
+                throw InputError(changed_since_read(file_.path()));
+        });
+        const std::vector<PlyChange> changes = agree_on_changes(talk, ply, vertices);
+        std::vector<std::string> remarks;
+        bool rounded = false;
+        write_together(talk, path, [&](const SharedOutput& output) {
+            std::tie(remarks, rounded) = write_slice(talk, output, ply, own, vertices, changes);
+        });
+        const auto all_rounded = talk.gather_all(std::vector<char>{static_cast<char>(rounded ? 1 : 0)});
+        if (std::ranges::find(all_rounded, 1) != all_rounded.end())
+            remarks.push_back(rounding_remark(file_.path()));
+        return remarks;
+    }
+
+    void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+                        const std::vector<Index>& labels) override
+    {
+        const InputFile input(file_);
+        const PlyStretches ply(file_.path(), input.content());
+        const Stretch faces(ply.n_faces(), talk, sharing_.block);
+        PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end);
+        mesh.vertices = vertices;
+        write_labelled_together(talk, path, mesh, labels);
+    }
+
+  private:
+    /// So many elements are made at once, and written.
+    static constexpr Index at_once = 1 << 14;
+
+    static const char* end_of_vertices(const PlyStretches& ply)
+    {
+        const std::string_view all = ply.bytes_of_vertices(0, ply.n_vertices());
+        return all.data() + all.size();
+    }
+
+    [[nodiscard]] XXH64_hash_t checksum(const PlyStretches& ply, const Stretch& vertices) const
+    {
+        const std::string_view positions = ply.bytes_of_vertices(vertices.begin, vertices.end);
+        const std::string_view others = others_.of(ply.content());
+        return XXH3_64bits(positions.data(), positions.size()) ^
+               XXH3_64bits_withSeed(others.data(), others.size(), ply.content().size());
+    }
+
+    static std::vector<PlyChange> agree_on_changes(Conversation& talk, const PlyStretches& ply, const Points& vertices)
+    {
+        std::array<bool, 3> fits = {true, true, true};
+        for (const auto& of_rank :
+             talk.gather_all(std::vector<std::array<bool, 3>>{coordinates_fit(ply.vertex_element(), vertices)}))
+            for (std::size_t k = 0; k < fits.size(); ++k)
+                fits[k] = fits[k] && of_rank[k];
+        return changes_of_positions(ply.vertex_element(), fits);
+    }
+
+    std::pair<std::vector<std::string>, bool> write_slice(Conversation& talk, const SharedOutput& output,
+                                                          const PlyStretches& ply, const Stretch& own,
+                                                          const Points& vertices,
+                                                          const std::vector<PlyChange>& changes) const
+    {
+        OutputBuffer header;
+        std::vector<std::string> remarks =
+            rewrite_ply_header(header, ply.path(), ply.header_bytes(), ply.vertex_element(), changes);
+        header.text(ply.bytes_before_vertices());
+        if (talk.rank() == 0)
+            output.write(header.content(), 0);
+        const std::size_t vertex_bytes = bytes_of_vertex(ply, changes);
+        bool rounded = false;
+        for (Index begin = own.begin; begin < own.end; begin += at_once) {
+            const Index end = std::min(own.end, begin + at_once);
+            OutputBuffer piece;
+            rounded |=
+                rewrite_ply_vertices(piece, ply.path(), ply.content(), ply.header(), ply.bytes_of_vertices(begin, end),
+                                     vertices.middleRows(begin - own.begin, end - begin), changes);
+            output.write(piece.content(), header.content().size() + at(begin) * vertex_bytes);
+        }
+        const auto old_end = static_cast<std::size_t>(end_of_vertices(ply) - ply.content().data());
+        const std::size_t new_end = header.content().size() + at(ply.n_vertices()) * vertex_bytes;
+        output.write(others_.of(ply.content()), new_end + (others_.begin - old_end));
+        return {std::move(remarks), rounded};
+    }
+
+    static std::size_t bytes_of_vertex(const PlyStretches& ply, const std::vector<PlyChange>& changes)
+    {
+        std::size_t n = 0;
+        for (std::size_t p = 0; p < changes.size(); ++p)
+            n += size_in_bytes(changes[p].column < 0 ? ply.vertex_element().properties[p].type : changes[p].type);
+        return n;
+    }
+
+    OpenFile file_;
+    FileSharing sharing_;
+    /// The bytes behind the vertices that this rank copies, and what it has read.
+    ByteRange others_;
+    std::size_t faces_begin_ = 0;
+    XXH64_hash_t checksum_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SharedMeshFile> open_sliced_ply(const std::filesystem::path& path, const FileSharing& sharing)
+{
+    return std::make_unique<SlicedPlyFile>(path, sharing);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+/// The positions of the corners of a stretch of faces.
+class CornerPositions {
+  public:
+    /// All ranks call this together.
+    /// @param slice must outlive this.
+    CornerPositions(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds);
+
+    /// @param corner of the stretch, as numbered in the whole mesh.
+    [[nodiscard]] Point operator[](std::int64_t corner) const
+    {
+        if (is_own(corner))
+            return slice_.vertices.row(corner - first_);
+        return positions_.row(std::ranges::lower_bound(others_, corner) - others_.begin());
+    }
+
+  private:
+    [[nodiscard]] bool is_own(std::int64_t corner) const { return corner >= first_ && corner < end_; }
+
+    const RankSlice& slice_;
+    std::int64_t first_;
+    std::int64_t end_;
+    /// Ascending, those of other stretches.
+    std::vector<std::int64_t> others_;
+    Points positions_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,127 @@
+#include "engine/distributed/parts/joined_points.h"
+
+#include <cstddef>
+#include <utility>
+
+#include <xxhash.h>
+
+#include "engine/distributed/parts/stretches.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Where a point has been asked for first.
+struct FirstQuestion {
+    /// Who has asked, and whom: the point's home.
+    int rank = 0;
+    int home = 0;
+    /// The number of the question among those from the one to the other.
+    Index number = 0;
+};
+
+/// The same for both zeros.
+std::size_t home_of_point(PointNumbers::Place point, int n_ranks)
+{
+    for (double& x : point)
+        x += 0.0;
+    return static_cast<std::size_t>(XXH3_64bits(point.data(), sizeof point) % static_cast<std::uint64_t>(n_ranks));
+}
+
+/// The answers to questions: those to a rank in the order in which it has asked.
+template <class Question, class Answer, class Find>
+std::vector<std::vector<Answer>> ask(Conversation& talk, const std::vector<std::vector<Question>>& questions,
+                                     Find&& find)
+{
+    std::vector<Bytes> to_each;
+    for (const auto& list : questions)
+        to_each.push_back(packed(list));
+    std::vector<Bytes> replies;
+    int from = 0;
+    for (const Bytes& bytes : talk.exchange(std::move(to_each))) {
+        std::vector<Answer> answers;
+        for (const Question& question : unpacked<Question>(bytes))
+            answers.push_back(find(from, static_cast<Index>(answers.size()), question));
+        replies.push_back(packed(answers));
+        ++from;
+    }
+    std::vector<std::vector<Answer>> answers;
+    for (const Bytes& bytes : talk.exchange(std::move(replies)))
+        answers.push_back(unpacked<Answer>(bytes));
+    return answers;
+}
+
+/// The points of this rank by their homes.
+struct PointsByHome {
+    std::vector<std::vector<PointNumbers::Place>> points;
+    /// Their numbers on this rank.
+    std::vector<std::vector<Index>> numbers;
+
+    PointsByHome(const std::vector<PointNumbers::Place>& own, int n_ranks)
+        : points(static_cast<std::size_t>(n_ranks))
+        , numbers(static_cast<std::size_t>(n_ranks))
+    {
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const std::size_t home = home_of_point(own[i], n_ranks);
+            points[home].push_back(own[i]);
+            numbers[home].push_back(static_cast<Index>(i));
+        }
+    }
+};
+
+/// Of each point, by its home, the first question for it, which the lowest rank that has it has asked.
+std::vector<std::vector<FirstQuestion>> find_firsts(Conversation& talk, const PointsByHome& own)
+{
+    PointNumbers known;
+    std::vector<FirstQuestion> firsts;
+    return ask<PointNumbers::Place, FirstQuestion>(talk, own.points,
+                                                   [&](int from, Index i, const PointNumbers::Place& point) {
+                                                       const auto number = static_cast<std::size_t>(known(point));
+                                                       if (number == firsts.size())
+                                                           firsts.push_back({from, talk.rank(), i});
+                                                       return firsts[number];
+                                                   });
+}
+
+}  // namespace
+
+JoinedPoints join_points(Conversation& talk, const std::vector<PointNumbers::Place>& own)
+{
+    const PointsByHome by_home(own, talk.size());
+    std::vector<FirstQuestion> first_of(own.size());
+    const auto found = find_firsts(talk, by_home);
+    for (std::size_t home = 0; home < found.size(); ++home)
+        for (std::size_t k = 0; k < found[home].size(); ++k)
+            first_of[by_home.numbers[home][k]] = found[home][k];
+
+    JoinedPoints joined;
+    joined.numbers.resize(own.size());
+    std::vector<std::vector<FirstQuestion>> of_others(static_cast<std::size_t>(talk.size()));
+    std::vector<double> firsts;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (first_of[i].rank != talk.rank()) {
+            of_others[first_of[i].rank].push_back(first_of[i]);
+            continue;
+        }
+        joined.numbers[i] = static_cast<std::int64_t>(firsts.size() / 3);
+        firsts.insert(firsts.end(), own[i].begin(), own[i].end());
+    }
+    const auto n_firsts = static_cast<Index>(firsts.size() / 3);
+    joined.firsts = Eigen::Map<const Points>(firsts.data(), n_firsts, 3);
+    const std::int64_t before = gather_bounds_of(talk, n_firsts)[talk.rank()];
+    const auto numbers =
+        ask<FirstQuestion, std::int64_t>(talk, of_others, [&](int, Index, const FirstQuestion& question) {
+            return before + joined.numbers[by_home.numbers[question.home][question.number]];
+        });
+    std::vector<std::size_t> next(numbers.size(), 0);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const auto rank = static_cast<std::size_t>(first_of[i].rank);
+        if (first_of[i].rank == talk.rank())
+            joined.numbers[i] += before;
+        else
+            joined.numbers[i] = numbers[rank][next[rank]++];
+    }
+    return joined;
+}
+
+}  // namespace seamflow

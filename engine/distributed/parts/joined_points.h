@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/point_numbers.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The points of all ranks, equal ones made one.
+struct JoinedPoints {
+    /// Those of this rank that no rank before it has, in their order.
+    Points firsts;
+    /// The number of each point of this rank among those of all: they are in the order in which they first come, rank
+    /// by rank.
+    std::vector<std::int64_t> numbers;
+};
+
+/// Finds equal points (see PointNumbers) of several ranks. Each point is looked for on one rank, which its hash tells,
+/// so that none has all of them. All ranks call this together.
+/// @param own of this rank, all different.
+JoinedPoints join_points(Conversation& talk, const std::vector<PointNumbers::Place>& own);
+
+}  // namespace seamflow

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The part of a mesh that a rank knows. In a whole mesh vertices, faces and sub-meshes have numbers that all ranks
+/// agree on; the part has its own ones, in the same order.
+struct MeshPart {
+    PolygonMesh mesh;
+    /// #V and #F, ascending: the numbers in the whole mesh.
+    std::vector<std::int64_t> vertex_numbers;
+    std::vector<std::int64_t> face_numbers;
+    /// #F: the sub-mesh of every face, numbered in the whole mesh, at least 0. All faces of a sub-mesh belong to one
+    /// rank.
+    std::vector<Index> labels;
+    /// #V: 1 where a vertex stays where it is, as MotionOptions::fixed_vertices do. Empty: nowhere.
+    std::vector<std::uint8_t> fixed = {};
+    /// #V: weights of the attachment, as MotionOptions::attachment_weights. Empty on all ranks: there are none.
+    std::vector<double> attachment_weights = {};
+};
+
+/// Checks that the arrays fit together and that numbers ascend.
+/// @throws InputError naming the first vertex or face (in the whole mesh, where it has a number) at which they do not.
+void require_valid(const MeshPart& part);
+
+/// Some faces of a part and their vertices, in the order of the part.
+/// @param faces as indices into the part, ascending.
+MeshPart some_faces(const MeshPart& part, std::span<const Index> faces);
+
+/// The part with faces that other ranks have around it, as many layers of them: a layer is all faces around the
+/// vertices of those that are there. All ranks call this together.
+/// @param own the faces that are the rank's own: every face of the mesh is that of one rank.
+MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers);
+
+}  // namespace seamflow

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/metrics/length_statistics.h"
+
+/// What is measured of a mesh that no rank has as a whole. The bits are those of one machine, for any number of ranks
+/// whose stretches begin at multiples of block_size. All ranks call these functions together.
+namespace seamflow {
+
+/// The sizes of a mesh by which sub-meshes and time steps are measured, as MeshSize and extent_of have them.
+struct SharedMeshSize {
+    std::int64_t vertices = 0;
+    std::int64_t faces = 0;
+    /// Of all faces, length².
+    double area = 0.0;
+    /// Average length of the edges, those between two faces counting twice.
+    double mean_edge = 0.0;
+    /// Of the bounding box of all vertices.
+    double diagonal = 0.0;
+};
+
+/// @throws InputError naming the face with a corner that is none of the mesh's vertices.
+SharedMeshSize measure(Conversation& talk, const RankSlice& slice);
+
+/// How far vertices have moved.
+/// @param before, after of this rank's stretch.
+LengthStatistics measure_moves(Conversation& talk, const Points& before, const Points& after);
+
+}  // namespace seamflow

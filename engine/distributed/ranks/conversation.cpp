@@ -1,0 +1,326 @@
+#include "engine/distributed/ranks/conversation.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+
+namespace seamflow {
+
+namespace {
+
+enum Tag : int { CollectiveTag, ArrivalTag, EndTag };
+
+/// Another rank has failed.
+class Interruption : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Until it is looked at what else has happened.
+constexpr std::chrono::milliseconds patience_of_wait{100};
+
+using Kind = WorkOutcome::Kind;
+
+template <class Work>
+WorkOutcome outcome_of(Work&& work)
+{
+    try {
+        work();
+        return {};
+    } catch (const Interruption& error) {
+        return {Kind::Interrupted, error.what()};
+    } catch (const InputError& error) {
+        return {Kind::InputError, error.what()};
+    } catch (const OptionError& error) {
+        return {Kind::OptionError, error.what()};
+    } catch (const ComputationError& error) {
+        return {Kind::ComputationError, error.what()};
+    } catch (const OutputError& error) {
+        return {Kind::OutputError, error.what()};
+    } catch (const Cancelled& error) {
+        return {Kind::Cancelled, error.what()};
+    } catch (const std::bad_alloc&) {
+        return {Kind::OutOfMemory};
+    } catch (const std::exception& error) {
+        return {Kind::Failure, error.what()};
+    } catch (...) {
+        return {Kind::Failure, "failed for an unknown reason"};
+    }
+}
+
+[[noreturn]] void throw_as(Kind kind, const std::string& message)
+{
+    switch (kind) {
+    case Kind::InputError:
+        throw InputError(message);
+    case Kind::OptionError:
+        throw OptionError(message);
+    case Kind::OutputError:
+        throw OutputError(message);
+    case Kind::Cancelled:
+        throw Cancelled(message);
+    case Kind::OutOfMemory:
+        throw std::bad_alloc();
+    default:
+        throw ComputationError(message);
+    }
+}
+
+/// @param outcomes of all ranks.
+void require_success(const std::vector<WorkOutcome>& outcomes)
+{
+    const auto has_failed = [](const WorkOutcome& outcome) {
+        return outcome.kind != Kind::Done && outcome.kind != Kind::Interrupted;
+    };
+    const auto first = std::ranges::find_if(outcomes, has_failed);
+    if (first == outcomes.end())
+        return;
+    const bool alike = first->is_agreed || std::ranges::all_of(outcomes, [&](const WorkOutcome& outcome) {
+                           return outcome.kind == first->kind && outcome.message == first->message;
+                       });
+    if (first->kind == Kind::OutOfMemory)
+        throw ComputationError(
+            fmt::format("rank {} on {}: there is not enough memory: use more ranks, on more machines",
+                        first - outcomes.begin(), first->host));
+    throw_as(first->kind,
+             alike ? first->message
+                   : fmt::format("rank {} on {}: {}", first - outcomes.begin(), first->host, first->message));
+}
+
+Bytes packed_outcome(const WorkOutcome& outcome)
+{
+    Packer packer;
+    packer.put(outcome.kind);
+    packer.put_all(std::span<const char>(outcome.message));
+    packer.put_all(std::span<const char>(outcome.host));
+    packer.put(outcome.is_agreed);
+    return packer.take();
+}
+
+std::string text_from(Unpacker& unpacker)
+{
+    const auto letters = unpacker.get_all<char>();
+    return {letters.begin(), letters.end()};
+}
+
+WorkOutcome unpacked_outcome(const Bytes& bytes)
+{
+    Unpacker unpacker(bytes);
+    WorkOutcome outcome;
+    outcome.kind = unpacker.get<Kind>();
+    outcome.message = text_from(unpacker);
+    outcome.host = text_from(unpacker);
+    outcome.is_agreed = unpacker.get<bool>();
+    return outcome;
+}
+
+}  // namespace
+
+Conversation::Conversation(Communicator& communicator)
+    : communicator_(&communicator)
+    , collective_(communicator.size())
+    , ended_(communicator.size())
+{
+}
+
+void Conversation::send(int to, int tag, Bytes bytes)
+{
+    ++n_messages_;
+    n_bytes_ += bytes.size();
+    communicator_->send(to, tag, std::move(bytes));
+}
+
+void Conversation::send(int to, Bytes bytes)
+{
+    send(to, ArrivalTag, std::move(bytes));
+}
+
+/// Waits for the next message and puts it where it belongs.
+/// @returns whether there was one.
+bool Conversation::take_in(std::chrono::microseconds patience)
+{
+    std::optional<Message> message = communicator_->receive(patience);
+    if (!message)
+        return false;
+    sort_in(std::move(*message));
+    return true;
+}
+
+void Conversation::sort_in(Message message)
+{
+    switch (message.tag) {
+    case CollectiveTag:
+        collective_[message.from].push_back(std::move(message.bytes));
+        break;
+    case ArrivalTag:
+        arrivals_.push_back(std::move(message));
+        break;
+    default:
+        ended_[message.from] = unpacked_outcome(message.bytes);
+    }
+}
+
+void Conversation::require_all_well() const
+{
+    for (const auto& outcome : ended_)
+        if (outcome && outcome->kind != Kind::Done)
+            throw Interruption(outcome->message);
+}
+
+/// Waits for what another rank sends in a collective function.
+Bytes Conversation::next_collective(int from)
+{
+    while (collective_[from].empty()) {
+        require_all_well();
+        if (ended_[from])
+            throw std::logic_error(fmt::format("rank {} has ended before its time", from));
+        take_in(patience_of_wait);
+    }
+    Bytes bytes = std::move(collective_[from].front());
+    collective_[from].pop_front();
+    return bytes;
+}
+
+std::vector<Bytes> Conversation::exchange(std::vector<Bytes> to_each)
+{
+    for (int r = 0; r < size(); ++r)
+        if (r != rank())
+            send(r, CollectiveTag, std::move(to_each[r]));
+    std::vector<Bytes> from_each(size());
+    from_each[rank()] = std::move(to_each[rank()]);
+    for (int r = 0; r < size(); ++r)
+        if (r != rank())
+            from_each[r] = next_collective(r);
+    return from_each;
+}
+
+std::vector<Bytes> Conversation::exchange_with(std::span<const int> others, std::vector<Bytes> to_each)
+{
+    for (std::size_t i = 0; i < others.size(); ++i)
+        send(others[i], CollectiveTag, std::move(to_each[i]));
+    std::vector<Bytes> from_each;
+    for (const int other : others)
+        from_each.push_back(next_collective(other));
+    return from_each;
+}
+
+std::vector<Bytes> Conversation::gather_to_all(Bytes own)
+{
+    // Every rank passes on what it knows: of itself and of the ranks before it, in each round of twice as many.
+    std::vector<Bytes> known{std::move(own)};
+    const auto after = [&](int n) { return (rank() + n) % size(); };
+    for (int n = 1; n < size(); n *= 2) {
+        const int n_passed = std::min(n, size() - n);
+        Packer packer;
+        for (int i = 0; i < n_passed; ++i)
+            packer.put_all(std::span<const std::byte>(known[i]));
+        send(after(n), CollectiveTag, packer.take());
+        const Bytes received = next_collective(after(size() - n));
+        Unpacker unpacker(received);
+        for (int i = 0; i < n_passed; ++i)
+            known.push_back(unpacker.get_all<std::byte>());
+    }
+    std::vector<Bytes> of_ranks(size());
+    for (int i = 0; i < size(); ++i)
+        of_ranks[after(size() - i)] = std::move(known[i]);
+    return of_ranks;
+}
+
+std::vector<Bytes> Conversation::bytes_at_first(Bytes own)
+{
+    if (rank() != 0) {
+        send(0, CollectiveTag, std::move(own));
+        return {};
+    }
+    std::vector<Bytes> of_ranks{std::move(own)};
+    for (int r = 1; r < size(); ++r)
+        of_ranks.push_back(next_collective(r));
+    return of_ranks;
+}
+
+/// If any rank has failed, all throw what the lowest of them has said.
+void Conversation::agree_on(const WorkOutcome& own)
+{
+    for (const Bytes& bytes : gather_to_all(own.kind == Kind::Done ? Bytes() : packed_outcome(own))) {
+        if (bytes.empty())
+            continue;
+        // Others may learn that this rank has ended before they learn of this.
+        has_agreed_ = true;
+        const WorkOutcome outcome = unpacked_outcome(bytes);
+        throw_as(outcome.kind, outcome.message);
+    }
+}
+
+void Conversation::at_first_rank(const std::function<void()>& action)
+{
+    agree_on(rank() == 0 ? outcome_of(action) : WorkOutcome{});
+}
+
+void Conversation::look_together(const std::function<void()>& look)
+{
+    WorkOutcome own;
+    try {
+        look();
+    } catch (const InputError& error) {
+        own = {Kind::InputError, error.what()};
+    } catch (const OptionError& error) {
+        own = {Kind::OptionError, error.what()};
+    }
+    agree_on(own);
+}
+
+std::optional<Message> Conversation::next_arrival(std::chrono::microseconds patience)
+{
+    if (arrivals_.empty())
+        take_in(patience);
+    require_all_well();
+    if (arrivals_.empty())
+        return std::nullopt;
+    Message message = std::move(arrivals_.front());
+    arrivals_.pop_front();
+    return message;
+}
+
+/// What is still on the way from a rank arrives before its end, and is forgotten. What arrives after it belongs to the
+/// next work, which others may have begun.
+std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
+{
+    for (int r = 0; r < size(); ++r)
+        if (r != rank())
+            insist([&] { communicator_->send(r, EndTag, packed_outcome(own)); });
+    insist([&] { ended_[rank()] = own; });
+    std::vector<Message> of_next_work;
+    while (!std::ranges::all_of(ended_, [](const auto& outcome) { return outcome.has_value(); })) {
+        std::optional<Message> message;
+        insist([&] { message = communicator_->receive(patience_of_wait); });
+        if (message && ended_[message->from])
+            insist([&] { of_next_work.push_back(std::move(*message)); });
+        else if (message && message->tag == EndTag)
+            insist([&] { ended_[message->from] = unpacked_outcome(message->bytes); });
+    }
+    insist([&] { communicator_->put_back(of_next_work); });
+    std::vector<WorkOutcome> outcomes;
+    insist([&] {
+        outcomes.clear();
+        for (const auto& outcome : ended_)
+            outcomes.push_back(*outcome);
+    });
+    return outcomes;
+}
+
+void run_work_together(Communicator& communicator, const std::function<void(Conversation&)>& work)
+{
+    std::optional<Conversation> conversation;
+    insist([&] { conversation.emplace(communicator); });
+    WorkOutcome own = outcome_of([&] { work(*conversation); });
+    insist([&] { own.host = communicator.host(); });
+    own.is_agreed = conversation->has_agreed_ && own.kind != Kind::OutOfMemory;
+    require_success(conversation->part(own));
+}
+
+}  // namespace seamflow
