@@ -1,16 +1,14 @@
 #include "engine/distributed/cut/chunk_cut.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "engine/distributed/cut/cluster_division.h"
+#include "engine/distributed/parts/stretches.h"
 #include "engine/tasks/parallel_loop.h"
-#include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
-#include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
-#include "partition/cut/refine.h"
 #include "partition/cut/seams.h"
 #include "partition/labels.h"
 #include "partition/repair/pinches.h"
@@ -26,10 +24,7 @@ struct Clusters {
     std::vector<FaceClusters> of_chunk;
     /// One entry per chunk of this rank: the number of its first cluster.
     std::vector<Index> first;
-    /// One entry per cluster of this rank.
-    std::vector<std::int64_t> weights;
-    /// One entry per rank: how many it has.
-    std::vector<Index> counts;
+    ClusterShare share;
 };
 
 Clusters grow_in_chunks(Conversation& talk, const std::vector<Chunk>& chunks, Index weight)
@@ -43,11 +38,12 @@ Clusters grow_in_chunks(Conversation& talk, const std::vector<Chunk>& chunks, In
             std::int64_t total = 0;
             for (const Index f : grown.faces[cluster])
                 total += face_weight(mesh, f);
-            clusters.weights.push_back(total);
+            clusters.share.weights.push_back(total);
         }
+        clusters.share.of_chunk.push_back(grown.size());
     }
-    clusters.counts = talk.gather_all(std::vector<Index>{static_cast<Index>(clusters.weights.size())});
-    Index next = std::accumulate(clusters.counts.begin(), clusters.counts.begin() + talk.rank(), Index{0});
+    clusters.share.bounds = gather_bounds_of(talk, std::ssize(clusters.share.weights));
+    auto next = static_cast<Index>(clusters.share.bounds[talk.rank()]);
     for (const FaceClusters& grown : clusters.of_chunk) {
         clusters.first.push_back(next);
         next += grown.size();
@@ -135,43 +131,6 @@ std::vector<ClusterContact> contacts_across(Conversation& talk, const SliceBound
     return contacts;
 }
 
-/// What rank 0 makes of the graph.
-struct DividedGraph {
-    /// One entry per cluster.
-    std::vector<Index> labels;
-    /// One entry per label.
-    std::vector<std::int64_t> weights;
-    Index n_components = 0;
-};
-
-DividedGraph divide_graph(const std::vector<std::int64_t>& weights, const std::vector<ClusterContact>& contacts,
-                          Index k)
-{
-    DividedGraph divided;
-    const FaceGraph graph = make_face_graph(weights, contacts);
-    const Components components = graph_components(graph);
-    divided.n_components = components.count();
-    divided.labels = divide(graph, components, k, Afterwards::Refined);
-    refine(graph, *std::ranges::max_element(divided.labels) + 1, divided.labels);
-    divided.weights.resize(compact_labels(divided.labels));
-    for (std::size_t cluster = 0; cluster < weights.size(); ++cluster)
-        divided.weights[divided.labels[cluster]] += weights[cluster];
-    return divided;
-}
-
-/// Gives every rank the labels of its clusters.
-/// @param labels of all, at rank 0.
-std::vector<Index> deal_labels(Conversation& talk, const Clusters& clusters, std::span<const Index> labels)
-{
-    std::vector<Bytes> to_each(talk.size());
-    for (std::size_t rank = 0; rank < to_each.size() && talk.rank() == 0; ++rank) {
-        const auto own = labels.first(at(clusters.counts[rank]));
-        to_each[rank] = packed(std::vector<Index>(own.begin(), own.end()));
-        labels = labels.subspan(own.size());
-    }
-    return unpacked<Index>(talk.exchange(std::move(to_each)).front());
-}
-
 /// @returns the parts of which faces have moved.
 std::vector<Index> shorten_within(Chunk& chunk, const std::vector<std::int64_t>& weights)
 {
@@ -193,22 +152,18 @@ std::vector<Index> shorten_within(Chunk& chunk, const std::vector<std::int64_t>&
 }  // namespace
 
 ChunkCut cut_chunks(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks, double total_weight,
-                    Index k)
+                    Index k, Index chunks_of_block)
 {
     const Index weight = cluster_weight(total_weight, k);
-    const Clusters clusters = grow_in_chunks(talk, chunks, weight);
-    auto contacts = talk.gather_at_first(contacts_within(chunks, clusters));
-    const auto across = talk.gather_at_first(contacts_across(talk, bounds, chunks, clusters));
-    contacts.insert(contacts.end(), across.begin(), across.end());
-    const auto weights = talk.gather_at_first(clusters.weights);
-    DividedGraph divided;
-    if (talk.rank() == 0)
-        divided = divide_graph(weights, contacts, k);
-    const std::vector<Index> labels = deal_labels(talk, clusters, divided.labels);
-    const std::vector<std::int64_t> part_weights = talk.tell_all(divided.weights);
-    ChunkCut cut{.n_parts = static_cast<Index>(part_weights.size()),
-                 .n_components = talk.tell_all(std::vector<Index>{divided.n_components}).front()};
-    auto of_clusters = std::span(labels);
+    Clusters clusters = grow_in_chunks(talk, chunks, weight);
+    clusters.share.contacts = contacts_within(chunks, clusters);
+    const auto across = contacts_across(talk, bounds, chunks, clusters);
+    clusters.share.contacts.insert(clusters.share.contacts.end(), across.begin(), across.end());
+    const DividedClusters divided = divide_together(talk, clusters.share, k, chunks_of_block);
+    ChunkCut cut{.n_parts = static_cast<Index>(divided.weights.size()),
+                 .n_components = divided.n_components,
+                 .suspects = divided.loose_parts};
+    auto of_clusters = std::span(divided.labels);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         std::vector<Index>& of_faces = chunks[i].part.labels;
         for (std::size_t f = 0; f < of_faces.size(); ++f)
@@ -216,7 +171,7 @@ ChunkCut cut_chunks(Conversation& talk, const SliceBounds& bounds, std::vector<C
         of_clusters = of_clusters.subspan(at(clusters.of_chunk[i].size()));
         if (weight == 1)
             continue;
-        const std::vector<Index> divided_parts = shorten_within(chunks[i], part_weights);
+        const std::vector<Index> divided_parts = shorten_within(chunks[i], divided.weights);
         cut.suspects.insert(cut.suspects.end(), divided_parts.begin(), divided_parts.end());
     }
     cut.suspects = talk.gather_all(cut.suspects);

@@ -86,13 +86,13 @@ void add_boundary(const MeshPart& part, const Topology& topology, std::span<cons
 class TogetherCut {
   public:
     /// @param given the labels of the stretch; empty: the options say how to cut.
-    TogetherCut(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk,
+    TogetherCut(Conversation& talk, RankSlice& slice, const FlowOptions& options, const CutUnits& units,
                 std::optional<std::vector<Index>> given)
         : talk_(talk)
         , slice_(slice)
         , bounds_(gather_bounds(talk, slice))
         , options_(options)
-        , chunk_(chunk)
+        , units_(units)
         , given_(std::move(given))
         , may_join_(options.motion.weld.has_value())
     {
@@ -104,7 +104,7 @@ class TogetherCut {
         std::optional<DistributedCut> cut;
         // Again where seams were joined, or faces had to be left out.
         while (!cut && bounds_.faces.back() > 0)
-            cut = bounds_.faces.back() <= chunk_ ? by_one_rank() : by_all_ranks();
+            cut = bounds_.faces.back() <= units_.faces_of_chunk ? by_one_rank() : by_all_ranks();
         if (!cut)
             cut.emplace();
         if (!seams_.remark.empty())
@@ -183,7 +183,7 @@ class TogetherCut {
     /// @returns nothing where seams were joined, or faces had to be left out.
     std::optional<DistributedCut> by_all_ranks()
     {
-        label_chunks(talk_, slice_, bounds_, chunk_);
+        label_chunks(talk_, slice_, bounds_, units_.faces_of_chunk);
         std::vector<Chunk> chunks = deal_chunks(talk_, slice_, bounds_);
         if (std::vector<Number> boundary; std::exchange(may_join_, false)) {
             for (const Chunk& chunk : chunks)
@@ -212,7 +212,8 @@ class TogetherCut {
                 return uncut(std::move(found));
             const double weight = static_cast<double>(sum_of(talk_, std::ssize(slice_.corners))) -
                                   2.0 * static_cast<double>(bounds_.faces.back());
-            ChunkCut cut = cut_chunks(talk_, bounds_, chunks, weight, sensible_parts(bounds_.faces.back(), k));
+            ChunkCut cut = cut_chunks(talk_, bounds_, chunks, weight, sensible_parts(bounds_.faces.back(), k),
+                                      units_.chunks_of_block);
             n_parts = cut.n_parts;
             n_components = cut.n_components;
             defects.parts = std::move(cut.suspects);
@@ -300,7 +301,7 @@ class TogetherCut {
     RankSlice& slice_;
     SliceBounds bounds_;
     const FlowOptions& options_;
-    Index chunk_;
+    const CutUnits& units_;
     std::optional<std::vector<Index>> given_;
     bool may_join_;
     bool may_repeat_ = true;
@@ -308,25 +309,26 @@ class TogetherCut {
     RepeatedFaces left_out_;
 };
 
-DistributedCut run(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk,
+DistributedCut run(Conversation& talk, RankSlice& slice, const FlowOptions& options, const CutUnits& units,
                    std::optional<std::vector<Index>> given)
 {
     DistributedCut cut;
     Workers workers(options.resources.threads);
-    workers.execute([&] { cut = TogetherCut(talk, slice, options, chunk, std::move(given)).run(); });
+    workers.execute([&] { cut = TogetherCut(talk, slice, options, units, std::move(given)).run(); });
     return cut;
 }
 
 }  // namespace
 
-DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk)
+DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options, const CutUnits& units)
 {
-    return run(talk, slice, options, chunk, {});
+    return run(talk, slice, options, units, {});
 }
 
-DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options, Index chunk)
+DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options,
+                                      const CutUnits& units)
 {
-    return run(talk, slice, options, chunk, std::exchange(slice.labels, {}));
+    return run(talk, slice, options, units, std::exchange(slice.labels, {}));
 }
 
 }  // namespace seamflow

@@ -12,8 +12,14 @@
 
 namespace seamflow {
 
-/// Ranks look at so many faces at once when they cut a mesh, about.
-inline constexpr Index faces_of_chunk = 1 << 18;
+/// How a mesh is taken apart to be cut. It decides the cut, together with the mesh and the options.
+struct CutUnits {
+    /// A rank looks at so many faces at once, about; at least 1.
+    Index faces_of_chunk = 1 << 18;
+    /// METIS divides the clusters of so many chunks at once, at most; at least 1. So many of the size above are a mesh
+    /// of 10⁸ vertices.
+    Index chunks_of_block = 768;
+};
 
 /// What became of a cut of a mesh that no rank has as a whole.
 struct DistributedCut {
@@ -32,22 +38,21 @@ struct DistributedCut {
 
 /// Cuts a mesh as its options say: into CutOptions::subdomains, or as many as suit its size and the step. Meshes of no
 /// more faces than a chunk are cut by one rank as cut_into does. Larger ones are sorted along Hilbert's curve and
-/// divided into chunks, in which clusters of faces grow; METIS divides the graph of all clusters at rank 0, and what
-/// has to be mended comes there with the faces around it. All ranks call this together; the cut does not depend on
-/// their number.
+/// divided into chunks, in which clusters of faces grow; METIS divides the graphs of their clusters, each block of
+/// chunks at one rank, and what has to be mended comes to rank 0 with the faces around it. All ranks call this
+/// together; the cut does not depend on their number.
 /// @param slice its seams are joined (see MotionOptions::weld), it loses the faces that repeat others (see
 /// FlowingMesh),
 ///        and gets labels, from 0 to n_parts - 1.
-/// @param chunk the number of faces, at least 1.
 /// @returns the same at all ranks, but what their stretches have lost.
 /// @throws InputError naming a face with a corner that is none of the mesh's vertices; OptionError;
 ///         ComputationError if METIS fails.
 DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options,
-                            Index chunk = faces_of_chunk);
+                            const CutUnits& units = {});
 
 /// Cuts a mesh as given (see cut_by_labels).
 /// @param slice its labels, at least 0, are closed up and mended.
 DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options,
-                                      Index chunk = faces_of_chunk);
+                                      const CutUnits& units = {});
 
 }  // namespace seamflow

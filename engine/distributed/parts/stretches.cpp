@@ -12,24 +12,6 @@ namespace seamflow {
 
 namespace {
 
-/// Gives every rank what is to be there.
-/// @param pack called with the numbers of the first and the one behind the last, both from 0 among this rank's.
-/// @returns what comes from each rank; empty: nothing does.
-std::vector<Bytes> move_elements(Conversation& talk, const std::vector<std::int64_t>& from,
-                                 const std::vector<std::int64_t>& to,
-                                 const std::function<Bytes(Index begin, Index end)>& pack)
-{
-    std::vector<Bytes> to_each(static_cast<std::size_t>(talk.size()));
-    const std::int64_t first = from[talk.rank()];
-    for (int r = 0; r < talk.size(); ++r) {
-        const std::int64_t begin = std::max(first, to[r]);
-        const std::int64_t end = std::min(from[talk.rank() + 1], to[r + 1]);
-        if (begin < end)
-            to_each[r] = pack(static_cast<Index>(begin - first), static_cast<Index>(end - first));
-    }
-    return talk.exchange(std::move(to_each));
-}
-
 void move_faces(Conversation& talk, const RankSlice& found, const std::vector<std::int64_t>& from,
                 const std::vector<std::int64_t>& to, RankSlice& slice)
 {
@@ -71,6 +53,21 @@ std::vector<std::int64_t> bounds_of_stretches(std::int64_t n, int n_ranks, std::
     for (int r = 0; r <= n_ranks; ++r)
         bounds.push_back(begin_of_stretch(n, r, n_ranks, block));
     return bounds;
+}
+
+std::vector<Bytes> move_elements(Conversation& talk, const std::vector<std::int64_t>& from,
+                                 const std::vector<std::int64_t>& to,
+                                 const std::function<Bytes(Index begin, Index end)>& pack)
+{
+    std::vector<Bytes> to_each(static_cast<std::size_t>(talk.size()));
+    const std::int64_t first = from[talk.rank()];
+    for (int r = 0; r < talk.size(); ++r) {
+        const std::int64_t begin = std::max(first, to[r]);
+        const std::int64_t end = std::min(from[talk.rank() + 1], to[r + 1]);
+        if (begin < end)
+            to_each[r] = pack(static_cast<Index>(begin - first), static_cast<Index>(end - first));
+    }
+    return talk.exchange(std::move(to_each));
 }
 
 Points move_rows(Conversation& talk, const Points& own, const std::vector<std::int64_t>& from,

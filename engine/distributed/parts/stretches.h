@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/distributed/parts/deal.h"
@@ -16,6 +18,33 @@ std::vector<std::int64_t> gather_bounds_of(Conversation& talk, std::int64_t n_ow
 
 /// See begin_of_stretch.
 std::vector<std::int64_t> bounds_of_stretches(std::int64_t n, int n_ranks, std::int64_t block);
+
+/// Gives elements to the ranks that are to have them.
+/// @param from, to bounds: which this rank has, and which it is to have.
+/// @param pack called with the first of some elements that go to the same rank and the one behind the last, both from 0
+///        among those of this rank.
+/// @returns what comes from each rank; empty: nothing does.
+std::vector<Bytes> move_elements(Conversation& talk, const std::vector<std::int64_t>& from,
+                                 const std::vector<std::int64_t>& to,
+                                 const std::function<Bytes(Index begin, Index end)>& pack);
+
+/// The same of values.
+/// @param own those of this rank by the bounds `from`. @returns those of this rank by the bounds `to`.
+template <class Value>
+std::vector<Value> move_values(Conversation& talk, const std::vector<Value>& own, const std::vector<std::int64_t>& from,
+                               const std::vector<std::int64_t>& to)
+{
+    const auto pack = [&](Index begin, Index end) {
+        Packer packer;
+        packer.put_all(std::span<const Value>(own).subspan(at(begin), at(end - begin)));
+        return packer.take();
+    };
+    std::vector<Value> values;
+    for (const Bytes& bytes : move_elements(talk, from, to, pack))
+        if (!bytes.empty())
+            Unpacker(bytes).append_all(values);
+    return values;
+}
 
 /// Gives rows to the ranks that are to have them.
 /// @param own those of this rank by the bounds `from`. @returns those of this rank by the bounds `to`.

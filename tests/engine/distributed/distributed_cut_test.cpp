@@ -31,7 +31,8 @@ struct FoundCut {
 
 /// The cut that n ranks find.
 /// @param given labels to begin with; empty: none.
-FoundCut cut_by_ranks(const PolygonMesh& mesh, Index k, Index chunk, int n, const std::vector<Index>& given = {})
+FoundCut cut_by_ranks(const PolygonMesh& mesh, Index k, const CutUnits& units, int n,
+                      const std::vector<Index>& given = {})
 {
     FoundCut found;
     found.labels.resize(mesh.n_faces());
@@ -43,8 +44,8 @@ FoundCut cut_by_ranks(const PolygonMesh& mesh, Index k, Index chunk, int n, cons
     run_on_threads(n, [&](Communicator& communicator) {
         run_together(communicator, [&](Conversation& talk) {
             RankSlice slice = test::slice_of(mesh, first, talk.rank(), n);
-            const DistributedCut cut = given.empty() ? cut_together(talk, slice, options, chunk)
-                                                     : cut_together_by_labels(talk, slice, options, chunk);
+            const DistributedCut cut = given.empty() ? cut_together(talk, slice, options, units)
+                                                     : cut_together_by_labels(talk, slice, options, units);
             const std::vector<Index> labels = labels_of_all_faces(talk, slice, cut.left_out);
             const std::scoped_lock lock(mutex);
             const auto begin = static_cast<Index>(std::int64_t{mesh.n_faces()} * talk.rank() / n);
@@ -65,13 +66,25 @@ void check_sound(const PolygonMesh& mesh, const FoundCut& found)
     CHECK(std::set<Index>(labels.begin(), labels.end()).size() == at(found.cut.n_parts));
 }
 
-/// The number of its faces.
-Index largest_part(const std::vector<Index>& labels, Index n_parts)
+/// The numbers of their faces.
+std::vector<Index> part_sizes(const std::vector<Index>& labels, Index n_parts)
 {
     std::vector<Index> sizes(at(n_parts), 0);
     for (const Index label : labels)
         ++sizes[label];
+    return sizes;
+}
+
+Index largest_part(const std::vector<Index>& labels, Index n_parts)
+{
+    const std::vector<Index> sizes = part_sizes(labels, n_parts);
     return *std::ranges::max_element(sizes);
+}
+
+Index smallest_part(const std::vector<Index>& labels, Index n_parts)
+{
+    const std::vector<Index> sizes = part_sizes(labels, n_parts);
+    return *std::ranges::min_element(sizes);
 }
 
 /// The number of edges between parts.
@@ -141,7 +154,7 @@ TEST_CASE("a mesh of one chunk is cut as on one machine")
     const PolygonMesh mesh = make_mixed_polygons(3000);
     const Cut expected = cut_into(mesh, make_topology(mesh), 12);
     for (const int n : {1, 3}) {
-        const FoundCut found = cut_by_ranks(mesh, 12, mesh.n_faces(), n);
+        const FoundCut found = cut_by_ranks(mesh, 12, {.faces_of_chunk = mesh.n_faces()}, n);
         CHECK(found.labels == expected.labels);
         CHECK(found.cut.n_parts == expected.n_parts);
     }
@@ -155,7 +168,7 @@ TEST_CASE("a mesh of several chunks is cut alike by any number of ranks, and eve
             CAPTURE(example.first);
             CAPTURE(chunk);
             constexpr Index k = 20;
-            const FoundCut found = cut_by_ranks(mesh, k, chunk, 1);
+            const FoundCut found = cut_by_ranks(mesh, k, {.faces_of_chunk = chunk}, 1);
             check_sound(mesh, found);
             CHECK(found.cut.n_parts == k);
             const Cut serial = cut_into(mesh, make_topology(mesh), k);
@@ -163,7 +176,7 @@ TEST_CASE("a mesh of several chunks is cut alike by any number of ranks, and eve
             CHECK(cut_edges(mesh, found.labels) < 1.25 * cut_edges(mesh, serial.labels));
             for (const int n : {2, 3, 5, 8}) {
                 CAPTURE(n);
-                const FoundCut other = cut_by_ranks(mesh, k, chunk, n);
+                const FoundCut other = cut_by_ranks(mesh, k, {.faces_of_chunk = chunk}, n);
                 CHECK(other.labels == found.labels);
                 CHECK(other.cut.repaired_faces == found.cut.repaired_faces);
                 CHECK(other.cut.remarks == found.cut.remarks);
@@ -176,7 +189,7 @@ TEST_CASE("a mesh so large that faces are put into clusters is cut alike by any 
     // In parts of about 3,000 faces.
     const PolygonMesh mesh = make_triangles(160'000);
     constexpr Index k = 100;
-    const FoundCut found = cut_by_ranks(mesh, k, 40'000, 1);
+    const FoundCut found = cut_by_ranks(mesh, k, {.faces_of_chunk = 40'000}, 1);
     check_sound(mesh, found);
     CHECK(found.cut.n_parts == k);
     const Cut serial = cut_into(mesh, make_topology(mesh), k);
@@ -184,7 +197,40 @@ TEST_CASE("a mesh so large that faces are put into clusters is cut alike by any 
     CHECK(cut_edges(mesh, found.labels) < 1.1 * cut_edges(mesh, serial.labels));
     CAPTURE(cut_edges(mesh, found.labels));
     CAPTURE(cut_edges(mesh, serial.labels));
-    CHECK(cut_by_ranks(mesh, k, 40'000, 3).labels == found.labels);
+    CHECK(cut_by_ranks(mesh, k, {.faces_of_chunk = 40'000}, 3).labels == found.labels);
+}
+
+TEST_CASE("blocks of chunks are divided apart, alike by any number of ranks")
+{
+    for (const auto& example : examples()) {
+        const PolygonMesh& mesh = example.second;
+        CAPTURE(example.first);
+        constexpr Index k = 24;
+        const CutUnits in_one{.faces_of_chunk = 300};
+        const CutUnits units{.faces_of_chunk = 300, .chunks_of_block = 4};
+        REQUIRE(mesh.n_faces() > 2 * 4 * 300);
+        const FoundCut found = cut_by_ranks(mesh, k, units, 1);
+        check_sound(mesh, found);
+        CHECK(found.labels != cut_by_ranks(mesh, k, in_one, 1).labels);
+        CHECK(found.cut.n_parts >= k - 2);
+        CHECK(found.cut.n_parts <= k + 3);
+        CHECK(smallest_part(found.labels, found.cut.n_parts) > mesh.n_faces() / k / 4);
+        const Cut serial = cut_into(mesh, make_topology(mesh), k);
+        CHECK(largest_part(found.labels, found.cut.n_parts) < 1.8 * largest_part(serial.labels, k));
+        CHECK(cut_edges(mesh, found.labels) < 1.5 * cut_edges(mesh, serial.labels));
+        for (const int n : {2, 3, 5, 8}) {
+            CAPTURE(n);
+            const FoundCut other = cut_by_ranks(mesh, k, units, n);
+            CHECK(other.labels == found.labels);
+            CHECK(other.cut.remarks == found.cut.remarks);
+        }
+    }
+    // Fewer parts than there are blocks.
+    const PolygonMesh mesh = test::triangle_torus(40, 30);
+    const FoundCut halves = cut_by_ranks(mesh, 2, {.faces_of_chunk = 200, .chunks_of_block = 1}, 3);
+    check_sound(mesh, halves);
+    CHECK(halves.cut.n_parts == 2);
+    CHECK(largest_part(halves.labels, 2) < 0.6 * mesh.n_faces());
 }
 
 TEST_CASE("what is not manifold is cut alike by any number of ranks, and every part is sound")
@@ -192,17 +238,17 @@ TEST_CASE("what is not manifold is cut alike by any number of ranks, and every p
     const PolygonMesh fins = with_fins(test::triangle_torus(40, 30));
     for (const Index chunk : {150, 700}) {
         CAPTURE(chunk);
-        const FoundCut found = cut_by_ranks(fins, 16, chunk, 1);
+        const FoundCut found = cut_by_ranks(fins, 16, {.faces_of_chunk = chunk}, 1);
         check_sound(fins, found);
         for (const int n : {2, 5})
-            CHECK(cut_by_ranks(fins, 16, chunk, n).labels == found.labels);
+            CHECK(cut_by_ranks(fins, 16, {.faces_of_chunk = chunk}, n).labels == found.labels);
     }
     for (const test::NamedMesh& example : test::assorted_meshes()) {
         const PolygonMesh& mesh = example.mesh;
         CAPTURE(example.name);
-        const FoundCut found = cut_by_ranks(mesh, 3, 5, 1);
+        const FoundCut found = cut_by_ranks(mesh, 3, {.faces_of_chunk = 5}, 1);
         check_sound(mesh, found);
-        CHECK(cut_by_ranks(mesh, 3, 5, 3).labels == found.labels);
+        CHECK(cut_by_ranks(mesh, 3, {.faces_of_chunk = 5}, 3).labels == found.labels);
     }
 }
 
@@ -220,8 +266,9 @@ TEST_CASE("faces that repeat others are left out of the cut, and have the labels
     }
     const std::vector<Index> given = test::random_labels(mesh.n_faces(), 4, 3);
     for (const Index chunk : {100, 10'000}) {
-        const FoundCut of_single = cut_by_ranks(single, 9, chunk, 2);
-        const FoundCut by_labels = cut_by_ranks(single, 9, chunk, 2, {given.begin(), given.begin() + single.n_faces()});
+        const FoundCut of_single = cut_by_ranks(single, 9, {.faces_of_chunk = chunk}, 2);
+        const FoundCut by_labels =
+            cut_by_ranks(single, 9, {.faces_of_chunk = chunk}, 2, {given.begin(), given.begin() + single.n_faces()});
         for (const int n : {1, 3}) {
             CAPTURE(chunk);
             CAPTURE(n);
@@ -231,8 +278,8 @@ TEST_CASE("faces that repeat others are left out of the cut, and have the labels
                 for (std::size_t i = 0; i < repeats.size(); ++i)
                     CHECK(found.labels[expected.labels.size() + i] == found.labels[repeats[i]]);
             };
-            check(cut_by_ranks(mesh, 9, chunk, n), of_single);
-            check(cut_by_ranks(mesh, 9, chunk, n, given), by_labels);
+            check(cut_by_ranks(mesh, 9, {.faces_of_chunk = chunk}, n), of_single);
+            check(cut_by_ranks(mesh, 9, {.faces_of_chunk = chunk}, n, given), by_labels);
         }
     }
 }
@@ -264,7 +311,7 @@ TEST_CASE("seams are joined as on one machine, and what was joined comes back to
                     const std::vector<Index> labels(mesh.n_faces(), 0);
                     RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
                     const Points before = slice.vertices;
-                    const DistributedCut cut = cut_together(talk, slice, options, chunk);
+                    const DistributedCut cut = cut_together(talk, slice, options, {.faces_of_chunk = chunk});
                     REQUIRE(cut.remarks.size() == 1);
                     CHECK(cut.remarks.front() == remark_on_seams(expected->n_vertices, expected->n_edges));
                     const RankSlice joined = test::slice_of(expected->mesh, labels, talk.rank(), n);
@@ -292,9 +339,9 @@ TEST_CASE("labels without any sense are mended alike by any number of ranks")
     for (const PolygonMesh& mesh :
          {test::triangle_torus(30, 24), make_mixed_polygons(700), test::moebius_band(80, 6)}) {
         const std::vector<Index> given = test::random_labels(mesh.n_faces(), 12, 3);
-        const FoundCut found = cut_by_ranks(mesh, 0, 200, 1, given);
+        const FoundCut found = cut_by_ranks(mesh, 0, {.faces_of_chunk = 200}, 1, given);
         check_sound(mesh, found);
-        CHECK(cut_by_ranks(mesh, 0, 200, 4, given).labels == found.labels);
+        CHECK(cut_by_ranks(mesh, 0, {.faces_of_chunk = 200}, 4, given).labels == found.labels);
     }
 }
 
@@ -308,18 +355,18 @@ TEST_CASE("labels of any kind are mended alike by any number of ranks")
         const std::vector<Index> strewn = test::random_labels(mesh.n_faces(), 40, 7);
         for (Index f = 0; f < mesh.n_faces(); ++f)
             given[f] = 3 * (f / (mesh.n_faces() / 9)) + (strewn[f] == 0 ? 5 : 0);
-        const FoundCut found = cut_by_ranks(mesh, 0, 500, 1, given);
+        const FoundCut found = cut_by_ranks(mesh, 0, {.faces_of_chunk = 500}, 1, given);
         check_sound(mesh, found);
         CHECK(found.cut.repaired_faces > 0);
         CHECK(found.cut.remarks.size() >= 2);
         for (const int n : {2, 5}) {
             CAPTURE(n);
-            const FoundCut other = cut_by_ranks(mesh, 0, 500, n, given);
+            const FoundCut other = cut_by_ranks(mesh, 0, {.faces_of_chunk = 500}, n, given);
             CHECK(other.labels == found.labels);
             CHECK(other.cut.remarks == found.cut.remarks);
         }
         // What is sound stays as it is.
-        const FoundCut again = cut_by_ranks(mesh, 0, 500, 3, found.labels);
+        const FoundCut again = cut_by_ranks(mesh, 0, {.faces_of_chunk = 500}, 3, found.labels);
         CHECK(again.labels == found.labels);
         CHECK(again.cut.repaired_faces == 0);
     }
