@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -27,35 +28,30 @@ namespace seamflow {
 
 namespace {
 
-/// The sub-meshes that a rank knows, whole or in part, and which of all they are.
-std::vector<Index> known_sub_meshes(const std::vector<Index>& labels, const std::vector<OwnedSubMesh>& all)
+/// Each label once, ascending.
+std::vector<Index> distinct(const std::vector<Index>& labels)
 {
-    std::vector<Index> numbers = labels;
+    // Neighbouring faces mostly have the same.
+    std::vector<Index> numbers;
+    std::ranges::unique_copy(labels, std::back_inserter(numbers));
     sort_unique(numbers);
-    std::vector<Index> places;
-    for (const Index number : numbers)
-        places.push_back(
-            static_cast<Index>(std::ranges::lower_bound(all, number, {}, &OwnedSubMesh::number) - all.begin()));
-    return places;
+    return numbers;
 }
 
-/// Lets labels be places among what is known.
-void localise_labels(const std::vector<KnownSubMesh>& known, std::vector<Index>& labels)
-{
-    for (Index& label : labels)
-        label = static_cast<Index>(std::ranges::lower_bound(known, label, {}, &KnownSubMesh::number) - known.begin());
-}
-
-std::vector<KnownSubMesh> describe_known(const std::vector<Index>& places, const std::vector<OwnedSubMesh>& all,
-                                         const MeshPart& part)
+/// Finds the sub-meshes that a rank knows, whole or in part, and lets the labels be places among them.
+/// @param all sub-meshes of all ranks, ascending.
+std::vector<KnownSubMesh> localise_labels(const std::vector<OwnedSubMesh>& all, MeshPart& part)
 {
     std::vector<KnownSubMesh> known;
-    for (const Index place : places)
-        known.push_back({.number = all[place].number, .rank = all[place].rank});
-    for (std::size_t f = part.labels.size(); f-- > 0;) {
-        KnownSubMesh& sub_mesh = *std::ranges::lower_bound(known, part.labels[f], {}, &KnownSubMesh::number);
-        sub_mesh.faces = {part.face_numbers[f]};
-    }
+    for (const Index number : distinct(part.labels))
+        known.push_back(
+            {.number = number, .rank = std::ranges::lower_bound(all, number, {}, &OwnedSubMesh::number)->rank});
+    for_each(run_in_parallel, part.mesh.n_faces(), [&](Index f) {
+        const auto place = std::ranges::lower_bound(known, part.labels[f], {}, &KnownSubMesh::number);
+        part.labels[f] = static_cast<Index>(place - known.begin());
+    });
+    for (Index f = part.mesh.n_faces(); f-- > 0;)
+        known[part.labels[f]].faces = {part.face_numbers[f]};
     return known;
 }
 
@@ -63,10 +59,8 @@ std::vector<KnownSubMesh> describe_known(const std::vector<Index>& places, const
 /// @throws InputError for one that several ranks have.
 std::vector<OwnedSubMesh> gather_sub_meshes(Conversation& talk, const MeshPart& part)
 {
-    std::vector<Index> numbers = part.labels;
-    sort_unique(numbers);
     std::vector<OwnedSubMesh> own;
-    for (const Index number : numbers)
+    for (const Index number : distinct(part.labels))
         own.push_back({number, talk.rank()});
     std::vector<OwnedSubMesh> all = talk.gather_all(own);
     std::ranges::stable_sort(all, {}, &OwnedSubMesh::number);
@@ -181,15 +175,17 @@ struct CountedVertices {
 template <class Holds>
 CountedVertices count_vertices(Conversation& talk, const RankMesh& mesh, Holds&& holds)
 {
-    CountedVertices own;
-    std::vector<Index> around;
-    for (Index v = 0; v < mesh.part.mesh.n_vertices(); ++v) {
-        if (!holds(v))
-            continue;
-        labels_around(mesh.topology, mesh.part.labels, v, around);
-        if (!around.empty() && mesh.is_own[around.front()] != 0 && own.n++ == 0)
-            own.lowest = mesh.part.vertex_numbers[v];
-    }
+    const auto is_counted_here = [&](Index v) {
+        auto lowest = static_cast<Index>(mesh.known.size());
+        for (const Index corner : mesh.topology.corners_at(v))
+            lowest = std::min(lowest, mesh.part.labels[mesh.topology.face_of[corner]]);
+        return lowest < static_cast<Index>(mesh.known.size()) && mesh.is_own[lowest] != 0;
+    };
+    const std::vector<Index> counted =
+        select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return holds(v) && is_counted_here(v); });
+    CountedVertices own{.n = std::ssize(counted)};
+    if (!counted.empty())
+        own.lowest = mesh.part.vertex_numbers[counted.front()];
     CountedVertices all;
     for (const CountedVertices& of_rank : talk.gather_all(std::vector<CountedVertices>{own})) {
         if (of_rank.n > 0 && (all.n == 0 || of_rank.lowest < all.lowest))
@@ -318,8 +314,7 @@ RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& of
     require_alike_attached(talk, own);
     grow(talk, own, mesh);
     mesh.part.mesh.vertices.rowwise() -= offset;
-    mesh.known = describe_known(known_sub_meshes(mesh.part.labels, mesh.all), mesh.all, mesh.part);
-    localise_labels(mesh.known, mesh.part.labels);
+    mesh.known = localise_labels(mesh.all, mesh.part);
     for (const KnownSubMesh& sub_mesh : mesh.known)
         mesh.is_own.push_back(sub_mesh.rank == talk.rank() ? 1 : 0);
     require_sound_cut(mesh);

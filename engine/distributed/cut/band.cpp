@@ -15,11 +15,11 @@ namespace {
 
 using Number = std::int64_t;
 
-/// A set of numbers that is often asked for others.
-class NumberSet {
+/// Numbers with wide gaps between them, often asked for others.
+class SparseNumbers {
   public:
     /// @param numbers ascending; must outlive this.
-    explicit NumberSet(const std::vector<Number>& numbers)
+    explicit SparseNumbers(const std::vector<Number>& numbers)
         : numbers_(numbers)
     {
         constexpr std::size_t bits_per_number = 16;
@@ -82,7 +82,7 @@ struct ArrivedFaces {
 };
 
 /// The faces of a stretch that have a corner among some vertices.
-Bytes pack_faces_at(const RankSlice& slice, Number first_face, const NumberSet& vertices,
+Bytes pack_faces_at(const RankSlice& slice, Number first_face, const SparseNumbers& vertices,
                     std::vector<std::uint8_t>& is_sent)
 {
     const auto faces = select(run_in_parallel, slice.n_faces(), [&](Index f) {
@@ -140,7 +140,7 @@ Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& 
     for (int layer = 0; layer < layers; ++layer) {
         const std::vector<Number> asked = talk.tell_all(next);
         std::vector<Bytes> to_each(talk.size());
-        to_each.front() = pack_faces_at(slice, bounds.faces[talk.rank()], NumberSet(asked), is_sent);
+        to_each.front() = pack_faces_at(slice, bounds.faces[talk.rank()], SparseNumbers(asked), is_sent);
         const std::size_t n_before = arrived.corners.size();
         for (const Bytes& bytes : talk.exchange(std::move(to_each)))
             if (!bytes.empty())

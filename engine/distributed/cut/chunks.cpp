@@ -8,6 +8,7 @@
 
 #include "engine/distributed/cut/hilbert.h"
 #include "engine/distributed/parts/corner_positions.h"
+#include "engine/distributed/parts/number_set.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
@@ -242,16 +243,12 @@ std::vector<Chunk> deal_chunks(Conversation& talk, RankSlice& slice, const Slice
     {
         const MeshPart part = deal(talk, slice);
         slice.labels = {};
-        std::vector<Index> numbers = part.labels;
-        sort_unique(numbers);
-        const auto place_of = [&](Index label) {
-            return static_cast<Index>(std::ranges::lower_bound(numbers, label) - numbers.begin());
-        };
-        const IndexLists faces = make_lists(static_cast<Index>(numbers.size()), [&](auto&& add) {
+        const NumberSet numbers(part.labels);
+        const IndexLists faces = make_lists(numbers.size(), [&](auto&& add) {
             for (Index f = 0; f < part.mesh.n_faces(); ++f)
-                add(place_of(part.labels[f]), f);
+                add(numbers.place_of(part.labels[f]), f);
         });
-        chunks.resize(numbers.size());
+        chunks.resize(at(numbers.size()));
         for_each(run_in_parallel, faces.size(), [&](Index i) {
             chunks[i].part = some_faces(part, faces[i]);
             chunks[i].topology = make_topology(chunks[i].part.mesh);

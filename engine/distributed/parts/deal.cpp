@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -80,6 +79,8 @@ class Owners {
 };
 
 /// Gives the faces of a stretch to their ranks.
+/// @tparam Number holds all numbers of the whole mesh.
+template <class Number>
 std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std::int64_t first_face, int n_ranks)
 {
     std::vector<std::vector<Index>> faces(n_ranks);
@@ -88,27 +89,25 @@ std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std:
             owner = owners[slice.labels[f]];
         faces[owner].push_back(f);
     }
+    const auto size_of = [&](Index f) { return slice.face_offsets[f + 1] - slice.face_offsets[f]; };
     std::vector<Bytes> packed_faces;
     for (const auto& of_rank : faces) {
-        std::vector<std::int64_t> numbers;
-        std::vector<Index> labels;
-        std::vector<Index> sizes;
-        for (const Index f : of_rank) {
-            numbers.push_back(first_face + f);
-            labels.push_back(slice.labels[f]);
-            sizes.push_back(slice.face_offsets[f + 1] - slice.face_offsets[f]);
-        }
-        const Index n_corners = std::reduce(sizes.begin(), sizes.end());
+        std::size_t n_corners = 0;
+        for (const Index f : of_rank)
+            n_corners += at(size_of(f));
         Packer packer;
-        packer.reserve(4 * sizeof(std::size_t) + of_rank.size() * (sizeof(std::int64_t) + 2 * sizeof(Index)) +
-                       at(n_corners) * sizeof(std::int64_t));
-        packer.put_all(std::span<const std::int64_t>(numbers));
-        packer.put_all(std::span<const Index>(labels));
-        packer.put_all(std::span<const Index>(sizes));
-        packer.put(at(n_corners));
+        packer.reserve(2 * sizeof(std::size_t) + of_rank.size() * (sizeof(Number) + 2 * sizeof(Index)) +
+                       n_corners * sizeof(Number));
+        packer.put(of_rank.size());
+        for (const Index f : of_rank) {
+            packer.put(static_cast<Number>(first_face + f));
+            packer.put(slice.labels[f]);
+            packer.put(size_of(f));
+        }
+        packer.put(n_corners);
         for (const Index f : of_rank)
             for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
-                packer.put(slice.corners[c]);
+                packer.put(static_cast<Number>(slice.corners[c]));
         packed_faces.push_back(packer.take());
     }
     return packed_faces;
@@ -116,30 +115,70 @@ std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std:
 
 /// Faces come from the ranks in ascending order of their numbers.
 /// @returns their corners, numbered in the whole mesh.
-std::vector<std::int64_t> unpack_faces(std::vector<Bytes> packed_faces, MeshPart& part)
+template <class Number>
+std::vector<Number> unpack_faces(std::vector<Bytes> packed_faces, MeshPart& part)
 {
-    std::vector<std::int64_t> corners;
+    std::vector<Number> corners;
     for (Bytes& bytes : packed_faces) {
         Unpacker unpacker(bytes);
-        unpacker.append_all(part.face_numbers);
-        unpacker.append_all(part.labels);
-        for (const Index size : unpacker.get_all<Index>())
-            part.mesh.face_offsets.push_back(part.mesh.face_offsets.back() + size);
+        const auto n = unpacker.get<std::size_t>();
+        part.face_numbers.reserve(part.face_numbers.size() + n);
+        part.labels.reserve(part.labels.size() + n);
+        part.mesh.face_offsets.reserve(part.mesh.face_offsets.size() + n);
+        for (std::size_t f = 0; f < n; ++f) {
+            part.face_numbers.push_back(unpacker.get<Number>());
+            part.labels.push_back(unpacker.get<Index>());
+            part.mesh.face_offsets.push_back(part.mesh.face_offsets.back() + unpacker.get<Index>());
+        }
         unpacker.append_all(corners);
         bytes = {};
     }
     return corners;
 }
 
+/// Lets corners be vertices of the part.
+void number_corners(const std::vector<std::int64_t>& corners, const NumberSet<std::int64_t>& vertices,
+                    std::vector<Index>& face_vertices)
+{
+    face_vertices.resize(corners.size());
+    for_each(run_in_parallel, static_cast<Index>(corners.size()),
+             [&](Index c) { face_vertices[c] = vertices.place_of(corners[c]); });
+}
+
+void number_corners(std::vector<Index>& corners, const NumberSet<Index>& vertices, std::vector<Index>& face_vertices)
+{
+    for_each(run_in_parallel, static_cast<Index>(corners.size()),
+             [&](Index c) { corners[c] = vertices.place_of(corners[c]); });
+    face_vertices = std::move(corners);
+}
+
+/// @returns without positions.
+template <class Number>
+MeshPart deal_faces(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds)
+{
+    const Owners owners(talk, slice);
+    MeshPart part;
+    auto corners = unpack_faces<Number>(
+        talk.exchange(pack_faces<Number>(slice, owners, bounds.faces[talk.rank()], talk.size())), part);
+    const NumberSet<Number> vertices(corners);
+    const std::vector<Number> numbers = vertices.numbers();
+    part.vertex_numbers.assign(numbers.begin(), numbers.end());
+    number_corners(corners, vertices, part.mesh.face_vertices);
+    return part;
+}
+
 }  // namespace
 
 void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank)
 {
-    for (Index f = 0; f < slice.n_faces(); ++f)
-        for (Index c = slice.face_offsets[f]; c < slice.face_offsets[f + 1]; ++c)
-            if (slice.corners[c] < 0 || slice.corners[c] >= bounds.vertices.back())
-                throw InputError(fmt::format("face {} (numbered from 0) names vertex {}, but the mesh has {} vertices",
-                                             bounds.faces[rank] + f, slice.corners[c], bounds.vertices.back()));
+    const auto found = std::ranges::find_if(
+        slice.corners, [n = bounds.vertices.back()](std::int64_t corner) { return corner < 0 || corner >= n; });
+    if (found == slice.corners.end())
+        return;
+    const auto f = std::ranges::upper_bound(slice.face_offsets, found - slice.corners.begin()) - 1;
+    throw InputError(fmt::format("face {} (numbered from 0) names vertex {}, but the mesh has {} vertices",
+                                 bounds.faces[rank] + (f - slice.face_offsets.begin()), *found,
+                                 bounds.vertices.back()));
 }
 
 int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number)
@@ -150,28 +189,37 @@ int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number)
 Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
                        std::span<const std::int64_t> bounds)
 {
+    const std::int64_t first = bounds[talk.rank()];
+    Points positions(static_cast<Eigen::Index>(numbers.size()), 3);
     std::vector<Bytes> questions;
+    // Where the answer of each rank belongs.
+    std::vector<double*> places;
     for (auto begin = numbers.begin(); const std::int64_t bound : bounds.subspan(1)) {
         const auto end = std::lower_bound(begin, numbers.end(), bound);
-        questions.push_back(packed(std::span(begin, end)));
+        const auto row = begin - numbers.begin();
+        const bool is_own = static_cast<int>(places.size()) == talk.rank();
+        places.push_back(positions.data() + 3 * row);
+        questions.push_back(is_own ? Bytes() : packed(std::span(begin, end)));
+        if (is_own)
+            for_each(run_in_parallel, static_cast<Index>(end - begin),
+                     [&](Index i) { positions.row(row + i) = slice.vertices.row(begin[i] - first); });
         begin = end;
     }
     std::vector<Bytes> answers;
     for (const Bytes& question : talk.exchange(std::move(questions))) {
         Packer packer;
-        const auto asked = unpacked<std::int64_t>(question);
-        packer.reserve(asked.size() * 3 * sizeof(double));
-        for (const std::int64_t number : asked)
-            packer.put_row(slice.vertices.row(number - bounds[talk.rank()]).data());
+        if (!question.empty()) {
+            const auto asked = unpacked<std::int64_t>(question);
+            packer.reserve(asked.size() * 3 * sizeof(double));
+            for (const std::int64_t number : asked)
+                packer.put_row(slice.vertices.row(number - first).data());
+        }
         answers.push_back(packer.take());
     }
-    // Stretches ascend, and so do the numbers within each.
-    Points positions(static_cast<Eigen::Index>(numbers.size()), 3);
-    double* next = positions.data();
-    for (const Bytes& answer : talk.exchange(std::move(answers))) {
+    for (auto place = places.begin(); const Bytes& answer : talk.exchange(std::move(answers))) {
         if (!answer.empty())
-            std::memcpy(next, answer.data(), answer.size());
-        next += answer.size() / sizeof(double);
+            std::memcpy(*place, answer.data(), answer.size());
+        ++place;
     }
     return positions;
 }
@@ -186,20 +234,15 @@ SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice)
     return bounds;
 }
 
-MeshPart deal(Conversation& talk, const RankSlice& slice)
+MeshPart deal(Conversation& talk, const RankSlice& slice, std::int64_t short_up_to)
 {
     const SliceBounds bounds = gather_bounds(talk, slice);
     require_corners(slice, bounds, talk.rank());
     require_labels(slice, bounds.faces[talk.rank()]);
-    const Owners owners(talk, slice);
-    MeshPart part;
-    const std::vector<std::int64_t> corners =
-        unpack_faces(talk.exchange(pack_faces(slice, owners, bounds.faces[talk.rank()], talk.size())), part);
-    const NumberSet vertices(corners);
-    part.vertex_numbers = vertices.numbers();
-    part.mesh.face_vertices.resize(corners.size());
-    for_each(run_in_parallel, part.mesh.n_corners(),
-             [&](Index c) { part.mesh.face_vertices[c] = vertices.place_of(corners[c]); });
+    // Numbers are most of what a rank holds and sends meanwhile.
+    MeshPart part = std::max(bounds.vertices.back(), bounds.faces.back()) <= short_up_to
+                        ? deal_faces<Index>(talk, slice, bounds)
+                        : deal_faces<std::int64_t>(talk, slice, bounds);
     part.mesh.vertices = fetch_positions(talk, slice, part.vertex_numbers, bounds.vertices);
     return part;
 }
@@ -208,18 +251,24 @@ void collect_positions(Conversation& talk, std::span<const std::int64_t> numbers
                        RankSlice& slice)
 {
     const SliceBounds bounds = gather_bounds(talk, slice);
+    const std::int64_t first = bounds.vertices[talk.rank()];
     std::vector<Packer> to_each(talk.size());
     for (std::size_t v = 0; v < numbers.size(); ++v) {
-        Packer& packer = to_each[stretch_of(bounds.vertices, numbers[v])];
-        packer.put(numbers[v]);
-        packer.put_row(positions.row(static_cast<Eigen::Index>(v)).data());
+        const auto row = positions.row(static_cast<Eigen::Index>(v));
+        const int rank = stretch_of(bounds.vertices, numbers[v]);
+        if (rank == talk.rank()) {
+            slice.vertices.row(numbers[v] - first) = row;
+            continue;
+        }
+        to_each[rank].put(numbers[v]);
+        to_each[rank].put_row(row.data());
     }
     std::vector<Bytes> bytes;
     for (Packer& packer : to_each)
         bytes.push_back(packer.take());
     for (const Bytes& received : talk.exchange(std::move(bytes)))
         for (Unpacker unpacker(received); !unpacker.is_at_end();) {
-            const auto vertex = unpacker.get<std::int64_t>() - bounds.vertices[talk.rank()];
+            const auto vertex = unpacker.get<std::int64_t>() - first;
             for (int c = 0; c < 3; ++c)
                 slice.vertices(vertex, c) = unpacker.get<double>();
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -50,8 +51,10 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
 /// Gives every face to the rank that has its sub-mesh, with the positions of its corners. Sub-meshes are dealt in
 /// ascending order, so that all ranks get about as many corners. All ranks call this together; no rank needs room for
 /// more than its slice and its part.
+/// @param short_up_to where there are no more vertices and faces than that, their numbers are told in 32 bits, which
+///        they must fit.
 /// @throws InputError naming the face with a corner that is none of the mesh's vertices, or with a negative label.
-MeshPart deal(Conversation& talk, const RankSlice& slice);
+MeshPart deal(Conversation& talk, const RankSlice& slice, std::int64_t short_up_to = std::numeric_limits<Index>::max());
 
 /// Puts the positions of all parts into the stretches of vertices to which they belong. All ranks call this together.
 /// @param numbers of the vertices of a part, as it was dealt. @param positions correspond; those of a vertex that

@@ -31,7 +31,8 @@ TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as 
         run_on_threads(n, [&](Communicator& communicator) {
             run_together(communicator, [&](Conversation& talk) {
                 RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
-                MeshPart part = deal(talk, slice);
+                // In short numbers and in long ones.
+                MeshPart part = n % 2 == 0 ? deal(talk, slice) : deal(talk, slice, 0);
                 require_valid(part);
                 const std::scoped_lock lock(mutex);
                 CHECK(part.mesh.n_corners() < 1.6 * mesh.n_corners() / n);
