@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -58,6 +59,7 @@ RankCounts counts_of(const RunOnRanks& run, const Points& expected)
         counts.mean_vertices += static_cast<double>(rank.vertices) / counts.ranks;
         counts.messages = std::max(counts.messages, rank.steps.back().messages);
         counts.bytes = std::max(counts.bytes, rank.steps.back().bytes);
+        counts.iterations = rank.steps.back().iterations;
     }
     counts.same_bits = (run.positions.array() == expected.array()).all();
     return counts;
@@ -75,12 +77,26 @@ constexpr Network networks[] = {{"InfiniBand (2 us, 12 GB/s)", 2e-6, 12e9}, {"10
 constexpr int machines = 64;
 constexpr int cores = 64;
 
-/// Seconds that a machine takes to tell others of a step, of m vertices.
+/// Seconds that a machine of m vertices takes to tell others of a step.
 double network_seconds(const RankCounts& counts, const Network& network, double m)
 {
-    const double of_counted =
-        static_cast<double>(counts.messages) * network.latency + static_cast<double>(counts.bytes) / network.bandwidth;
-    return of_counted * std::sqrt(m / counts.mean_vertices);
+    const double growth = std::sqrt(m / counts.mean_vertices);
+    const double latencies = static_cast<double>(counts.messages) * network.latency;
+    return latencies * (counts.iterations ? 1.0 : growth) +
+           static_cast<double>(counts.bytes) / network.bandwidth * growth;
+}
+
+/// How many vertices a machine has when it computes as long as it tells others: with fewer the network is the limit.
+double vertices_where_even(const RankCounts& counts, const Network& network, double seconds_per_vertex)
+{
+    // Computing grows faster than telling.
+    double low = 1.0;
+    double high = 1e15;
+    while (high / low > 1.001) {
+        const double m = std::sqrt(low * high);
+        (m * seconds_per_vertex < network_seconds(counts, network, m) ? low : high) = m;
+    }
+    return high;
 }
 
 }  // namespace
@@ -103,11 +119,12 @@ SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, 
 void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated)
 {
     out << "counted, on threads of one process:\n"
-           "  ranks  sub-meshes  most vertices  on average  messages      MB  same bits\n";
+           "  ranks  sub-meshes  most vertices  on average  messages      MB  iterations  same bits\n";
     for (const RankCounts& counts : simulated.counts)
-        out << fmt::format("  {:5}  {:10}  {:13}  {:10.0f}  {:8}  {:6.3f}  {:>9}\n", counts.ranks, counts.sub_meshes,
-                           counts.most_vertices, counts.mean_vertices, counts.messages,
-                           static_cast<double>(counts.bytes) / 1e6, counts.same_bits ? "yes" : "NO");
+        out << fmt::format(
+            "  {:5}  {:10}  {:13}  {:10.0f}  {:8}  {:6.3f}  {:>10}  {:>9}\n", counts.ranks, counts.sub_meshes,
+            counts.most_vertices, counts.mean_vertices, counts.messages, static_cast<double>(counts.bytes) / 1e6,
+            counts.iterations ? std::to_string(*counts.iterations) : "-", counts.same_bits ? "yes" : "NO");
     const RankCounts& last = simulated.counts.back();
     if (last.messages == 0)
         return;
@@ -118,8 +135,7 @@ void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated)
                        machines, cores, 1e6 * simulated.seconds_per_vertex, last.ranks);
     for (const Network& network : networks) {
         const double told = network_seconds(last, network, m);
-        // Computing grows with m, telling with its root.
-        const double even = std::pow(told / (m * per_vertex), 2) * m;
+        const double even = vertices_where_even(last, network, per_vertex);
         out << fmt::format(
             "  {}: {:.3g} s of computing, {:.3g} s of messages; as long as each other at {:.2g} vertices "
             "a machine\n",
@@ -130,14 +146,17 @@ void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated)
 nlohmann::ordered_json simulated_ranks_json(const SimulatedRanks& simulated)
 {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const RankCounts& counts : simulated.counts)
+    for (const RankCounts& counts : simulated.counts) {
         list.push_back({{"ranks", counts.ranks},
                         {"sub_meshes", counts.sub_meshes},
                         {"most_vertices", counts.most_vertices},
                         {"mean_vertices", counts.mean_vertices},
                         {"messages", counts.messages},
-                        {"bytes", counts.bytes},
-                        {"same_bits", counts.same_bits}});
+                        {"bytes", counts.bytes}});
+        if (counts.iterations)
+            list.back()["iterations"] = *counts.iterations;
+        list.back()["same_bits"] = counts.same_bits;
+    }
     return {{"simulated_ranks", list}, {"seconds_per_vertex", simulated.seconds_per_vertex}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -21,6 +22,8 @@ struct RankCounts {
     /// Of one step (the last), of the rank that sends most.
     std::uint64_t messages = 0;
     std::uint64_t bytes = 0;
+    /// Of a converged step.
+    std::optional<int> iterations = {};
     /// Whether all positions are those of the first of these runs.
     bool same_bits = false;
 };
@@ -38,12 +41,13 @@ struct SimulatedRanks {
 SimulatedRanks simulate_ranks(const PolygonMesh& mesh, const FlowOptions& flow, const std::vector<int>& ranks);
 
 /// The counts, and what follows from them for large meshes, by a model: a step takes what its vertices take, with all
-/// cores of a machine at work, and then what its messages take, one after the other. What a rank tells others grows
-/// with the square root of its vertices.
+/// cores of a machine at work, and then what its messages take, one after the other. The bytes that a rank tells others
+/// grow with the square root of its vertices; so do the messages of sweeps, one for each sub-mesh at its border. In
+/// converged steps there are as many for each iteration, however many vertices a rank has.
 void print_simulated_ranks(std::ostream& out, const SimulatedRanks& simulated);
 
-/// {"simulated_ranks": [{"ranks", "sub_meshes", "most_vertices", "mean_vertices", "messages", "bytes", "same_bits"},
-/// …], "seconds_per_vertex"}
+/// {"simulated_ranks": [{"ranks", "sub_meshes", "most_vertices", "mean_vertices", "messages", "bytes", "iterations",
+/// "same_bits"}, …], "seconds_per_vertex"}; "iterations" of converged steps alone
 nlohmann::ordered_json simulated_ranks_json(const SimulatedRanks& simulated);
 
 }  // namespace seamflow

@@ -218,8 +218,16 @@ TEST_CASE("benchmark counts what ranks say to each other")
         CHECK(run["same_bits"] == true);
         CHECK(run["sub_meshes"] == 30);
         CHECK(run["most_vertices"].get<double>() >= run["mean_vertices"].get<double>());
+        CHECK(!run.contains("iterations"));
     }
     CHECK(w.count_lines("said", "a model, not a measurement: ") == 1);
+    REQUIRE(w.run(BENCHMARK " --vertices 5000 --subdomains 30 --steps 1 --converge 1e-8 --simulate-ranks 1,3 "
+                            "--json converged.json") == 0);
+    const Json converged = w.json("converged.json")["simulated_ranks"];
+    CHECK(converged[0]["iterations"] > 5);
+    CHECK(converged[1]["iterations"] == converged[0]["iterations"]);
+    CHECK(converged[1]["messages"] > converged[1]["iterations"]);
+    CHECK(converged[1]["same_bits"] == true);
 }
 
 TEST_CASE("benchmark takes all conditions, and a limit of memory")
