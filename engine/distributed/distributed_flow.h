@@ -70,7 +70,7 @@ struct RankReport {
     std::vector<std::string> remarks;
 };
 
-/// What sweeps of ranks need to go on after a complete step as if they had never ended: see RankStepState::capture. It
+/// What ranks need to go on after a complete step as if they had never ended: see RankStepState::capture. It
 /// belongs to the mesh as it was before the first step, and to the options.
 struct RankFlowState {
     /// Number of the step; those after it are taken.
@@ -78,6 +78,10 @@ struct RankFlowState {
     /// This rank's share: stretches of all ranks, in their order, make up the mesh. #V of the stretch by 3, near the
     /// origin, where the flow goes on; for vertices without faces anything.
     Points vertices = Points(0, 3);
+    /// What else the next step needs: #V of the stretch by 3 each, 0 for vertices of which it needs nothing; and
+    /// numbers, the same on all ranks.
+    std::vector<Points> arrays = {};
+    std::vector<double> numbers = {};
 };
 
 /// What an observer on a rank sees after each step.
@@ -112,8 +116,8 @@ using RankObserver = std::function<void(const RankStepState&)>;
 /// mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
-/// @param resume of sweeps, or null: the flow goes on from there, on any number of ranks, with the same bits; part and
-///        options are as before the first step. On all ranks or on none.
+/// @param resume null, or the state after a step: the flow goes on from there, on any number of ranks, with the same
+///        bits; part and options are as before the first step. On all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several
 ///         ranks, or for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow
 ///         would move its faces); ComputationError naming step and sub-mesh.

@@ -59,9 +59,6 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         command.flow.options.accuracy.approach != Approach::Converged)
         throw OptionError("rims move freely in converged steps of ranks alone: add --approach converged, or leave "
                           "--boundary free out");
-    if (!command.flow.checkpoint.empty() && command.flow.options.accuracy.approach == Approach::Converged)
-        throw OptionError("ranks keep checkpoints of sweeps alone: leave out --checkpoint, or what asks for converged "
-                          "steps; smooth knows both");
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;
