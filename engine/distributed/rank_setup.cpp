@@ -354,6 +354,8 @@ RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Dec
     result.decomposition = std::move(decomposition);
     result.n_of_all_ranks = all.size();
     result.foreign = &foreign;
+    result.topology = &mesh.topology;
+    result.peers = make_rank_peers(talk, mesh);
     const auto adjacency = gather_adjacency(talk, mesh, places, result.decomposition, all.size());
     const auto curvatures = gather_curvatures(talk, mesh, places, result.decomposition, options, all.size());
     rank_of_all = rank_sub_meshes(adjacency, options.interface.colouring, curvatures);

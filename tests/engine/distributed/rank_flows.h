@@ -83,6 +83,9 @@ inline void check_bits(const Example& example, int subdomains, const std::vector
             for (std::size_t step = 0; step < rank.steps.size(); ++step) {
                 CHECK(rank.steps[step].iterations == report.steps[step].iterations);
                 CHECK(rank.steps[step].residual == report.steps[step].residual);
+                CHECK(rank.steps[step].estimated_v_max == result.reports.front().steps[step].estimated_v_max);
+                CHECK(rank.steps[step].estimated_v_max.value_or(-1.0) ==
+                      doctest::Approx(report.steps[step].estimated_v_max.value_or(-1.0)).epsilon(1e-12));
             }
         }
     }
