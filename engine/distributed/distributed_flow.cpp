@@ -15,6 +15,7 @@
 #include "engine/distributed/rank_setup.h"
 #include "engine/distributed/ranks/conversation.h"
 #include "engine/distributed/ranks/packing.h"
+#include "engine/measure/remarks.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
 #include "engine/setup/automatic_choices.h"
@@ -53,8 +54,6 @@ void require_for_ranks(const FlowOptions& options)
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
-    else if (options.motion.boundary != Boundary::Fixed && !is_converged(options))
-        unknown = "sweeps with a free boundary (approach has to be converged)";
     else if (options.motion.rescale != Rescale::None || options.motion.strict)
         unknown = "rescaled results, nor strict";
     else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
@@ -235,17 +234,20 @@ class RankFlow {
         report.remarks = mesh.remarks;
     }
 
-    /// How well converged steps have kept to their tolerance, which all ranks know alike.
+    /// How well converged steps have kept to their tolerance, and what the estimate says, which all ranks know alike.
     void describe_convergence(const Stepper& stepper, RankReport& report) const
     {
         report.convergence.approach = options_.accuracy.approach;
-        if (!options_.accuracy.tolerance)
-            return;
         FlowReport own;
-        stepper.describe(own);
-        report.convergence.tolerance = options_.accuracy.tolerance;
-        report.convergence.steps_short_of_tolerance = own.convergence.steps_short_of_tolerance;
-        report.convergence.steps_stagnated = own.convergence.steps_stagnated;
+        if (options_.accuracy.tolerance) {
+            stepper.describe(own);
+            report.convergence.tolerance = options_.accuracy.tolerance;
+            report.convergence.steps_short_of_tolerance = own.convergence.steps_short_of_tolerance;
+            report.convergence.steps_stagnated = own.convergence.steps_stagnated;
+        }
+        if (!report.steps.empty())
+            own.steps.emplace_back().estimated_v_max = report.steps.back().estimated_v_max;
+        remark_on_drift(options_, own);
         report.remarks.insert(report.remarks.end(), own.remarks.begin(), own.remarks.end());
     }
 

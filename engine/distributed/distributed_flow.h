@@ -37,7 +37,7 @@ struct RankStepReport {
     /// Of a converged step, of all ranks: its iterations, and the residual that they left.
     std::optional<int> iterations = {};
     std::optional<double> residual = {};
-    /// Of a converged step, with `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
+    /// With `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
     std::optional<double> estimated_v_max = {};
     /// With ReportOptions::measures: the mesh after the step.
     std::optional<RankMeasures> measures = {};
@@ -109,11 +109,10 @@ using RankObserver = std::function<void(const RankStepState&)>;
 ///
 /// Not for distributed flows are, so far: approaches but Approach::Sweep and Approach::Converged, and the latter with
 /// Δ_P, whose equations are not symmetric; sweeps with other conditions than the adapted ones;
-/// Scheme::ExplicitEuler; keep_edges; sweeps with a free boundary; rescale; strict; what ReportOptions asks
-/// for beside `measures`; of these, curvature and roughness, and the estimate of the error of sweeps;
-/// FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld (see cut_together).
-/// Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at places where the
-/// mesh is not manifold take no part.
+/// Scheme::ExplicitEuler; keep_edges; rescale; strict; what ReportOptions asks for beside `measures`, and of
+/// these curvature; FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld
+/// (see cut_together). Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at
+/// places where the mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
 /// @param resume null, or the state after a step: the flow goes on from there, on any number of ranks, with the same

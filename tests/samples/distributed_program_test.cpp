@@ -132,10 +132,13 @@ TEST_CASE("what ranks measure is what smooth measures, and remarks come once")
         for (const std::string name : {"tolerance", "steps_short_of_tolerance", "steps_stagnated",
                                        "non_manifold_vertices", "attachment_weights"})
             CHECK(report[name] == expected[name]);
-        for (const std::string when : {"before", "after"})
+        for (const std::string when : {"before", "after"}) {
             for (const std::string name : {"area", "volume"})
                 CHECK(report["surface"][when][name].get<double>() ==
                       doctest::Approx(expected["surface"][when][name].get<double>()).epsilon(1e-12));
+            for (const std::string name : {"roughness_rms", "roughness_percentile_95"})
+                CHECK(report["surface"][when][name] == expected["surface"][when][name]);
+        }
         for (const std::string name : {"moved_mean", "moved_rms", "moved_max", "moved_max_absolute"})
             CHECK(report["surface"][name].get<double>() ==
                   doctest::Approx(expected["surface"][name].get<double>()).epsilon(1e-12));
@@ -147,6 +150,37 @@ TEST_CASE("what ranks measure is what smooth measures, and remarks come once")
             CHECK(step["moved_mean"].get<double>() > 0.0);
             CHECK(step["estimated_v_max"].get<double>() ==
                   doctest::Approx(expected["steps"][i]["estimated_v_max"].get<double>()).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("the roughness, by a sample where there is much, and the estimate of sweeps are those of smooth")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 20000") == 0);
+    write_soup(w.directory / "mesh.obj", w.directory / "soup.obj");
+    for (const std::string mesh : {"ball.ply", "soup.obj"}) {
+        CAPTURE(mesh);
+        const std::string options = " --radius 2% --steps 2 --converge never --threads 1";
+        const std::string out = mesh.substr(mesh.size() - 4);
+        REQUIRE(on_ranks(w, 1, mesh + " 1" + out + options + " --subdomains 9 --parts cut.ply") == 0);
+        write_labels_of(w.directory / "cut.ply", w.directory / "labels");
+        REQUIRE(w.smooth(mesh + " s" + out + options + " --labels labels --report s.json") == 0);
+        const test::Json expected = w.json("s.json");
+        std::string said = w.said().substr(w.said().find("; roughness "));
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            REQUIRE(on_ranks(w, n,
+                             mesh + " n" + out + options + " --labels labels --report n.json --whole-up-to " +
+                                 (n == 5 ? "1" : "16MiB")) == 0);
+            CHECK(w.said().find(said) != std::string::npos);
+            const test::Json report = w.json("n.json");
+            for (const std::string when : {"before", "after"})
+                for (const std::string name : {"roughness_rms", "roughness_percentile_95"})
+                    CHECK(report["surface"][when][name] == expected["surface"][when][name]);
+            for (std::size_t step = 0; step < 2; ++step)
+                CHECK(report["steps"][step]["estimated_v_max"].get<double>() ==
+                      doctest::Approx(expected["steps"][step]["estimated_v_max"].get<double>()).epsilon(1e-12));
         }
     }
 }
@@ -166,7 +200,8 @@ TEST_CASE("rims move freely, vertices are attached by weights, and every step is
         for (std::ptrdiff_t v = w.count_lines(mesh, "v "); v > 0; --v)
             weights << v * 37 % 101 << '\n';
         weights.close();
-        for (const std::string options : {" --boundary free --converge 1e-6", " --converge never"}) {
+        for (const std::string options :
+             {" --boundary free --converge 1e-6", " --converge never", " --boundary free"}) {
             CAPTURE(options);
             const std::string all =
                 options + " --labels labels --radius 2% --steps 3 --attach-weights weights --threads 1 --every-step ";
@@ -180,9 +215,11 @@ TEST_CASE("rims move freely, vertices are attached by weights, and every step is
             }
         }
     }
-    CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 2% --boundary free") == 2);
-    REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().find("add --approach converged") != std::string::npos);
+    const std::string shared = "mesh.obj n.obj --radius 2% --boundary free --converge never --subdomains 8";
+    REQUIRE(w.smooth(shared) == 2);
+    const auto expected = messages(w, "smooth");
+    CHECK(on_ranks(w, 3, shared) == 2);
+    CHECK(messages(w, "smooth-distributed") == expected);
 }
 
 TEST_CASE("a tolerance that steps miss is told of as by smooth")

@@ -137,6 +137,52 @@ TEST_CASE("ranks find the bits of one machine: other conditions, terms and order
     }
 }
 
+TEST_CASE("ranks find the bits of one machine in sweeps with a free boundary, where no two sub-meshes share it")
+{
+    // Rings of a tube, and a torus beside it.
+    const PolygonMesh tube = test::cylinder(24, 40);
+    Example example{"tube", test::side_by_side({tube, test::triangle_torus(20, 16)}), {}};
+    for (Index f = 0; f < example.mesh.n_faces(); ++f)
+        example.labels.push_back(f < tube.n_faces() ? f * 7 / tube.n_faces() : 7);
+    for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement}) {
+        example.options = by_sweeps(laplacian, 1e-2);
+        example.options.motion.boundary = Boundary::Free;
+        check_bits(example, 0, {1, 2, 3, 5});
+        example.fixed = {3, 4, 40, 500};
+        example.options.filter = Filter::LowPass;
+        example.options.motion.attachment = 0.3;
+        check_bits(example, 0, {1, 2, 3, 5});
+        example.fixed.clear();
+    }
+    // Sub-meshes that share it are refused, on all ranks as on one machine.
+    for (std::size_t f = 0; f < example.labels.size(); ++f)
+        example.labels[f] = static_cast<Index>(f % 24 < 12 && example.labels[f] == 6 ? 8 : example.labels[f]);
+    FlowOptions options = example.options;
+    options.cut.labels = example.labels;
+    PolygonMesh mesh = example.mesh;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    check_refusal<OptionError>(
+        [&](Communicator& communicator) {
+            MeshPart part = test::part_of(example.mesh, example.labels, 9, communicator.rank(), 3);
+            distributed_mean_curvature_flow(communicator, part, example.options);
+        },
+        3, "boundary is free and shared by several sub-meshes, which need converged steps");
+}
+
+TEST_CASE("an estimate that is far off is told of as by one machine")
+{
+    Example example{"drift", make_triangles(900), by_sweeps(Laplacian::Fujiwara, 1.0)};
+    PolygonMesh mesh = example.mesh;
+    FlowOptions options = example.options;
+    options.cut.subdomains = 12;
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    const auto says_so = [](const std::string& remark) { return remark.find("by estimate") != std::string::npos; };
+    const auto expected = std::ranges::find_if(report.remarks, says_so);
+    REQUIRE(expected != report.remarks.end());
+    for (const RankReport& rank : flowed_on_ranks(example, report.cut.labels, report.cut.n_sub_meshes(), 3).reports)
+        CHECK(std::ranges::count(rank.remarks, *expected) == 1);
+}
+
 TEST_CASE("ranks find the bits of one machine with weights of the attachment")
 {
     Example example{"weights", make_mixed_polygons(700), by_sweeps(Laplacian::VirtualRefinement, 2e-3)};

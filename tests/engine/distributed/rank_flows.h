@@ -24,6 +24,8 @@ struct Example {
     FlowOptions options;
     std::vector<Index> fixed = {};
     std::vector<double> weights = {};
+    /// Of a cut of its own.
+    std::vector<Index> labels = {};
 };
 
 struct Result {
@@ -62,7 +64,8 @@ inline void check_bits(const Example& example, int subdomains, const std::vector
     CAPTURE(example.name);
     PolygonMesh mesh = example.mesh;
     FlowOptions options = example.options;
-    options.cut.subdomains = subdomains;
+    options.cut.subdomains = example.labels.empty() ? subdomains : 0;
+    options.cut.labels = example.labels;
     options.motion.fixed_vertices = example.fixed;
     options.motion.attachment_weights = example.weights;
     const FlowReport report = mean_curvature_flow(mesh, options);

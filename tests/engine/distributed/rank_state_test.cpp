@@ -109,6 +109,8 @@ void check_going_on(Example example, int subdomains)
         CHECK(test::same_bits(ended.positions, mesh.vertices));
         CHECK(ended.report.steps.back().iterations == expected.steps.back().iterations);
         CHECK(ended.report.steps.back().residual == expected.steps.back().residual);
+        CHECK(ended.report.steps.back().estimated_v_max.value() ==
+              doctest::Approx(expected.steps.back().estimated_v_max.value()).epsilon(1e-12));
         CHECK(ended.report.convergence.steps_short_of_tolerance == expected.convergence.steps_short_of_tolerance);
     }
 }
