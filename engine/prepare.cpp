@@ -123,7 +123,7 @@ std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& opti
         prepared->choices.insert(prepared->choices.begin(), choice.reason);
     }
     if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
-        require_boundary_unshared(mesh.mesh(), topology, prepared->cut);
+        require_boundary_unshared(topology, prepared->cut.labels, moving_boundary(mesh.mesh(), topology));
     return prepared;
 }
 

@@ -34,6 +34,7 @@
 #include "samples/common/output_files.h"
 #include "samples/common/peak_memory.h"
 #include "samples/common/rank_report.h"
+#include "samples/common/rank_roughness.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
 
@@ -84,7 +85,7 @@ class RankRun {
         FlowOptions options = command_.options;
         options.cut = {};
         options.motion.weld.reset();
-        options.report.measures = !command_.quiet || !command_.report.empty();
+        options.report.measures = tells_measures();
         about_file(command_.input, [&] {
             record_.report =
                 distributed_mean_curvature_flow(ranks_, part_, options, observer(), resume_ ? &*resume_ : nullptr);
@@ -95,6 +96,9 @@ class RankRun {
     }
 
   private:
+    /// Whether anybody sees what is measured.
+    [[nodiscard]] bool tells_measures() const { return !command_.quiet || !command_.report.empty(); }
+
     /// Reads, cuts, and deals the sub-meshes to the ranks.
     void begin(Conversation& talk)
     {
@@ -128,6 +132,8 @@ class RankRun {
         deal_weights(talk, std::move(weights), bounds);
         bring_back(talk, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
+        if (tells_measures())
+            record_.run.surface.before.roughness = roughness_.emplace(part_, record_.size.vertices).measure(talk);
         record_.setup_seconds = setting_up.seconds();
     }
 
@@ -330,14 +336,13 @@ class RankRun {
         record_.remarks = std::move(all);
         if (!record_.report.before)
             return;
-        const auto look = [](const RankMeasures& measures) {
-            SurfaceLook seen{.area = measures.area, .volume = measures.volume, .roughness = {}};
-            if (seen.volume)
-                seen.volume = std::abs(*seen.volume);
-            return seen;
+        const auto note = [](const RankMeasures& measures, SurfaceLook& look) {
+            look.area = measures.area;
+            if (measures.volume)
+                look.volume = std::abs(*measures.volume);
         };
-        record_.run.surface.before = look(*record_.report.before);
-        record_.run.surface.after = look(*record_.report.after);
+        note(*record_.report.before, record_.run.surface.before);
+        note(*record_.report.after, record_.run.surface.after);
     }
 
     /// Where steps have missed their tolerance, the results are not what was asked for.
@@ -357,6 +362,8 @@ class RankRun {
     {
         const Stopwatch writing;
         const Points vertices = vertices_of_stretch(talk, part_);
+        if (roughness_)
+            record_.run.surface.after.roughness = roughness_->measure(talk);
         part_ = {};
         note_flow();
         record_.run.surface.moved = measure_moves(talk, slice_vertices_, vertices);
@@ -391,6 +398,7 @@ class RankRun {
     std::optional<Workers> workers_;
     std::unique_ptr<SharedMeshFile> file_;
     MeshPart part_;
+    std::optional<RankRoughness> roughness_;
     /// Where the vertices of this rank's stretch are in the file, and with --parts the labels of its faces.
     Points slice_vertices_ = Points(0, 3);
     std::vector<Index> labels_;

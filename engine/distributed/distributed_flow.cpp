@@ -10,10 +10,12 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/rank_exchange.h"
+#include "engine/distributed/rank_memory.h"
 #include "engine/distributed/rank_meter.h"
 #include "engine/distributed/rank_setup.h"
 #include "engine/distributed/ranks/conversation.h"
 #include "engine/distributed/ranks/packing.h"
+#include "engine/measure/remarks.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
 #include "engine/setup/automatic_choices.h"
@@ -52,8 +54,6 @@ void require_for_ranks(const FlowOptions& options)
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
-    else if (options.motion.boundary != Boundary::Fixed && !is_converged(options))
-        unknown = "sweeps with a free boundary (approach has to be converged)";
     else if (options.motion.rescale != Rescale::None || options.motion.strict)
         unknown = "rescaled results, nor strict";
     else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
@@ -145,7 +145,7 @@ class RankFlow {
         }
         report.setup_seconds = watch.seconds();
         if (resume_ != nullptr)
-            restore(mesh, *stepper);
+            go_on(mesh, *stepper);
         if (meter_ && resume_ != nullptr)
             report.after = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
         else
@@ -154,7 +154,7 @@ class RankFlow {
             report.steps.push_back(take_step(step, mesh, limit, *stepper));
             report.after = report.steps.back().measures;
             if (on_step_)
-                show(step, report.steps.back(), mesh, offset);
+                show(step, report.steps.back(), mesh, offset, *stepper);
         }
         describe_convergence(*stepper, report);
         return positions_of_part(mesh, offset);
@@ -162,35 +162,20 @@ class RankFlow {
 
   private:
     /// Brings the vertices that this rank knows to where they were after a step.
-    void restore(RankMesh& mesh, Stepper& stepper)
+    void go_on(RankMesh& mesh, Stepper& stepper)
     {
-        RankSlice stretch;
-        stretch.vertices = resume_->vertices;
-        const SliceBounds bounds = gather_bounds(talk_, stretch);
-        const std::vector<std::int64_t>& numbers = mesh.part.vertex_numbers;
-        talk_.look_together([&] {
-            if (!numbers.empty() && numbers.back() >= bounds.vertices.back())
-                throw InputError("the state to go on from has fewer vertices than the mesh");
-        });
-        const StepMemory memory{.positions = fetch_positions(talk_, stretch, numbers, bounds.vertices),
-                                .arrays = {},
-                                .numbers = {static_cast<double>(resume_->step)}};
-        talk_.look_together([&] {
-            if (!memory.positions.allFinite())
-                throw InputError("the state to go on from has vertices that are not finite");
-        });
-        stepper.restore(memory);
-        mesh.part.mesh.vertices = memory.positions;
+        restore_memory(talk_, mesh, *resume_, stepper);
+        mesh.part.mesh.vertices = stepper.positions();
     }
 
     /// Shows the part as it is now. What it was before the first step comes back, whatever the observer throws.
-    void show(int step, const RankStepReport& report, const RankMesh& mesh, const Point& offset)
+    void show(int step, const RankStepReport& report, const RankMesh& mesh, const Point& offset, const Stepper& stepper)
     {
         Points positions = positions_of_part(mesh, offset);
         part_.mesh.vertices.swap(positions);
         try {
-            on_step_(
-                {step, report, part_, talk_, [&](const Points& vertices) { return capture(mesh, step, vertices); }});
+            on_step_({step, report, part_, talk_,
+                      [&](const Points& vertices) { return capture(mesh, step, vertices, stepper); }});
         } catch (...) {
             part_.mesh.vertices.swap(positions);
             throw;
@@ -199,12 +184,14 @@ class RankFlow {
     }
 
     /// All ranks call this together.
-    [[nodiscard]] RankFlowState capture(const RankMesh& mesh, int step, const Points& vertices)
+    [[nodiscard]] RankFlowState capture(const RankMesh& mesh, int step, const Points& vertices, const Stepper& stepper)
     {
         RankSlice stretch;
         stretch.vertices = vertices;
         collect_positions(talk_, part_.vertex_numbers, positions_of_part(mesh, Point::Zero()), stretch);
-        return {.step = step, .vertices = std::move(stretch.vertices)};
+        RankFlowState state{.step = step, .vertices = std::move(stretch.vertices)};
+        collect_memory(talk_, mesh, stepper, state);
+        return state;
     }
 
     RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, Stepper& stepper)
@@ -247,17 +234,20 @@ class RankFlow {
         report.remarks = mesh.remarks;
     }
 
-    /// How well converged steps have kept to their tolerance, which all ranks know alike.
+    /// How well converged steps have kept to their tolerance, and what the estimate says, which all ranks know alike.
     void describe_convergence(const Stepper& stepper, RankReport& report) const
     {
         report.convergence.approach = options_.accuracy.approach;
-        if (!options_.accuracy.tolerance)
-            return;
         FlowReport own;
-        stepper.describe(own);
-        report.convergence.tolerance = options_.accuracy.tolerance;
-        report.convergence.steps_short_of_tolerance = own.convergence.steps_short_of_tolerance;
-        report.convergence.steps_stagnated = own.convergence.steps_stagnated;
+        if (options_.accuracy.tolerance) {
+            stepper.describe(own);
+            report.convergence.tolerance = options_.accuracy.tolerance;
+            report.convergence.steps_short_of_tolerance = own.convergence.steps_short_of_tolerance;
+            report.convergence.steps_stagnated = own.convergence.steps_stagnated;
+        }
+        if (!report.steps.empty())
+            own.steps.emplace_back().estimated_v_max = report.steps.back().estimated_v_max;
+        remark_on_drift(options_, own);
         report.remarks.insert(report.remarks.end(), own.remarks.begin(), own.remarks.end());
     }
 
@@ -344,8 +334,6 @@ RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart&
         require_valid(options);
         require_for_ranks(options);
         require_valid(part);
-        if (resume != nullptr && is_converged(options))
-            throw OptionError("ranks cannot go on from a state of converged steps: take sweeps, or begin anew");
         Workers workers(options.resources.threads);
         workers.execute([&] { positions = RankFlow(talk, part, options, on_step, resume).run(report); });
     });

@@ -37,7 +37,7 @@ struct RankStepReport {
     /// Of a converged step, of all ranks: its iterations, and the residual that they left.
     std::optional<int> iterations = {};
     std::optional<double> residual = {};
-    /// Of a converged step, with `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
+    /// With `measures`: as StepReport::estimated_v_max, by the mean edge of the whole mesh.
     std::optional<double> estimated_v_max = {};
     /// With ReportOptions::measures: the mesh after the step.
     std::optional<RankMeasures> measures = {};
@@ -70,7 +70,7 @@ struct RankReport {
     std::vector<std::string> remarks;
 };
 
-/// What sweeps of ranks need to go on after a complete step as if they had never ended: see RankStepState::capture. It
+/// What ranks need to go on after a complete step as if they had never ended: see RankStepState::capture. It
 /// belongs to the mesh as it was before the first step, and to the options.
 struct RankFlowState {
     /// Number of the step; those after it are taken.
@@ -78,6 +78,10 @@ struct RankFlowState {
     /// This rank's share: stretches of all ranks, in their order, make up the mesh. #V of the stretch by 3, near the
     /// origin, where the flow goes on; for vertices without faces anything.
     Points vertices = Points(0, 3);
+    /// What else the next step needs: #V of the stretch by 3 each, 0 for vertices of which it needs nothing; and
+    /// numbers, the same on all ranks.
+    std::vector<Points> arrays = {};
+    std::vector<double> numbers = {};
 };
 
 /// What an observer on a rank sees after each step.
@@ -105,15 +109,14 @@ using RankObserver = std::function<void(const RankStepState&)>;
 ///
 /// Not for distributed flows are, so far: approaches but Approach::Sweep and Approach::Converged, and the latter with
 /// Δ_P, whose equations are not symmetric; sweeps with other conditions than the adapted ones;
-/// Scheme::ExplicitEuler; keep_edges; sweeps with a free boundary; rescale; strict; what ReportOptions asks
-/// for beside `measures`; of these, curvature and roughness, and the estimate of the error of sweeps;
-/// FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld (see cut_together).
-/// Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at places where the
-/// mesh is not manifold take no part.
+/// Scheme::ExplicitEuler; keep_edges; rescale; strict; what ReportOptions asks for beside `measures`, and of
+/// these curvature; FlowOptions::radius. Vertices along seams stay as they are, as with an empty MotionOptions::weld
+/// (see cut_together). Labels, fixed vertices and attachment weights are those of the part. Faces that repeat others at
+/// places where the mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
-/// @param resume of sweeps, or null: the flow goes on from there, on any number of ranks, with the same bits; part and
-///        options are as before the first step. On all ranks or on none.
+/// @param resume null, or the state after a step: the flow goes on from there, on any number of ranks, with the same
+///        bits; part and options are as before the first step. On all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several
 ///         ranks, or for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow
 ///         would move its faces); ComputationError naming step and sub-mesh.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -16,18 +17,19 @@
 #include "partition/errors.h"
 #include "partition/io/output_file.h"
 
-// The list is text: the line below, the step, a line for each file, one for each entry of the identity, and the
-// checksum of all that. Positions are doubles as the machine has them.
+// The list is text: the line below, the step, how many arrays there are beside positions, a line for each number, for
+// each file and for each entry of the identity, and the checksum of all that. A file has the positions of a stretch and
+// then the arrays, as doubles as the machine has them.
 
 namespace seamflow {
 
 namespace {
 
-constexpr std::string_view line_of_lists = "seamflow checkpoint of ranks, format 1";
+constexpr std::string_view line_of_lists = "seamflow checkpoint of ranks, format 2";
 constexpr const char* list_name = "smooth-distributed.checkpoint";
 constexpr const char* prefix_of_steps = "smooth-distributed.step-";
 
-/// A file of positions.
+/// A file of positions and arrays.
 struct KeptStretch {
     std::int64_t begin = 0;
     std::int64_t n_vertices = 0;
@@ -36,6 +38,8 @@ struct KeptStretch {
 
 struct RankList {
     std::int64_t step = 0;
+    std::int64_t n_arrays = 0;
+    std::vector<double> numbers;
     std::vector<KeptStretch> stretches;
     FlowIdentity identity;
 };
@@ -54,7 +58,9 @@ std::uint64_t checksum_of_numbers(std::span<const double> numbers)
 
 std::string text_of_list(const RankList& list)
 {
-    std::string text = fmt::format("{}\nstep {}\n", line_of_lists, list.step);
+    std::string text = fmt::format("{}\nstep {}\narrays {}\n", line_of_lists, list.step, list.n_arrays);
+    for (const double number : list.numbers)
+        text += fmt::format("number {:x}\n", std::bit_cast<std::uint64_t>(number));
     for (const KeptStretch& one : list.stretches)
         text += fmt::format("file {} {} {}\n", one.begin, one.n_vertices, one.checksum);
     for (const FlowIdentity::Entry& entry : list.identity.entries)
@@ -77,6 +83,12 @@ RankList read_rank_list(const std::filesystem::path& file)
         words >> name;
         if (name == "step") {
             words >> list.step;
+        } else if (name == "arrays") {
+            words >> list.n_arrays;
+        } else if (name == "number") {
+            std::uint64_t bits = 0;
+            words >> std::hex >> bits;
+            list.numbers.push_back(std::bit_cast<double>(bits));
         } else if (name == "file") {
             KeptStretch& one = list.stretches.emplace_back();
             words >> one.begin >> one.n_vertices >> one.checksum;
@@ -92,13 +104,14 @@ RankList read_rank_list(const std::filesystem::path& file)
 }
 
 /// @throws InputError unless the file is as it was written.
-std::vector<double> read_stretch(const std::filesystem::path& file, const KeptStretch& stretch)
+std::vector<double> read_stretch(const std::filesystem::path& file, const KeptStretch& stretch, std::int64_t n_arrays)
 {
     std::error_code error;
     const std::uintmax_t n_bytes = std::filesystem::file_size(file, error);
-    if (error || n_bytes != static_cast<std::uintmax_t>(stretch.n_vertices) * 3 * sizeof(double))
+    const auto n = static_cast<std::size_t>(stretch.n_vertices * 3 * (1 + n_arrays));
+    if (error || n_bytes != n * sizeof(double))
         refuse_file(file, "is missing, or has not the length that the list of the checkpoint says");
-    std::vector<double> numbers(static_cast<std::size_t>(stretch.n_vertices) * 3);
+    std::vector<double> numbers(n);
     std::ifstream stream(file, std::ios::binary);
     stream.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(n_bytes));
     if (!stream || checksum_of_numbers(numbers) != stretch.checksum)
@@ -149,6 +162,15 @@ void remove_others(const std::filesystem::path& folder, const std::string& kept)
             others.push_back(entry.path());
     for (const auto& path : others)
         std::filesystem::remove(path, ignored);
+}
+
+/// The positions first. @param state a RankFlowState, const or not.
+auto arrays_of(auto& state)
+{
+    std::vector arrays{&state.vertices};
+    for (auto& array : state.arrays)
+        arrays.push_back(&array);
+    return arrays;
 }
 
 std::string name_of_step(int step)
@@ -222,11 +244,12 @@ std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<
     list.stretches = talk.tell_all(list.stretches);
     if (list.stretches.empty())
         return std::nullopt;
-    RankFlowState state{.step = static_cast<int>(talk.tell_all(std::vector<std::int64_t>{list.step}).front()),
-                        .vertices = {}};
+    const auto counts = talk.tell_all(std::vector<std::int64_t>{list.step, list.n_arrays});
+    RankFlowState state{.step = static_cast<int>(counts[0]), .numbers = talk.tell_all(list.numbers)};
     const std::int64_t begin = bounds[static_cast<std::size_t>(talk.rank())];
     const std::int64_t end = bounds[static_cast<std::size_t>(talk.rank()) + 1];
     state.vertices.resize(end - begin, 3);
+    state.arrays.assign(static_cast<std::size_t>(counts[1]), state.vertices);
     talk.look_together([&] {
         for (std::size_t i = 0; i < list.stretches.size(); ++i) {
             const KeptStretch& one = list.stretches[i];
@@ -234,9 +257,12 @@ std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<
             const std::int64_t to = std::min(end, one.begin + one.n_vertices);
             if (from >= to)
                 continue;
-            const std::vector<double> numbers = read_stretch(file_of(state.step, i), one);
-            for (std::int64_t v = from; v < to; ++v)
-                state.vertices.row(v - begin) = Point(numbers.data() + 3 * (v - one.begin));
+            const std::vector<double> numbers = read_stretch(file_of(state.step, i), one, counts[1]);
+            const double* next = numbers.data() + 3 * (from - one.begin);
+            for (Points* const array : arrays_of(state)) {
+                std::copy_n(next, 3 * (to - from), array->data() + 3 * (from - begin));
+                next += 3 * one.n_vertices;
+            }
         }
     });
     return state;
@@ -245,17 +271,19 @@ std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<
 void RankCheckpoint::keep(Conversation& talk, const RankFlowState& state) const
 {
     std::vector<double> numbers;
-    numbers.reserve(static_cast<std::size_t>(state.vertices.size()));
-    for (Eigen::Index v = 0; v < state.vertices.rows(); ++v)
-        for (int c = 0; c < 3; ++c)
-            numbers.push_back(state.vertices(v, c));
+    numbers.reserve(static_cast<std::size_t>(state.vertices.size()) * (1 + state.arrays.size()));
+    for (const Points* const array : arrays_of(state))
+        numbers.insert(numbers.end(), array->data(), array->data() + array->size());
     OutputFile file_here(file_of(state.step, static_cast<std::size_t>(talk.rank())));
     file_here.text({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)});
     file_here.commit();
     const KeptStretch own{.begin = 0, .n_vertices = state.vertices.rows(), .checksum = checksum_of_numbers(numbers)};
     // When rank 0 has them all files are on the disk.
-    RankList list{
-        .step = state.step, .stretches = talk.gather_at_first(std::vector<KeptStretch>{own}), .identity = identity_};
+    RankList list{.step = state.step,
+                  .n_arrays = std::ssize(state.arrays),
+                  .numbers = state.numbers,
+                  .stretches = talk.gather_at_first(std::vector<KeptStretch>{own}),
+                  .identity = identity_};
     talk.at_first_rank([&] {
         std::int64_t n = 0;
         for (KeptStretch& one : list.stretches)

@@ -20,9 +20,9 @@ std::uint64_t checksum_of_mesh(Conversation& talk, const RankSlice& slice);
 /// The same of the labels of faces.
 std::uint64_t checksum_of_labels(Conversation& talk, const RankSlice& slice);
 
-/// The state of a flow of ranks in a folder that all of them see: for each rank a file with its stretch of the
-/// positions, and one that lists these files, with their checksums. Rank 0 replaces the list when all other files are
-/// on the disk: it is always that of a complete step. All ranks call its functions together, any number of them.
+/// The state of a flow of ranks in a folder that all of them see: for each rank a file with its stretch, and one that
+/// lists these files, with their checksums. Rank 0 replaces the list when all other files are on the disk: it is always
+/// that of a complete step. All ranks call its functions together, any number of them.
 class RankCheckpoint {
   public:
     /// @param identity what determines the result. Of rank 0; what others give is passed over.

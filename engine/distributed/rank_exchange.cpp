@@ -49,8 +49,9 @@ Index RankExchange::known_index(Index number) const
     return static_cast<Index>(std::ranges::lower_bound(known_, number, {}, &KnownSubMesh::number) - known_.begin());
 }
 
-/// What the transfers to this rank's sub-meshes read of foreign ones.
-void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps)
+/// What the transfers to this rank's sub-meshes read of foreign ones, and further rows.
+void RankExchange::find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                                     std::span<const std::vector<Index>> further)
 {
     const auto note = [&](const std::vector<Transfer>& transfers, std::initializer_list<News> kinds) {
         for (const Transfer& transfer : transfers)
@@ -64,6 +65,9 @@ void RankExchange::find_own_interest(const Decomposition& decomposition, std::sp
         interest.predicts.assign(sweeps.size(), 0);
     for (const auto& halo : decomposition.halo)
         note(halo, {News::Position, News::Solution});
+    for (std::size_t s = 0; s < further.size(); ++s)
+        note({{.from = static_cast<Index>(s), .to = -1, .source = further[s], .target = {}}},
+             {News::Position, News::Solution});
     for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep)
         for (std::size_t s = 0; s < known_.size(); ++s) {
             note(sweeps[sweep].traces[s], {News::Solution});
@@ -76,9 +80,10 @@ void RankExchange::find_own_interest(const Decomposition& decomposition, std::sp
             sort_unique(rows);
 }
 
-void RankExchange::connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps)
+void RankExchange::connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                           std::span<const std::vector<Index>> further)
 {
-    find_own_interest(decomposition, sweeps);
+    find_own_interest(decomposition, sweeps, further);
     arrivals_.resize(sweeps.size());
     std::vector<Packer> to_each(talk_->size());
     for (std::size_t s = 0; s < known_.size(); ++s) {

@@ -35,7 +35,8 @@ class RankExchange final : public ForeignSubMeshes {
     RankExchange(Conversation& talk, const MeshPart& part, std::vector<KnownSubMesh> known);
 
     [[nodiscard]] bool is_foreign(Index s) const override { return known_[s].rank != talk_->rank(); }
-    void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps) override;
+    void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                 std::span<const std::vector<Index>> further) override;
     [[nodiscard]] bool awaits(News news, std::size_t sweep, Index s) const override;
     void set_event(News news, std::size_t sweep, Index s, StepGraph::Node event) override;
     void receive(News news, Index s, Points& rows) override;
@@ -68,7 +69,8 @@ class RankExchange final : public ForeignSubMeshes {
         bool has_come;
     };
 
-    void find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps);
+    void find_own_interest(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                           std::span<const std::vector<Index>> further);
     void receive_all(StepGraph& graph, std::vector<Arrival>& arrivals);
     void deliver(Message message, StepGraph& graph, std::vector<Arrival>& arrivals);
     [[nodiscard]] Index known_index(Index number) const;

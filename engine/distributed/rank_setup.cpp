@@ -11,6 +11,7 @@
 
 #include "engine/distributed/rank_peers.h"
 #include "engine/measure/remarks.h"
+#include "engine/setup/constraints.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/run_for_sub_mesh.h"
@@ -323,6 +324,12 @@ RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& of
     hold(mesh.topology,
          select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
     hold_undefined(talk, options.laplacian, mesh);
+    if (options.accuracy.approach == Approach::Sweep)
+        talk.look_together([&] {
+            std::vector<Index> rim = moving_boundary(mesh.part.mesh, mesh.topology);
+            std::erase_if(rim, [&](Index v) { return !mesh.has_own_faces(v); });
+            require_boundary_unshared(mesh.topology, mesh.part.labels, rim);
+        });
     const auto is_not_manifold = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
     mesh.n_non_manifold = count_vertices(talk, mesh, is_not_manifold).n;
     if (mesh.n_non_manifold > 0)
@@ -349,6 +356,8 @@ RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Dec
     result.decomposition = std::move(decomposition);
     result.n_of_all_ranks = all.size();
     result.foreign = &foreign;
+    result.topology = &mesh.topology;
+    result.peers = make_rank_peers(talk, mesh);
     const auto adjacency = gather_adjacency(talk, mesh, places, result.decomposition, all.size());
     const auto curvatures = gather_curvatures(talk, mesh, places, result.decomposition, options, all.size());
     rank_of_all = rank_sub_meshes(adjacency, options.interface.colouring, curvatures);

@@ -56,7 +56,7 @@ RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& of
 Decomposition decompose_rank_mesh(RankMesh& mesh);
 
 /// Agrees with the other ranks on the order of the sweep.
-/// @param foreign is put into the result.
+/// @param talk, mesh must outlive the result. @param foreign is put into it.
 /// @param rank_of_all receives the place of each of them in the sweep.
 RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
                                    const FlowOptions& options, ForeignSubMeshes& foreign,

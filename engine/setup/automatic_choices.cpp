@@ -147,7 +147,7 @@ std::string reason_for(const PredictedCost& cost)
 ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
                                const FlowOptions& options, std::optional<Approach> earlier)
 {
-    const ToleranceChoice tolerance = choose_tolerance(mesh, size, options, boundary_moves(mesh, topology));
+    const ToleranceChoice tolerance = choose_tolerance(mesh, size, options, !moving_boundary(mesh, topology).empty());
     const Approach asked = options.accuracy.approach;
     if (takes_whole_mesh(asked))
         return {.approach = asked, .tolerance = tolerance.tolerance};

@@ -16,11 +16,6 @@ namespace seamflow {
 
 namespace {
 
-bool moves_on_boundary(const Topology& topology, Index v)
-{
-    return topology.kind[v] == VertexKind::Boundary && topology.moves(v);
-}
-
 /// For MotionOptions::strict.
 void require_manifold(const Topology& topology)
 {
@@ -64,17 +59,15 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
         remarks.push_back(remark_on_unmoving_mesh());
 }
 
-bool boundary_moves(const PolygonMesh& mesh, const Topology& topology)
+std::vector<Index> moving_boundary(const PolygonMesh& mesh, const Topology& topology)
 {
-    return !select(run_in_parallel, mesh.n_vertices(), [&](Index v) { return moves_on_boundary(topology, v); }).empty();
+    return select(run_in_parallel, mesh.n_vertices(),
+                  [&](Index v) { return topology.kind[v] == VertexKind::Boundary && topology.moves(v); });
 }
 
-void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut)
+void require_boundary_unshared(const Topology& topology, std::span<const Index> labels, std::span<const Index> vertices)
 {
-    const auto shared = select(run_in_parallel, mesh.n_vertices(), [&](Index v) {
-        return moves_on_boundary(topology, v) && is_on_interface(topology, cut.labels, v);
-    });
-    if (!shared.empty())
+    if (std::ranges::any_of(vertices, [&](Index v) { return is_on_interface(topology, labels, v); }))
         throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
                           "what speaks of sweeps (conditions, sweep, p, …), or use one sub-mesh");
 }

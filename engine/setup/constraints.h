@@ -1,10 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/options/flow_options.h"
-#include "partition/cut/cut.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -19,11 +19,13 @@ namespace seamflow {
 void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
                std::vector<std::string>& remarks);
 
-/// Whether any vertex on the boundary moves.
-bool boundary_moves(const PolygonMesh& mesh, const Topology& topology);
+/// The vertices on the boundary that move.
+std::vector<Index> moving_boundary(const PolygonMesh& mesh, const Topology& topology);
 
 /// The conditions on Γ are not defined where Γ meets a boundary that moves.
-/// @throws OptionError if it does.
-void require_boundary_unshared(const PolygonMesh& mesh, const Topology& topology, const Cut& cut);
+/// @param labels #F. @param vertices all, or those that are asked about.
+/// @throws OptionError if it does at one of them.
+void require_boundary_unshared(const Topology& topology, std::span<const Index> labels,
+                               std::span<const Index> vertices);
 
 }  // namespace seamflow

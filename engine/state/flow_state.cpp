@@ -28,12 +28,6 @@ const Points& StepMemoryReader::array_of_any(Eigen::Index rows)
     return memory_->arrays[next_array_++];
 }
 
-const Points& StepMemoryReader::array_or_none(Eigen::Index rows)
-{
-    const bool none = next_array_ < memory_->arrays.size() && memory_->arrays[next_array_].rows() == 0;
-    return array(none ? 0 : rows);
-}
-
 double StepMemoryReader::number()
 {
     if (next_number_ == memory_->numbers.size())

@@ -34,9 +34,6 @@ class StepMemoryReader {
     /// The same for an array whose numbers may be any.
     const Points& array_of_any(Eigen::Index rows);
 
-    /// The same for an array with that many rows or none.
-    const Points& array_or_none(Eigen::Index rows);
-
     /// @throws InputError if there is no further number.
     double number();
 

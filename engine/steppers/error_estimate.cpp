@@ -6,6 +6,7 @@
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/stopwatch.h"
+#include "partition/index_lists.h"
 #include "solvers/direct/columns.h"
 
 namespace seamflow {
@@ -37,35 +38,64 @@ Point scaled(const Point& vector, const Point& normal, double tangentially, doub
 }  // namespace
 
 ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             const FlowOptions& options)
+                             const FlowOptions& options, InterfacePeers& peers)
     : decomposition_(&decomposition)
     , mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(options.laplacian)
     , time_step_(options.time_step)
     , has_copies_(is_classical(options.interface.conditions))
-    , equation_(decomposition, mesh, topology, options.laplacian, run_in_parallel)
+    , peers_(&peers)
+    , equation_(decomposition, mesh, topology, options.laplacian, peers, run_in_parallel)
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
     if (options.flow == FlowEquation::Conformalized)
         first_ = mesh.vertices;
     attach(terms_of(options, mesh.vertices));
-    if (laplacian_ == Laplacian::PtackovaVelho && equation_.size() > 0)
+    if (laplacian_ == Laplacian::PtackovaVelho) {
         solved_ = mesh.vertices;
+        list_foreign_rows();
+    }
+}
+
+/// The corners of faces that share an edge with faces of this peer.
+void ErrorEstimate::list_foreign_rows()
+{
+    if (peers_->has_all())
+        return;
+    foreign_rows_.resize(decomposition_->sub_meshes.size());
+    const std::vector<Index> labels = labels_by_face(*decomposition_, mesh_->n_faces());
+    for (Index h = 0; h < mesh_->n_corners(); ++h) {
+        const Index twin = topology_->twin[h];
+        if (twin < 0 || !peers_->is_own(labels[topology_->face_of[h]]))
+            continue;
+        const Index f = topology_->face_of[twin];
+        if (const Index s = labels[f]; !peers_->is_own(s))
+            for (const Index v : mesh_->face(f))
+                foreign_rows_[s].push_back(local_index(decomposition_->sub_meshes[s], v));
+    }
+    for (auto& rows : foreign_rows_)
+        sort_unique(rows);
 }
 
 void ErrorEstimate::attach(const FlowTerms& terms)
 {
     if (!terms.attaches())
         return;
+    const std::vector<Index> global = vertices();
+    attached_to_ = rows_of(*terms.first, global);
+    for (const Index v : global)
+        attached_.push_back(time_step_ * terms.weight(v));
+}
+
+std::vector<Index> ErrorEstimate::vertices() const
+{
     std::vector<Index> global;
     for (Index s = 0; s < static_cast<Index>(decomposition_->sub_meshes.size()); ++s)
         for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i)
             global.push_back(decomposition_->sub_meshes[s].local_to_global[equation_.local_vertex(i)]);
-    attached_to_ = rows_of(*terms.first, global);
-    for (const Index v : global)
-        attached_.push_back(time_step_ * terms.weight(v));
+    return global;
 }
 
 /// Vᵏ⁺¹ as the sub-mesh has solved it, on Γ the mean of all copies.
@@ -133,13 +163,31 @@ void ErrorEstimate::carry_over()
     });
 }
 
-void ErrorEstimate::add_step(const Points& before)
+/// Fills in Vᵏ⁺¹ as solved, and Vᵏ, where this peer's rows reach those of others.
+/// @returns #V by 3: Vᵏ.
+const Points& ErrorEstimate::complete(const std::vector<SubMeshState>& states, const Points& before)
 {
-    if (solved_.rows() > 0)
-        equation_.measure_whole_rows(*mesh_, *topology_, before, solved_, time_step_, run_in_parallel);
+    if (foreign_rows_.empty())
+        return before;
+    before_ = before;
+    for (std::size_t s = 0; s < foreign_rows_.size(); ++s)
+        for (const Index v : foreign_rows_[s]) {
+            const Index global = states[s].sub_mesh->local_to_global[v];
+            before_.row(global) = states[s].position.row(v);
+            solved_.row(global) = states[s].solved.row(v);
+        }
+    return before_;
+}
+
+void ErrorEstimate::add_step(const std::vector<SubMeshState>& states, const Points& before)
+{
+    if (laplacian_ == Laplacian::PtackovaVelho)
+        equation_.measure_whole_rows(*mesh_, *topology_, complete(states, before), solved_, time_step_,
+                                     run_in_parallel);
     carry_over();
     equation_.solve(run_in_parallel);
     swept_ += equation_.error();
+    largest_ = find_largest();
 }
 
 void ErrorEstimate::save(StepMemory& memory) const
@@ -155,17 +203,21 @@ void ErrorEstimate::restore(StepMemoryReader& memory)
     swept_ = memory.array_of_any(swept_.rows());
 }
 
-std::optional<double> ErrorEstimate::largest() const
+/// Of all peers.
+std::optional<double> ErrorEstimate::find_largest() const
 {
     double squared = 0.0;
+    double is_lost = 0.0;
     for (Eigen::Index i = 0; i < swept_.rows(); ++i) {
         const Point error = swept_.row(i);
         const double here = std::max(error.squaredNorm(), (error + corrected_.row(i)).squaredNorm());
-        if (!std::isfinite(here))
-            return std::nullopt;
-        squared = std::max(squared, here);
+        if (std::isfinite(here))
+            squared = std::max(squared, here);
+        else
+            is_lost = 1.0;
     }
-    return std::sqrt(squared);
+    const std::vector<double> of_all = peers_->largest({squared, is_lost});
+    return of_all[1] > 0.0 ? std::nullopt : std::optional(std::sqrt(of_all[0]));
 }
 
 }  // namespace seamflow

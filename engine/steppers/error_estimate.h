@@ -9,6 +9,7 @@
 #include "partition/decomposition/decomposition.h"
 #include "partition/topology.h"
 #include "solvers/estimate/error_equation.h"
+#include "solvers/interface/interface_peers.h"
 
 namespace seamflow {
 
@@ -21,13 +22,17 @@ namespace seamflow {
 ///
 /// With a low-pass filter it is that of the first solution, and of the correction.
 ///
-/// Belongs to the arena in which it is used. The bits do not depend on the number of threads, and steps allocate
-/// nothing, but for a mean of copies with the classical conditions.
+/// Belongs to the arena in which it is used. Peers estimate together, each for its own sub-meshes. The bits depend
+/// neither on the number of threads nor on who has what.
 class ErrorEstimate {
   public:
-    /// @param decomposition, mesh, topology must outlive this; sub-meshes that do not overlap.
+    /// @param decomposition, mesh, topology, peers must outlive this; see ErrorEquation.
     ErrorEstimate(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  const FlowOptions& options);
+                  const FlowOptions& options, InterfacePeers& peers);
+
+    /// Per sub-mesh that another peer has, the local indices of those of its vertices that have to be in its state,
+    /// too, with Vᵏ and Vᵏ⁺¹ as solved; empty where there are none.
+    [[nodiscard]] const std::vector<std::vector<Index>>& foreign_rows() const { return foreign_rows_; }
 
     /// Takes over the rows of a sub-mesh's own part of Γ, before it accepts Vᵏ⁺¹. Different sub-meshes may do so at the
     /// same time.
@@ -38,16 +43,17 @@ class ErrorEstimate {
     /// Notes how far the sub-mesh's own part of Γ was moved when it accepted Vᵏ⁺¹.
     void note_correction(const std::vector<SubMeshState>& states, Index s);
 
-    /// Estimates the error of the step and adds it to that of the steps before.
-    /// @param before #V by 3: Vᵏ.
-    void add_step(const Points& before);
+    /// Estimates the error of the step and adds it to that of the steps before. All peers call this together.
+    /// @param before #V by 3: Vᵏ of this peer's vertices.
+    void add_step(const std::vector<SubMeshState>& states, const Points& before);
 
-    /// Estimated largest distance of a vertex to the undecomposed flow, in units of length. Empty where that is not
-    /// finite.
-    [[nodiscard]] std::optional<double> largest() const;
+    /// Estimated largest distance of a vertex to the undecomposed flow after the last step, in units of length. Empty
+    /// where that is not finite.
+    [[nodiscard]] std::optional<double> largest() const { return largest_; }
 
-    /// Adds what the next step needs, and takes it back.
+    /// Adds what the next step needs, arrays with a row for each of these vertices of the mesh, and takes it back.
     /// @throws InputError if it does not fit.
+    [[nodiscard]] std::vector<Index> vertices() const;
     void save(StepMemory& memory) const;
     void restore(StepMemoryReader& memory);
 
@@ -55,7 +61,10 @@ class ErrorEstimate {
     [[nodiscard]] const Points& joined(const std::vector<SubMeshState>& states, Index s, Points& mean) const;
     [[nodiscard]] const Points& stiffness_at(const SubMeshState& state, Points& first) const;
     void attach(const FlowTerms& terms);
+    void list_foreign_rows();
+    [[nodiscard]] const Points& complete(const std::vector<SubMeshState>& states, const Points& before);
     void carry_over();
+    [[nodiscard]] std::optional<double> find_largest() const;
 
     const Decomposition* decomposition_;
     const PolygonMesh* mesh_;
@@ -69,14 +78,18 @@ class ErrorEstimate {
     Points attached_to_;
     /// Whether every sub-mesh has a copy of Γ of its own.
     bool has_copies_;
+    InterfacePeers* peers_;
     ErrorEquation equation_;
     /// Each #Γ by 3. What the correction did in this step, and what is there after all steps: displacements by
     /// corrections, and errors of sweeps.
     Points correction_;
     Points corrected_;
     Points swept_;
-    /// With Δ_P, #V by 3: Vᵏ⁺¹ as solved.
+    std::optional<double> largest_;
+    /// With Δ_P, #V by 3: Vᵏ⁺¹ as solved, and Vᵏ where other peers have something of it.
     Points solved_;
+    Points before_;
+    std::vector<std::vector<Index>> foreign_rows_;
 };
 
 }  // namespace seamflow

@@ -36,8 +36,10 @@ class ForeignSubMeshes {
     [[nodiscard]] virtual bool is_foreign(Index s) const = 0;
 
     /// Agrees with the other ranks on what is told; all do so together, once.
-    /// @param sweeps their plans.
-    virtual void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps) = 0;
+    /// @param sweeps their plans. @param further per sub-mesh, local indices of those whose positions and solutions are
+    ///        wanted beside those that the sweeps read; or empty.
+    virtual void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
+                         std::span<const std::vector<Index>> further) = 0;
 
     /// Whether anything of this kind is to arrive of a foreign sub-mesh.
     /// @param sweep the number of the plan: 0 forward, 1 backward.

@@ -445,10 +445,26 @@ void SchurStepper::save(StepMemory& memory) const
     memory.arrays = {interface_.update};
 }
 
+/// Those of Γ.
+std::vector<Index> SchurStepper::saved_vertices() const
+{
+    const InterfaceCopies& copies = equation_.copies();
+    std::vector<Index> vertices(at(copies.n_vertices()));
+    for (Index s = 0; s < copies.n_sub_meshes(); ++s) {
+        if (!is_own(s))
+            continue;
+        const NeumannSystem& system = *parts_[s].system;
+        for (Index i = 0; i < system.n_interface(); ++i)
+            vertices[copies.vertex[copies.first[s] + i]] =
+                parts_[s].sub_mesh.local_to_global[system.unknowns()[system.n_interior() + i]];
+    }
+    return vertices;
+}
+
 void SchurStepper::restore_further(StepMemoryReader& memory)
 {
-    interface_.update = memory.array_or_none(equation_.copies().n_vertices());
-    interface_.has_update = interface_.update.rows() > 0;
+    interface_.update = memory.array(equation_.copies().n_vertices());
+    interface_.has_update = true;
 }
 
 void SchurStepper::describe(FlowReport& report) const

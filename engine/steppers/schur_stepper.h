@@ -53,6 +53,7 @@ class SchurStepper final : public ConvergedStepper {
     SchurStepper(const PolygonMesh& mesh, PeerSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
 
     void save(StepMemory& memory) const override;
+    [[nodiscard]] std::vector<Index> saved_vertices() const override;
     using ConvergedStepper::describe;
     void describe(FlowReport& report) const override;
 

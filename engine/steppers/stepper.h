@@ -44,7 +44,11 @@ class Stepper {
     /// Gives what the next step needs.
     virtual void save(StepMemory& memory) const = 0;
 
-    /// Takes that back, before any step: the next one goes on from there.
+    /// Per row of each array that `save` gives, the vertex of the mesh to which the row belongs; for steppers that
+    /// ranks take steps by.
+    [[nodiscard]] virtual std::vector<Index> saved_vertices() const { return {}; }
+
+    /// Takes back what `save` has given, before any step: the next one goes on from there.
     /// @throws InputError if it does not fit.
     virtual void restore(const StepMemory& memory) = 0;
 

@@ -62,8 +62,10 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     make_states(mesh, options, progress);
     run_both(
         [&] {
-            if (options.interface.conditions != Conditions::Schwarz)
-                error_.emplace(decomposition_, mesh, topology, options);
+            if (options.interface.conditions == Conditions::Schwarz)
+                return;
+            peers_ = std::make_unique<OnePeer>(static_cast<Index>(states_.size()));
+            error_.emplace(decomposition_, mesh, topology, options, *peers_);
         },
         [&] { make_plans(rank, states_.size(), options); });
     order_factors(options);
@@ -83,7 +85,9 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
     make_plans(sub_meshes.rank, sub_meshes.n_of_all_ranks, options);
     window_.order = std::move(sub_meshes.factor_order);
     limit_factors(sub_meshes.least_window, options);
-    foreign_->connect(decomposition_, plans_);
+    peers_ = std::move(sub_meshes.peers);
+    error_.emplace(decomposition_, mesh, *sub_meshes.topology, options, *peers_);
+    foreign_->connect(decomposition_, plans_, error_->foreign_rows());
     add_sweeps(options);
 }
 
@@ -263,10 +267,10 @@ void SweepStepper::step(const Points& before)
     }
     run_sweep(root, [&] {
         ++steps_done_;
-        if (error_)
-            error_->add_step(before);
         join();
     });
+    if (error_)
+        error_->add_step(states_, before);
 }
 
 void SweepStepper::set_solution(SubMeshState::Solution solution)
@@ -319,6 +323,11 @@ void SweepStepper::save(StepMemory& memory) const
             memory.arrays.emplace_back(state.position.topRows(state.sub_mesh->n_vertices));
     if (error_)
         error_->save(memory);
+}
+
+std::vector<Index> SweepStepper::saved_vertices() const
+{
+    return error_ ? error_->vertices() : std::vector<Index>();
 }
 
 void SweepStepper::restore(const StepMemory& memory)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "partition/cut/cut.h"
 #include "partition/decomposition/sweep_plan.h"
 #include "partition/topology.h"
+#include "solvers/interface/interface_peers.h"
 
 namespace seamflow {
 
@@ -35,8 +37,11 @@ struct RankSubMeshes {
     std::vector<Index> factor_order;
     /// The smallest window with which sweeps along that order cannot deadlock.
     Index least_window = 0;
-    /// Must outlive the stepper.
+    /// Must outlive the stepper, both.
     ForeignSubMeshes* foreign = nullptr;
+    const Topology* topology = nullptr;
+    /// The ranks as those that estimate the error together.
+    std::unique_ptr<InterfacePeers> peers;
 };
 
 /// Takes a step in one sweep over the colours of the sub-meshes (see add_sweep), with what InterfaceOptions::conditions
@@ -51,7 +56,7 @@ class SweepStepper final : public Stepper {
     SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const FlowOptions& options,
                  const std::vector<double>& curvature, Progress& progress);
 
-    /// The same for the sub-meshes of one rank. There is no estimate of the error.
+    /// The same for the sub-meshes of one rank.
     /// @param mesh the part of the mesh that the rank knows. @param options not the classical conditions, nor
     /// Schwarz's.
     SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, const FlowOptions& options, Progress& progress);
@@ -61,6 +66,7 @@ class SweepStepper final : public Stepper {
     [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
     void go_on_from(const Points& image, const Similarity& similarity) override;
     void save(StepMemory& memory) const override;
+    [[nodiscard]] std::vector<Index> saved_vertices() const override;
     void restore(const StepMemory& memory) override;
     void add_seconds(PhaseSeconds& seconds) const override;
     void describe(StepReport& report) const override;
@@ -96,7 +102,8 @@ class SweepStepper final : public Stepper {
     FactorWindow window_;
     /// With the classical conditions.
     std::optional<InterfaceGaps> copies_;
-    /// But for overlapping sub-meshes, and those of a rank.
+    /// But for overlapping sub-meshes; and those who estimate together.
+    std::unique_ptr<InterfacePeers> peers_;
     std::optional<ErrorEstimate> error_;
     /// A root for each plan.
     StepGraph graph_;

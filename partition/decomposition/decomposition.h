@@ -47,6 +47,9 @@ struct Decomposition {
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts,
                                                const Loop& loop = run_serially);
 
+/// The other way round: the sub-mesh of every face. @param n_faces of the mesh, each in one sub-mesh.
+std::vector<Index> labels_by_face(const Decomposition& decomposition, Index n_faces);
+
 /// Joins sub-meshes made by make_sub_mesh: who shares which vertex of Γ, and what fills the halos.
 Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels,
                       const Loop& loop = run_serially);

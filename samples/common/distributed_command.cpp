@@ -26,11 +26,15 @@ std::vector<SmoothProgram::Lack> lacks()
             {"--html", "a page shows the whole mesh, which no rank has; smooth writes it"}};
 }
 
-/// Steps of ranks are in sub-meshes: sweeps where no tolerance is asked for.
-void settle_approach(AccuracyOptions& accuracy)
+/// Steps of ranks are in sub-meshes: sweeps where neither a tolerance is asked for nor a free boundary, which
+/// sub-meshes can share in converged steps alone.
+void settle_approach(FlowOptions& options)
 {
-    if (accuracy.approach == Approach::Automatic || accuracy.approach == Approach::Decomposed)
-        accuracy.approach = accuracy.tolerance ? Approach::Converged : Approach::Sweep;
+    AccuracyOptions& accuracy = options.accuracy;
+    if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
+        return;
+    const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
+    accuracy.approach = accuracy.tolerance || shares_boundary ? Approach::Converged : Approach::Sweep;
 }
 
 }  // namespace
@@ -54,14 +58,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
     if (command.flow.amount.slope_of_noise)
         throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius: smooth alone, which "
                           "has the whole mesh, can measure its noise");
-    settle_approach(command.flow.options.accuracy);
-    if (command.flow.options.motion.boundary != Boundary::Fixed &&
-        command.flow.options.accuracy.approach != Approach::Converged)
-        throw OptionError("rims move freely in converged steps of ranks alone: add --approach converged, or leave "
-                          "--boundary free out");
-    if (!command.flow.checkpoint.empty() && command.flow.options.accuracy.approach == Approach::Converged)
-        throw OptionError("ranks keep checkpoints of sweeps alone: leave out --checkpoint, or what asks for converged "
-                          "steps; smooth knows both");
+    settle_approach(command.flow.options);
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;
     return std::nullopt;

@@ -62,9 +62,12 @@ Json step_json(const RankStepReport& step, double mean_edge)
     return json;
 }
 
-Json area_and_volume(const SurfaceLook& look)
+Json look_of_ranks(const SurfaceLook& look)
 {
-    return {{"area", look.area}, {"volume", look.volume ? Json(*look.volume) : Json(nullptr)}};
+    return {{"area", look.area},
+            {"volume", look.volume ? Json(*look.volume) : Json(nullptr)},
+            {"roughness_rms", look.roughness.rms},
+            {"roughness_percentile_95", look.roughness.percentile_95}};
 }
 
 }  // namespace
@@ -106,8 +109,10 @@ void print_distributed_result(std::ostream& out, const DistributedRecord& record
     const double edge = record.size.mean_edge > 0.0 ? record.size.mean_edge : 1.0;
     const auto& [before, after, moved] = record.run.surface;
     out << fmt::format(
-        "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; area {:.6g} -> {:.6g}",
-        record.run.output, moved.mean / edge, moved.max / edge, before.area, after.area);
+        "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {:.3g} -> {:.3g} degrees, "
+        "area {:.6g} -> {:.6g}",
+        record.run.output, moved.mean / edge, moved.max / edge, before.roughness.rms, after.roughness.rms, before.area,
+        after.area);
     if (before.volume && after.volume)
         out << fmt::format(", volume {:.6g} -> {:.6g}", *before.volume, *after.volume);
     if (!report.steps.empty() && report.steps.back().estimated_v_max.value_or(0.0) > 0.0)
@@ -163,7 +168,7 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
                                  {"bytes", rank.bytes},
                                  {"threads", rank.threads},
                                  {"peak_memory_bytes", rank.peak_memory_bytes}});
-    json["surface"] = {{"before", area_and_volume(run.surface.before)}, {"after", area_and_volume(run.surface.after)}};
+    json["surface"] = {{"before", look_of_ranks(run.surface.before)}, {"after", look_of_ranks(run.surface.after)}};
     add_lengths(json["surface"], "moved", run.surface.moved, record.size.mean_edge);
     json["choices"] = record.choices;
     json["remarks"] = record.remarks;

@@ -3,40 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <xxhash.h>
-
 #include "partition/index_lists.h"
 #include "partition/metrics/volume.h"
 #include "partition/vector_area.h"
+#include "samples/common/surface_sample.h"
 
 namespace seamflow {
 
 namespace {
-
-/// The faces around so many vertices tell the roughness of all within about a hundredth.
-constexpr Index enough_vertices = 4000;
-
-/// Vertices spread over the mesh without a pattern.
-bool is_sampled(Index v, Index n_vertices)
-{
-    return n_vertices <= enough_vertices ||
-           XXH3_64bits(&v, sizeof v) % static_cast<XXH64_hash_t>(n_vertices) < enough_vertices;
-}
-
-/// @param vertices those of the faces, ascending.
-PolygonMesh extract(const PolygonMesh& mesh, const std::vector<Index>& faces, const std::vector<Index>& vertices)
-{
-    PolygonMesh part;
-    std::vector<Index> corners;
-    for (const Index f : faces) {
-        corners.clear();
-        for (const Index v : mesh.face(f))
-            corners.push_back(
-                static_cast<Index>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin()));
-        part.add_face(corners);
-    }
-    return part;
-}
 
 /// The mesh, and some of its faces, as its vertices move.
 class Surface {
@@ -51,10 +25,14 @@ class Surface {
         const std::vector<Index> faces = select(loop, mesh.n_faces(), [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
         });
-        for (const Index f : faces)
-            sampled_vertices_.insert(sampled_vertices_.end(), mesh.face(f).begin(), mesh.face(f).end());
+        IndexLists corners;
+        for (const Index f : faces) {
+            corners.values.insert(corners.values.end(), mesh.face(f).begin(), mesh.face(f).end());
+            corners.close();
+        }
+        sampled_vertices_ = corners.values;
         sort_unique(sampled_vertices_);
-        sample_ = extract(mesh, faces, sampled_vertices_);
+        sample_ = extract(corners, sampled_vertices_);
     }
 
     [[nodiscard]] SurfaceLook look(const Points& positions) const

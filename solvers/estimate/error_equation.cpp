@@ -2,73 +2,103 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
 #include "partition/index_lists.h"
+#include "partition/labels.h"
 #include "solvers/estimate/error_row.h"
 
 namespace seamflow {
 
-namespace {
-
-/// How many vertices of Γ are taken together, whatever the loop.
-constexpr Index vertices_per_block = 1024;
-
-Index n_blocks(Index n)
-{
-    return n / vertices_per_block + (n % vertices_per_block > 0 ? 1 : 0);
-}
-
-/// Runs body(number, begin, end) for each block.
-template <class Body>
-void for_each_part(const Loop& loop, Index n, Body&& body)
-{
-    for_each(loop, n_blocks(n), [&](Index number) {
-        body(number, number * vertices_per_block, std::min(n, (number + 1) * vertices_per_block));
-    });
-}
-
-/// Runs body(i).
-template <class Body>
-void for_each_in_blocks(const Loop& loop, Index n, Body&& body)
-{
-    for_each_part(loop, n, [&](Index, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
-            body(i);
-    });
-}
-
-}  // namespace
-
 ErrorEquation::ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             Laplacian laplacian, const Loop& loop)
+                             Laplacian laplacian, InterfacePeers& peers, const Loop& loop)
     : decomposition_(&decomposition)
+    , peers_(&peers)
     , laplacian_(laplacian)
+    , tree_(peers)
 {
     std::vector<Index> kinds(topology.fixed.size());
     for_each(loop, static_cast<Index>(kinds.size()),
              [&](Index v) { kinds[v] = topology.moves(v) ? off_interface : held_fixed; });
-    for (const SubMesh& sub_mesh : decomposition.sub_meshes) {
-        const auto& vertices = sub_mesh.interface.vertices;
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            if (sub_mesh.owned[vertices[i]] != 0) {
-                kinds[sub_mesh.local_to_global[vertices[i]]] = static_cast<Index>(numbering_.local_vertex.size());
-                numbering_.index_in_owner.push_back(static_cast<Index>(i));
-                numbering_.local_vertex.push_back(vertices[i]);
-            }
-        numbering_.first.push_back(static_cast<Index>(numbering_.local_vertex.size()));
-    }
+    number_own(kinds);
+    number_foreign(mesh, topology, kinds);
     list_neighbours(kinds, loop);
+    share_rows();
     rows_.couplings.resize(rows_.neighbours.values.size());
     for (auto* array : {&rows_.mass, &rows_.diagonal, &rows_.row_sum, &rows_.response})
         array->resize(numbering_.local_vertex.size());
-    for (Points* array :
-         {&rows_.normal, &iteration_.residual, &iteration_.error, &iteration_.direction, &iteration_.product})
+    rows_.response.resize(rows_.response.size() + numbering_.foreign.size());
+    for (Points* array : {&rows_.normal, &iteration_.residual, &iteration_.error, &iteration_.product})
         array->setZero(size(), 3);
-    iteration_.of_block.resize(n_blocks(size()));
+    iteration_.direction.setZero(std::ssize(rows_.response), 3);
     if (laplacian == Laplacian::PtackovaVelho)
-        make_whole_rows(mesh, topology, kinds);
+        whole_.emplace(decomposition, mesh, topology, peers);
+}
+
+/// @param kinds #V: receives the numbers.
+void ErrorEquation::number_own(std::vector<Index>& kinds)
+{
+    for (Index s = 0; s < static_cast<Index>(decomposition_->sub_meshes.size()); ++s) {
+        const SubMesh& sub_mesh = decomposition_->sub_meshes[s];
+        for (Index i = 0; i < sub_mesh.interface.size(); ++i)
+            if (sub_mesh.interface.sharing[i].front() == s) {
+                const Index v = sub_mesh.interface.vertices[i];
+                kinds[sub_mesh.local_to_global[v]] = static_cast<Index>(numbering_.local_vertex.size());
+                numbering_.index_in_sub_mesh.push_back(i);
+                numbering_.local_vertex.push_back(v);
+            }
+        numbering_.first.push_back(static_cast<Index>(numbering_.local_vertex.size()));
+    }
+}
+
+/// The neighbours of own vertices that are on Γ, too: in the order in which their peers number them.
+/// @param kinds #V: receives the numbers.
+void ErrorEquation::number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds)
+{
+    struct Neighbour {
+        Index lowest;
+        Index vertex;
+        auto operator<=>(const Neighbour&) const = default;
+    };
+    if (peers_->has_all())
+        return;
+    const auto& sub_meshes = decomposition_->sub_meshes;
+    const std::vector<Index> labels = labels_by_face(*decomposition_, mesh.n_faces());
+    std::vector<Neighbour> found;
+    std::vector<Index> around;
+    for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s)
+        for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i)
+            for (const Index neighbour : sub_meshes[s].seam.neighbours[numbering_.index_in_sub_mesh[i]]) {
+                const Index v = sub_meshes[s].local_to_global[neighbour];
+                if (kinds[v] != off_interface)
+                    continue;
+                labels_around(topology, labels, v, around);
+                if (around.size() > 1)
+                    found.push_back({around.front(), v});
+            }
+    sort_unique(found);
+    for (const Neighbour& neighbour : found) {
+        kinds[neighbour.vertex] = static_cast<Index>(numbering_.local_vertex.size() + numbering_.foreign.size());
+        numbering_.foreign.push_back(neighbour.lowest);
+    }
+}
+
+/// Who has a neighbour is himself told of the vertex, whose neighbour that is.
+void ErrorEquation::share_rows()
+{
+    std::map<Index, SharedRows::Lists> with;
+    const auto n = static_cast<Index>(numbering_.local_vertex.size());
+    for (Index i = 0; i < static_cast<Index>(numbering_.foreign.size()); ++i)
+        with[peers_->holder_of(numbering_.foreign[i])].taken.push_back(n + i);
+    for (Index i = 0; i < n; ++i)
+        for (const Index other : rows_.neighbours[i])
+            if (other >= n)
+                with[peers_->holder_of(numbering_.foreign[other - n])].given.push_back(i);
+    for (auto& [other, lists] : with)
+        sort_unique(lists.given);
+    shared_.emplace(*peers_, std::move(with));
 }
 
 /// @param kinds #V: the number of a vertex of Γ, or see off_interface.
@@ -78,49 +108,18 @@ void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Loop& lo
     auto& [offsets, values] = rows_.neighbours;
     for (std::size_t s = 0; s < sub_meshes.size(); ++s)
         for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i)
-            offsets.push_back(offsets.back() +
-                              static_cast<Index>(sub_meshes[s].seam.neighbours[numbering_.index_in_owner[i]].size()));
+            offsets.push_back(
+                offsets.back() +
+                static_cast<Index>(sub_meshes[s].seam.neighbours[numbering_.index_in_sub_mesh[i]].size()));
     values.resize(offsets.back());
     for_each(loop, static_cast<Index>(sub_meshes.size()), [&](Index s) {
         const SubMesh& sub_mesh = sub_meshes[s];
         for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i) {
             Index place = rows_.neighbours.offsets[i];
-            for (const Index neighbour : sub_mesh.seam.neighbours[numbering_.index_in_owner[i]])
+            for (const Index neighbour : sub_mesh.seam.neighbours[numbering_.index_in_sub_mesh[i]])
                 rows_.neighbours.values[place++] = kinds[sub_mesh.local_to_global[neighbour]];
         }
     });
-}
-
-void ErrorEquation::make_whole_rows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds)
-{
-    std::vector<Index> number(kinds.size(), -1);
-    std::vector<Index> vertices(numbering_.local_vertex.size());
-    for (std::size_t v = 0; v < kinds.size(); ++v)
-        if (kinds[v] >= 0)
-            vertices[kinds[v]] = static_cast<Index>(v);
-    std::vector<Index> n_shared;
-    IndexLists around_lists;
-    std::vector<Index> around;
-    for (Index i = 0; i < size(); ++i) {
-        around.clear();
-        for (const Index corner : topology.corners_at(vertices[i]))
-            for (const Index w : mesh.face(topology.face_of[corner]))
-                if (kinds[w] == off_interface)
-                    around.push_back(w);
-        sort_unique(around);
-        for (const Index w : around) {
-            if (number[w] < 0) {
-                number[w] = static_cast<Index>(n_shared.size());
-                vertices.push_back(w);
-                n_shared.push_back(0);
-            }
-            ++n_shared[number[w]];
-            around_lists.values.push_back(number[w]);
-        }
-        around_lists.close();
-    }
-    whole_.emplace(WholeRows{PtackovaRows(mesh, topology, vertices), Points(vertices.size(), 3), std::move(n_shared),
-                             std::move(around_lists)});
 }
 
 void ErrorEquation::assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at,
@@ -130,7 +129,7 @@ void ErrorEquation::assemble(Index s, const Points& before, const Points& after,
     for (Index i = first(s); i < first(s + 1); ++i) {
         const auto kinds = rows_.neighbours[i];
         const auto couplings = std::span(rows_.couplings).subspan(rows_.neighbours.offsets[i], kinds.size());
-        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_owner[i], kinds, before, after,
+        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_sub_mesh[i], kinds, before, after,
                                        stiffness_at, time_step, couplings);
         rows_.mass[i] = row.mass;
         rows_.diagonal[i] = row.diagonal;
@@ -145,11 +144,10 @@ void ErrorEquation::assemble(Index s, const Points& before, const Points& after,
 void ErrorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                                        const Points& after, double time_step, const Loop& loop)
 {
-    whole_->rows.evaluate(mesh, topology, before, after, time_step, loop, whole_->residual);
-    for_each_in_blocks(loop, size(), [&](Index i) {
-        iteration_.residual.row(i) = whole_->residual.row(i);
-        for (const Index w : whole_->around[i])
-            iteration_.residual.row(i) += whole_->residual.row(size() + w) / whole_->n_shared[w];
+    whole_->measure(mesh, topology, before, after, time_step, loop);
+    for_each(loop, static_cast<Index>(decomposition_->sub_meshes.size()), [&](Index s) {
+        for (Index i = first(s); i < first(s + 1); ++i)
+            iteration_.residual.row(i) = whole_->residual(s, numbering_.index_in_sub_mesh[i]);
     });
 }
 
@@ -159,7 +157,7 @@ void ErrorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& 
 /// Δ_F and Δ_A on regular quads and triangles at all wave numbers but the highest.
 void ErrorEquation::stiffen(const Loop& loop)
 {
-    for_each_in_blocks(loop, size(), [&](Index i) {
+    for_each(loop, size(), [&](Index i) {
         for (Index e = rows_.neighbours.offsets[i]; e < rows_.neighbours.offsets[i + 1]; ++e)
             if (const Index other = rows_.neighbours.values[e]; other >= 0) {
                 const double response = std::min(rows_.response[i], rows_.response[other]);
@@ -170,20 +168,19 @@ void ErrorEquation::stiffen(const Loop& loop)
     });
 }
 
-/// The sum of value(i), always in the same order.
+/// The sum of value(i) over the vertices of all peers, always in the same order.
 template <class Value>
 double ErrorEquation::add_up(const Loop& loop, Value&& value)
 {
-    for_each_part(loop, size(), [&](Index number, Index begin, Index end) {
+    sums_.assign(at(peers_->n_places()), 0.0);
+    for_each(loop, static_cast<Index>(peers_->places().size()), [&](Index s) {
         double total = 0.0;
-        for (Index i = begin; i < end; ++i)
+        for (Index i = first(s); i < first(s + 1); ++i)
             total += value(i);
-        iteration_.of_block[number] = total;
+        if (peers_->is_own(s))
+            sums_[peers_->places()[s]] = total;
     });
-    double total = 0.0;
-    for (const double part : iteration_.of_block)
-        total += part;
-    return total;
+    return tree_.add_up(sums_, 1).front();
 }
 
 /// T times the direction.
@@ -201,6 +198,7 @@ void ErrorEquation::solve(const Loop& loop)
 {
     constexpr int most_iterations = 30;
     constexpr double squared_tolerance = 1e-4;
+    shared_->complete(rows_.response.data(), 1);
     stiffen(loop);
     double size_before = add_up(loop, [&](Index i) {
         iteration_.direction.row(i) = iteration_.residual.row(i) / rows_.diagonal[i];
@@ -211,6 +209,7 @@ void ErrorEquation::solve(const Loop& loop)
         iteration_.error.setConstant(size_before);
     const double enough = squared_tolerance * size_before;
     for (int iteration = 0; iteration < most_iterations && size_before > enough; ++iteration) {
+        shared_->complete(iteration_.direction.data(), 3);
         const double curvature = add_up(loop, [&](Index i) {
             iteration_.product.row(i) = product(i);
             return iteration_.product.row(i).dot(iteration_.direction.row(i));
@@ -222,7 +221,7 @@ void ErrorEquation::solve(const Loop& loop)
             return iteration_.residual.row(i).squaredNorm() / rows_.diagonal[i];
         });
         const double share = size_now / size_before;
-        for_each_in_blocks(loop, size(), [&](Index i) {
+        for_each(loop, size(), [&](Index i) {
             iteration_.direction.row(i) =
                 iteration_.residual.row(i) / rows_.diagonal[i] + share * iteration_.direction.row(i);
         });

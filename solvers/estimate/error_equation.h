@@ -8,27 +8,32 @@
 #include "partition/index_lists.h"
 #include "partition/loop.h"
 #include "partition/topology.h"
-#include "solvers/estimate/ptackova_rows.h"
+#include "solvers/estimate/whole_rows.h"
+#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/interface_sums.h"
+#include "solvers/interface/shared_rows.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
 
-/// The equation T e = r for the error of a decomposed step on Γ (see ErrorRow), one row per vertex of Γ. Steps
-/// allocate nothing, and the bits do not depend on the loop.
+/// The equation T e = r for the error of a decomposed step on Γ (see ErrorRow), one row per vertex of Γ. Peers solve it
+/// together, each with the rows of its own sub-meshes. The bits depend neither on the loop nor on who has what.
 class ErrorEquation {
   public:
-    /// @param decomposition must outlive this; its sub-meshes do not overlap.
+    /// @param decomposition, peers must outlive this. Sub-meshes do not overlap; those of other peers are fragments
+    /// (see
+    ///        decompose_part), and then not for Δ_P.
     ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  Laplacian laplacian, const Loop& loop = run_serially);
+                  Laplacian laplacian, InterfacePeers& peers, const Loop& loop = run_serially);
 
-    /// Number of vertices on Γ, numbered sub-mesh by sub-mesh, each by the one that owns it.
+    /// Number of this peer's vertices on Γ, numbered sub-mesh by sub-mesh, each by the lowest that has it.
     [[nodiscard]] Index size() const { return static_cast<Index>(rows_.diagonal.size()); }
 
     /// The first number of a sub-mesh; for s = #sub-meshes the number of all.
     [[nodiscard]] Index first(Index s) const { return numbering_.first[s]; }
 
-    /// The local index of a vertex in the sub-mesh that owns it.
+    /// The local index of a vertex in the sub-mesh that numbers it.
     [[nodiscard]] Index local_vertex(Index i) const { return numbering_.local_vertex[i]; }
 
     /// Fills in the rows of a sub-mesh's own part of Γ. Different sub-meshes may do so at the same time.
@@ -37,10 +42,9 @@ class ErrorEquation {
     /// @param time_step dt, in length².
     void assemble(Index s, const Points& before, const Points& after, const Points& stiffness_at, double time_step);
 
-    /// Replaces the right-hand side by that of Δ_P, whose rows reach too far for one sub-mesh to know. What the rows of
-    /// vertices beside Γ leave, which a sub-mesh has from its own faces alone, is shared out to the vertices of Γ with
-    /// which they have a face in common.
-    /// @param before, after #V by 3.
+    /// Replaces the right-hand side by that of Δ_P, whose rows reach too far for one sub-mesh to know. All peers call
+    /// this together.
+    /// @param before, after see WholeRows::measure.
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
                             const Points& after, double time_step, const Loop& loop);
 
@@ -64,15 +68,17 @@ class ErrorEquation {
     /// Unit normal of the surface at Vᵏ; zero where it has none.
     [[nodiscard]] Point normal(Index i) const { return rows_.normal.row(i); }
 
-    /// Solves to two digits; may be called once after the rows have been filled in.
+    /// Solves to two digits; may be called once after the rows have been filled in. All peers call this together.
     void solve(const Loop& loop);
 
     /// #Γ by 3, in units of length: not finite where the rows are not.
     [[nodiscard]] const Points& error() const { return iteration_.error; }
 
   private:
+    void number_own(std::vector<Index>& kinds);
+    void number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds);
     void list_neighbours(std::span<const Index> kinds, const Loop& loop);
-    void make_whole_rows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> kinds);
+    void share_rows();
     void stiffen(const Loop& loop);
     template <class Value>
     double add_up(const Loop& loop, Value&& value);
@@ -82,9 +88,12 @@ class ErrorEquation {
     struct Numbering {
         /// Per sub-mesh, and one more.
         std::vector<Index> first{0};
-        /// Per vertex, its index in its owner's interface, and see local_vertex.
-        std::vector<Index> index_in_owner;
+        /// Per vertex, its index in the interface of its sub-mesh, and see local_vertex.
+        std::vector<Index> index_in_sub_mesh;
         std::vector<Index> local_vertex;
+        /// The sub-meshes by which other peers number neighbours of these vertices. The numbers of such neighbours
+        /// follow the own ones.
+        std::vector<Index> foreign;
     };
     struct Rows {
         /// Per vertex of Γ, its edge neighbours: numbers on Γ, or see off_interface; and -T there.
@@ -93,35 +102,29 @@ class ErrorEquation {
         std::vector<double> mass;
         std::vector<double> diagonal;
         std::vector<double> row_sum;
-        /// Of the vertices beyond Γ, to each neighbour along Γ.
+        /// Of the vertices beyond Γ, to each neighbour along Γ; with those of other peers.
         std::vector<double> response;
         /// #Γ by 3.
         Points normal;
     };
-    /// Conjugate gradients: each #Γ by 3.
+    /// Conjugate gradients: each #Γ by 3, the direction with rows of other peers.
     struct Iteration {
         Points residual;
         Points error;
         Points direction;
         Points product;
-        /// Per block of Γ.
-        std::vector<double> of_block;
     };
-    /// With Δ_P.
-    struct WholeRows {
-        /// Rows of the whole mesh at the vertices of Γ, and then at those that share a face with one of them.
-        PtackovaRows rows;
-        Points residual;
-        /// With how many vertices of Γ each of the latter shares a face, and for each vertex of Γ their numbers.
-        std::vector<Index> n_shared;
-        IndexLists around;
-    };
-
     const Decomposition* decomposition_;
+    InterfacePeers* peers_;
     Laplacian laplacian_;
     Numbering numbering_;
     Rows rows_;
+    std::optional<SharedRows> shared_;
+    SumTree tree_;
+    /// Of all sub-meshes of all peers, what is to be added up.
+    std::vector<double> sums_;
     Iteration iteration_;
+    /// With Δ_P.
     std::optional<WholeRows> whole_;
 };
 

@@ -1,11 +1,15 @@
 #include "solvers/estimate/ptackova_rows.h"
 
+#include <utility>
+
 #include "solvers/laplacian/ptackova_velho.h"
 
 namespace seamflow {
 
-PtackovaRows::PtackovaRows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> vertices)
-    : vertices_(vertices.begin(), vertices.end())
+PtackovaRows::PtackovaRows(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> vertices,
+                           IndexLists faces)
+    : vertices_(std::move(vertices))
+    , faces_at_(std::move(faces))
     , number_(mesh.n_faces(), -1)
 {
     const auto add = [&](Index f) {
@@ -14,9 +18,10 @@ PtackovaRows::PtackovaRows(const PolygonMesh& mesh, const Topology& topology, st
         number_[f] = static_cast<Index>(faces_.size());
         faces_.push_back({f, Eigen::Matrix3d::Zero(), 0.0, Point::Zero()});
     };
-    for (const Index v : vertices_)
-        for (const Index corner : topology.corners_at(v))
-            add(topology.face_of[corner]);
+    for (Index& f : faces_at_.values) {
+        add(f);
+        f = number_[f];
+    }
     n_inner_ = static_cast<Index>(faces_.size());
     for (Index i = 0; i < n_inner_; ++i) {
         const Index f = faces_[i].index;
@@ -43,8 +48,8 @@ void PtackovaRows::evaluate(const PolygonMesh& mesh, const Topology& topology, c
         const Index v = vertices_[i];
         Point laplacian = Point::Zero();
         double vertex_area = 0.0;
-        for (const Index corner : topology.corners_at(v)) {
-            const Face& face = faces_[number_[topology.face_of[corner]]];
+        for (const Index number : faces_at_[i]) {
+            const Face& face = faces_[number];
             laplacian += face.share;
             vertex_area += corner_area(face.area, mesh.face(face.index).size());
         }

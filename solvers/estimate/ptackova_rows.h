@@ -1,25 +1,26 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "partition/index_lists.h"
 #include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
 
-/// Rows of the undecomposed step with Δ_P at some vertices of the whole mesh, without a matrix: they reach two rings.
+/// Rows of the undecomposed step with Δ_P at some vertices, without a matrix, or what some of the faces around the
+/// vertices have of them: they reach two rings.
 class PtackovaRows {
   public:
-    /// @param vertices of kind Interior, each once.
-    PtackovaRows(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> vertices);
+    /// @param vertices one per row. @param faces per row, faces around its vertex.
+    PtackovaRows(const PolygonMesh& mesh, const Topology& topology, std::vector<Index> vertices, IndexLists faces);
 
     /// The residuals of the rows, each multiplied by the area M_v of its vertex: M_v (Vᵏ⁺¹ - Vᵏ + dt Δ_P(Vᵏ) Vᵏ⁺¹).
     /// Allocates nothing.
-    /// @param before, after #V by 3: Vᵏ and Vᵏ⁺¹.
+    /// @param before, after #V by 3: Vᵏ and Vᵏ⁺¹; at these faces and those that share an edge with one.
     /// @param time_step dt, in length².
-    /// @param residuals #vertices by 3.
+    /// @param residuals #rows by 3.
     void evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
                   double time_step, const Loop& loop, Points& residuals);
 
@@ -35,7 +36,9 @@ class PtackovaRows {
     };
 
     std::vector<Index> vertices_;
-    /// Those at the vertices, then those that share an edge with one of them.
+    /// Per row, as numbers in the list below.
+    IndexLists faces_at_;
+    /// Those of the rows, then those that share an edge with one of them.
     std::vector<Face> faces_;
     Index n_inner_ = 0;
     /// #F: the number of a face in that list, or -1.

@@ -75,14 +75,9 @@ InterfaceCopies::InterfaceCopies(const Decomposition& decomposition)
     }
 }
 
-SharedCopies::SharedCopies(const InterfaceCopies& copies, InterfacePeers& peers)
-    : peers_(&peers)
+SharedRows shared_copies(const InterfaceCopies& copies, InterfacePeers& peers)
 {
-    struct Shared {
-        std::vector<Index> given;
-        std::vector<Index> taken;
-    };
-    std::map<Index, Shared> with;
+    std::map<Index, SharedRows::Lists> with;
     for (const Index copy : copies.of_vertex.values) {
         const auto holder_of = [&](Index c) { return peers.holder_of(copies.sub_mesh[c]); };
         if (!peers.is_own(copies.sub_mesh[copy]))
@@ -92,29 +87,11 @@ SharedCopies::SharedCopies(const InterfaceCopies& copies, InterfacePeers& peers)
                 if (!peers.is_own(copies.sub_mesh[other]))
                     with[holder_of(other)].given.push_back(copy);
     }
-    for (auto& [other, shared] : with) {
-        sort_unique(shared.given);
-        sort_unique(shared.taken);
-        others_.push_back(other);
-        given_.push_back(std::move(shared.given));
-        taken_.push_back(std::move(shared.taken));
+    for (auto& [other, lists] : with) {
+        sort_unique(lists.given);
+        sort_unique(lists.taken);
     }
-}
-
-void SharedCopies::complete(double* values, std::size_t width)
-{
-    InterfacePeers::Numbers to_each(others_.size());
-    for (std::size_t p = 0; p < others_.size(); ++p)
-        for (const Index copy : given_[p])
-            to_each[p].insert(to_each[p].end(), values + at(copy) * width, values + at(copy + 1) * width);
-    const InterfacePeers::Numbers from_each = peers_->exchange(others_, to_each);
-    for (std::size_t p = 0; p < others_.size(); ++p) {
-        auto next = from_each[p].begin();
-        for (const Index copy : taken_[p]) {
-            std::copy_n(next, width, values + at(copy) * width);
-            next += static_cast<std::ptrdiff_t>(width);
-        }
-    }
+    return {peers, std::move(with)};
 }
 
 }  // namespace seamflow

@@ -5,6 +5,7 @@
 #include "partition/decomposition/decomposition.h"
 #include "partition/index_lists.h"
 #include "solvers/interface/interface_peers.h"
+#include "solvers/interface/shared_rows.h"
 
 namespace seamflow {
 
@@ -33,22 +34,7 @@ struct InterfaceCopies {
 };
 
 /// What peers tell each other of their copies: of every vertex that two of them have, each knows all copies.
-class SharedCopies {
-  public:
-    /// @param peers must outlive this.
-    SharedCopies(const InterfaceCopies& copies, InterfacePeers& peers);
-
-    /// Fills in the copies of foreign sub-meshes; all peers call this together.
-    /// @param values #copies times `width` numbers, one copy after the other, those of own sub-meshes filled in.
-    void complete(double* values, std::size_t width);
-
-  private:
-    InterfacePeers* peers_;
-    /// The peers that share vertices with this one, ascending; and for each of them the copies that it is given, and
-    /// those that it gives, ascending: both sides have the same order.
-    std::vector<Index> others_;
-    std::vector<std::vector<Index>> given_;
-    std::vector<std::vector<Index>> taken_;
-};
+/// @param peers must outlive the result.
+SharedRows shared_copies(const InterfaceCopies& copies, InterfacePeers& peers);
 
 }  // namespace seamflow

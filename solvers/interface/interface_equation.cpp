@@ -12,7 +12,7 @@ namespace seamflow {
 InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balancing balancing, InterfacePeers& peers)
     : peers_(&peers)
     , copies_(decomposition)
-    , shared_(copies_, peers)
+    , shared_(shared_copies(copies_, peers))
     , weights_(copies_.n_copies())
     , residual_copies_(copies_.n_copies(), 3)
     , right_hand_side_(copies_.n_vertices(), 3)

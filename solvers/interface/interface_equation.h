@@ -81,7 +81,7 @@ class InterfaceEquation {
 
     InterfacePeers* peers_;
     InterfaceCopies copies_;
-    SharedCopies shared_;
+    SharedRows shared_;
     std::optional<CoarseSpace> coarse_;
     /// Per copy.
     std::vector<double> weights_;

@@ -41,6 +41,12 @@ class InterfacePeers {
     [[nodiscard]] Index holder_of(Index s) const { return holders_[places_[s]]; }
     [[nodiscard]] bool is_own(Index s) const { return holder_of(s) == self_; }
 
+    /// Whether this peer knows of no sub-mesh but its own.
+    [[nodiscard]] bool has_all() const
+    {
+        return std::ranges::all_of(places_, [&](Index place) { return holders_[place] == self_; });
+    }
+
     /// What every peer gives, in the order of their numbers.
     virtual Numbers gather(const std::vector<double>& own) = 0;
 

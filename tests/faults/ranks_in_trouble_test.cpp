@@ -22,6 +22,9 @@ struct SharedFlow {
     FlowOptions options;
     std::vector<MeshPart> before;
     std::vector<MeshPart> parts;
+    /// Of all vertices, which make up the stretch of the first rank.
+    Points stretch;
+    bool captures_states = false;
 
     explicit SharedFlow(Approach approach)
     {
@@ -32,6 +35,7 @@ struct SharedFlow {
         options.report.measures = approach == Approach::Converged;
         options.resources.threads = 1;
         const PolygonMesh mesh = test::small_mesh();
+        stretch = mesh.vertices;
         PolygonMesh cut = mesh;
         options.cut.subdomains = 3;
         const FlowReport report = mean_curvature_flow(cut, options);
@@ -46,7 +50,12 @@ struct SharedFlow {
         for (std::size_t r = 0; r < parts.size(); ++r)
             parts[r].mesh.vertices = before[r].mesh.vertices;
         run_on_threads(2, [&](Communicator& communicator) {
-            distributed_mean_curvature_flow(communicator, parts[communicator.rank()], options);
+            RankObserver capture;
+            if (captures_states)
+                capture = [&](const RankStepState& state) {
+                    state.capture(stretch.topRows(communicator.rank() == 0 ? stretch.rows() : 0));
+                };
+            distributed_mean_curvature_flow(communicator, parts[communicator.rank()], options, capture);
         });
     }
 
@@ -100,6 +109,7 @@ TEST_CASE("allocations of converged steps that ranks share")
     SharedFlow flow(Approach::Converged);
     // One step has all kinds of them.
     flow.options.steps = 1;
+    flow.captures_states = true;
     test::fail_every_allocation({.run = [&] { flow.run(); },
                                  .result = [&] { return flow.result(); },
                                  .check_failed = [&] { flow.check_unmoved(); },

@@ -6,35 +6,21 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/samples/running_ranks.h"
 #include "tests/samples/workshop.h"
 
 using namespace seamflow;
+using test::messages;
+using test::on_ranks;
 using test::Workshop;
+using test::write_soup;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// @returns the exit status. @param n ranks.
-int on_ranks(const Workshop& w, int n, const std::string& arguments)
-{
-    return w.run("timeout 100 " MPIRUN " -n " + std::to_string(n) + " " SMOOTH_DISTRIBUTED " " + arguments);
-}
-
-/// What the program itself said on standard error, without its name: MPI says something, too.
-std::vector<std::string> messages(const Workshop& w, const std::string& program)
-{
-    std::vector<std::string> found;
-    std::ifstream file(w.directory / "said");
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with(program + ": "))
-            found.push_back(line.substr(program.size() + 2));
-    return found;
-}
 
 template <class Value>
 Value number_at(std::string_view bytes, std::size_t offset)
@@ -61,28 +47,6 @@ void write_labels_of(const fs::path& parts, const fs::path& labels)
         offset += 1 + 4 * std::size_t{number_at<std::uint8_t>(content, offset)} + 3;
         file << number_at<std::int32_t>(content, offset) << '\n';
         offset += 4;
-    }
-}
-
-/// Writes an OBJ file in which every face has vertices of its own.
-void write_soup(const fs::path& from, const fs::path& to)
-{
-    std::ifstream file(from);
-    std::ofstream soup(to);
-    std::vector<std::string> vertices;
-    std::size_t n = 0;
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("v "))
-            vertices.push_back(line);
-        if (!line.starts_with("f "))
-            continue;
-        std::istringstream corners(line.substr(2));
-        std::string face = "f";
-        for (std::size_t v = 0; corners >> v;) {
-            soup << vertices.at(v - 1) << '\n';
-            face.append(" ").append(std::to_string(++n));
-        }
-        soup << face << '\n';
     }
 }
 
@@ -168,10 +132,13 @@ TEST_CASE("what ranks measure is what smooth measures, and remarks come once")
         for (const std::string name : {"tolerance", "steps_short_of_tolerance", "steps_stagnated",
                                        "non_manifold_vertices", "attachment_weights"})
             CHECK(report[name] == expected[name]);
-        for (const std::string when : {"before", "after"})
+        for (const std::string when : {"before", "after"}) {
             for (const std::string name : {"area", "volume"})
                 CHECK(report["surface"][when][name].get<double>() ==
                       doctest::Approx(expected["surface"][when][name].get<double>()).epsilon(1e-12));
+            for (const std::string name : {"roughness_rms", "roughness_percentile_95"})
+                CHECK(report["surface"][when][name] == expected["surface"][when][name]);
+        }
         for (const std::string name : {"moved_mean", "moved_rms", "moved_max", "moved_max_absolute"})
             CHECK(report["surface"][name].get<double>() ==
                   doctest::Approx(expected["surface"][name].get<double>()).epsilon(1e-12));
@@ -183,6 +150,37 @@ TEST_CASE("what ranks measure is what smooth measures, and remarks come once")
             CHECK(step["moved_mean"].get<double>() > 0.0);
             CHECK(step["estimated_v_max"].get<double>() ==
                   doctest::Approx(expected["steps"][i]["estimated_v_max"].get<double>()).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("the roughness, by a sample where there is much, and the estimate of sweeps are those of smooth")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 20000") == 0);
+    write_soup(w.directory / "mesh.obj", w.directory / "soup.obj");
+    for (const std::string mesh : {"ball.ply", "soup.obj"}) {
+        CAPTURE(mesh);
+        const std::string options = " --radius 2% --steps 2 --converge never --threads 1";
+        const std::string out = mesh.substr(mesh.size() - 4);
+        REQUIRE(on_ranks(w, 1, mesh + " 1" + out + options + " --subdomains 9 --parts cut.ply") == 0);
+        write_labels_of(w.directory / "cut.ply", w.directory / "labels");
+        REQUIRE(w.smooth(mesh + " s" + out + options + " --labels labels --report s.json") == 0);
+        const test::Json expected = w.json("s.json");
+        std::string said = w.said().substr(w.said().find("; roughness "));
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            REQUIRE(on_ranks(w, n,
+                             mesh + " n" + out + options + " --labels labels --report n.json --whole-up-to " +
+                                 (n == 5 ? "1" : "16MiB")) == 0);
+            CHECK(w.said().find(said) != std::string::npos);
+            const test::Json report = w.json("n.json");
+            for (const std::string when : {"before", "after"})
+                for (const std::string name : {"roughness_rms", "roughness_percentile_95"})
+                    CHECK(report["surface"][when][name] == expected["surface"][when][name]);
+            for (std::size_t step = 0; step < 2; ++step)
+                CHECK(report["steps"][step]["estimated_v_max"].get<double>() ==
+                      doctest::Approx(expected["steps"][step]["estimated_v_max"].get<double>()).epsilon(1e-12));
         }
     }
 }
@@ -202,7 +200,8 @@ TEST_CASE("rims move freely, vertices are attached by weights, and every step is
         for (std::ptrdiff_t v = w.count_lines(mesh, "v "); v > 0; --v)
             weights << v * 37 % 101 << '\n';
         weights.close();
-        for (const std::string options : {" --boundary free --converge 1e-6", " --converge never"}) {
+        for (const std::string options :
+             {" --boundary free --converge 1e-6", " --converge never", " --boundary free"}) {
             CAPTURE(options);
             const std::string all =
                 options + " --labels labels --radius 2% --steps 3 --attach-weights weights --threads 1 --every-step ";
@@ -216,9 +215,11 @@ TEST_CASE("rims move freely, vertices are attached by weights, and every step is
             }
         }
     }
-    CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 2% --boundary free") == 2);
-    REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().find("add --approach converged") != std::string::npos);
+    const std::string shared = "mesh.obj n.obj --radius 2% --boundary free --converge never --subdomains 8";
+    REQUIRE(w.smooth(shared) == 2);
+    const auto expected = messages(w, "smooth");
+    CHECK(on_ranks(w, 3, shared) == 2);
+    CHECK(messages(w, "smooth-distributed") == expected);
 }
 
 TEST_CASE("a tolerance that steps miss is told of as by smooth")
@@ -232,92 +233,6 @@ TEST_CASE("a tolerance that steps miss is told of as by smooth")
     REQUIRE(on_ranks(w, 3, "mesh.obj s.obj" + options) == 4);
     CHECK(messages(w, "smooth-distributed") == expected);
     CHECK(w.count_lines("said", "remark     The tolerance was not reached in 2 steps") == 1);
-}
-
-TEST_CASE("a run goes on from its checkpoint on any number of ranks, with the same bytes")
-{
-    const Workshop w;
-    write_soup(w.directory / "mesh.obj", w.directory / "soup.obj");
-    {
-        std::ifstream near(w.directory / "mesh.obj");
-        std::ofstream far(w.directory / "far.obj");
-        far.precision(17);
-        for (std::string line; std::getline(near, line);) {
-            std::istringstream words(line);
-            std::string word;
-            double x = 0.0;
-            if (words >> word; word == "v" && words >> x)
-                far << "v " << x + 1000.0 << words.str().substr(static_cast<std::size_t>(words.tellg())) << '\n';
-            else
-                far << line << '\n';
-        }
-    }
-    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 9000") == 0);
-    for (const std::string input :
-         {"soup.obj n.obj", "far.obj n.obj --attach 5% --filter low-pass", "ball.ply n.ply --whole-up-to 1",
-          "mesh.obj n.obj --flow conformalized --sweep alternating"}) {
-        CAPTURE(input);
-        const std::string result = input.substr(input.find(' ') + 1, 5);
-        const std::string flow = input + " --time-step-edges 3 --subdomains 7 --converge never --threads 1 --steps ";
-        REQUIRE(on_ranks(w, 2, flow + "5") == 0);
-        const std::string expected = test::content_of(w.directory / result);
-        fs::remove_all(w.directory / "c");
-        REQUIRE(on_ranks(w, 3, flow + "2 --checkpoint c") == 0);
-        CHECK((test::content_of(w.directory / result) != expected));
-        REQUIRE(on_ranks(w, 2, flow + "4 --checkpoint c --checkpoint-every 3") == 0);
-        CHECK(w.count_lines("said", "resumed    after step 2, from c/smooth-distributed.checkpoint") == 1);
-        REQUIRE(on_ranks(w, 1, flow + "5 --checkpoint c --report r.json --every-step s%d.ply") == 0);
-        CHECK(w.count_lines("said", "resumed    after step 4, ") == 1);
-        CHECK(w.count_lines("said", "remark     --every-step has no files of the steps up to 4, ") == 1);
-        CHECK((test::content_of(w.directory / result) == expected));
-        const double area = w.json("r.json")["surface"]["after"]["area"];
-        // Nothing is left to do, and nothing of earlier steps remains.
-        REQUIRE(on_ranks(w, 3, flow + "5 --checkpoint c --report r.json") == 0);
-        CHECK((test::content_of(w.directory / result) == expected));
-        CHECK(w.json("r.json")["surface"]["after"]["area"].get<double>() == doctest::Approx(area).epsilon(1e-12));
-        CHECK(std::distance(fs::directory_iterator(w.directory / "c"), {}) == 2);
-    }
-}
-
-TEST_CASE("a checkpoint that belongs to another run of ranks, or is damaged, is refused with what to do")
-{
-    const Workshop w;
-    REQUIRE(w.run(GENERATE " mixed other.obj --vertices 900 --seed 2") == 0);
-    const std::string flow = "--time-step-edges 3 --converge never --threads 1 --checkpoint c";
-    REQUIRE(on_ranks(w, 2, "mesh.obj n.obj --subdomains 5 --steps 3 " + flow) == 0);
-    const std::string kept = test::content_of(w.directory / "n.obj");
-    const auto refused = [&](const std::string& arguments, int status, const std::string& what) {
-        CAPTURE(arguments);
-        CHECK(on_ranks(w, 3, arguments + " " + flow) == status);
-        const auto said = messages(w, "smooth-distributed");
-        REQUIRE(said.size() == 1);
-        CHECK(said.front().find(what) != std::string::npos);
-        CHECK(said.front().find("to begin anew") != std::string::npos);
-        CHECK((test::content_of(w.directory / "n.obj") == kept));
-    };
-    refused("mesh.obj n.obj --subdomains 5 --steps 2", 2, "is after step 3, but steps is 2");
-    refused("mesh.obj n.obj --subdomains 4 --steps 4", 2, "subdomains was 5 then and is 4 now");
-    refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach 3%", 2, "attachment was 0 then");
-    refused("other.obj n.obj --subdomains 5 --steps 4", 3, "the mesh was ");
-    const fs::path folder = w.directory / "c";
-    const std::string list = test::content_of(folder / "smooth-distributed.checkpoint");
-    std::string changed = list;
-    changed[changed.find("step 3") + 5] = '2';
-    std::ofstream(folder / "smooth-distributed.checkpoint") << changed;
-    refused("mesh.obj n.obj --subdomains 5 --steps 4", 3, "has been changed since it was written");
-    std::ofstream(folder / "smooth-distributed.checkpoint") << list;
-    std::string positions = test::content_of(folder / "smooth-distributed.step-3.1");
-    if (positions.empty())
-        positions = test::content_of(folder / "smooth-distributed.step-3.0");
-    positions[positions.size() / 2] = static_cast<char>(positions[positions.size() / 2] ^ 1);
-    for (const std::string rank : {"0", "1"})
-        if (fs::file_size(folder / ("smooth-distributed.step-3." + rank)) > 0)
-            std::ofstream(folder / ("smooth-distributed.step-3." + rank), std::ios::binary) << positions;
-    refused("mesh.obj n.obj --subdomains 5 --steps 4", 3, "smooth-distributed.step-3.");
-    fs::remove_all(folder);
-    CHECK(on_ranks(w, 2, "mesh.obj n.obj --radius 1% --converge 1e-3 --checkpoint c") == 2);
-    REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().starts_with("ranks keep checkpoints of sweeps alone"));
 }
 
 TEST_CASE("what cannot be done is said once, with the exit status of smooth, and nothing is written")

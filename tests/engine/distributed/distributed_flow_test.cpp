@@ -2,7 +2,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,50 +15,19 @@
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/volume.h"
 #include "tests/engine/distributed/parts.h"
+#include "tests/engine/distributed/rank_flows.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;
+using test::by_sweeps;
+using test::check_bits;
+using test::converged;
+using test::Example;
+using test::flowed_on_ranks;
+using test::Result;
+using test::some_numbers_of_ranks;
 
 namespace {
-
-/// A mesh and the cut of a flow on one machine, whose result it has.
-struct Example {
-    std::string name;
-    PolygonMesh mesh;
-    FlowOptions options;
-    std::vector<Index> fixed = {};
-    std::vector<double> weights = {};
-};
-
-struct Result {
-    Points positions;
-    std::vector<RankReport> reports;
-};
-
-/// The mesh after a flow on n ranks with these labels. Vertices that several ranks have are the same at all of them.
-Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels, Index n_sub_meshes, int n)
-{
-    Result result{example.mesh.vertices, std::vector<RankReport>(n)};
-    std::vector<std::uint8_t> is_written(example.mesh.n_vertices(), 0);
-    std::mutex mutex;
-    run_on_threads(n, [&](Communicator& communicator) {
-        MeshPart part = test::part_of(example.mesh, labels, n_sub_meshes, communicator.rank(), n, example.fixed);
-        for (const std::int64_t number : part.vertex_numbers)
-            if (!example.weights.empty())
-                part.attachment_weights.push_back(example.weights[static_cast<std::size_t>(number)]);
-        result.reports[communicator.rank()] = distributed_mean_curvature_flow(communicator, part, example.options);
-        const std::scoped_lock lock(mutex);
-        for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
-            const auto number = static_cast<Index>(part.vertex_numbers[v]);
-            const Point position = part.mesh.vertices.row(static_cast<Index>(v));
-            if (is_written[number] != 0)
-                CHECK(Point(result.positions.row(number)) == position);
-            result.positions.row(number) = position;
-            is_written[number] = 1;
-        }
-    });
-    return result;
-}
 
 bool same(const RankMeasures& a, const RankMeasures& b)
 {
@@ -67,59 +35,6 @@ bool same(const RankMeasures& a, const RankMeasures& b)
            a.displacement.mean == b.displacement.mean && a.displacement.rms == b.displacement.rms &&
            a.displacement.max == b.displacement.max;
 }
-
-/// Compares with the flow on one machine, for each of these numbers of ranks.
-void check_bits(const Example& example, int subdomains, const std::vector<int>& n_ranks)
-{
-    CAPTURE(example.name);
-    PolygonMesh mesh = example.mesh;
-    FlowOptions options = example.options;
-    options.cut.subdomains = subdomains;
-    options.motion.fixed_vertices = example.fixed;
-    options.motion.attachment_weights = example.weights;
-    const FlowReport report = mean_curvature_flow(mesh, options);
-    const Index n_sub_meshes = report.cut.n_sub_meshes();
-    REQUIRE(n_sub_meshes > 1);
-    for (const int n : n_ranks) {
-        CAPTURE(n);
-        const Result result = flowed_on_ranks(example, report.cut.labels, n_sub_meshes, n);
-        CHECK(test::same_bits(result.positions, mesh.vertices));
-        for (const RankReport& rank : result.reports) {
-            CHECK(rank.sub_meshes == n_sub_meshes);
-            CHECK(rank.colours == report.cut.n_colours());
-            CHECK(rank.interface_vertices == report.cut.interface_vertices);
-            CHECK(rank.non_manifold_vertices == report.mesh.non_manifold_vertices);
-            for (const std::string& remark : rank.remarks)
-                CHECK(std::ranges::count(report.remarks, remark) == 1);
-            REQUIRE(rank.steps.size() == report.steps.size());
-            for (std::size_t step = 0; step < rank.steps.size(); ++step) {
-                CHECK(rank.steps[step].iterations == report.steps[step].iterations);
-                CHECK(rank.steps[step].residual == report.steps[step].residual);
-            }
-        }
-    }
-}
-
-FlowOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 3)
-{
-    FlowOptions options;
-    options.laplacian = laplacian;
-    options.time_step = time_step;
-    options.steps = steps;
-    options.accuracy.approach = Approach::Sweep;
-    options.resources.threads = 1;
-    return options;
-}
-
-FlowOptions converged(Laplacian laplacian, double time_step, double tolerance = 1e-8)
-{
-    FlowOptions options = by_sweeps(laplacian, time_step);
-    options.accuracy.approach = Approach::Converged;
-    options.accuracy.tolerance = tolerance;
-    return options;
-}
-
-const std::vector<int> some_numbers_of_ranks{1, 2, 3, 5, 8};
 
 /// What every rank throws.
 template <class Error>
@@ -222,65 +137,50 @@ TEST_CASE("ranks find the bits of one machine: other conditions, terms and order
     }
 }
 
-TEST_CASE("ranks find the bits of one machine in converged steps: any surfaces, any number of ranks")
+TEST_CASE("ranks find the bits of one machine in sweeps with a free boundary, where no two sub-meshes share it")
 {
+    // Rings of a tube, and a torus beside it.
+    const PolygonMesh tube = test::cylinder(24, 40);
+    Example example{"tube", test::side_by_side({tube, test::triangle_torus(20, 16)}), {}};
+    for (Index f = 0; f < example.mesh.n_faces(); ++f)
+        example.labels.push_back(f < tube.n_faces() ? f * 7 / tube.n_faces() : 7);
     for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement}) {
-        // With a coarse space and, as sub-meshes are wide, without.
-        for (const double time_step : {3e-2, 1e-4})
-            for (const PolygonMesh& mesh : test::height_fields(900))
-                check_bits({std::string(name_of(laplacian)), mesh, converged(laplacian, time_step)}, 12, {1, 3});
-        check_bits({"torus", test::triangle_torus(30, 24), converged(laplacian, 1e-1)}, 11, some_numbers_of_ranks);
+        example.options = by_sweeps(laplacian, 1e-2);
+        example.options.motion.boundary = Boundary::Free;
+        check_bits(example, 0, {1, 2, 3, 5});
+        example.fixed = {3, 4, 40, 500};
+        example.options.filter = Filter::LowPass;
+        example.options.motion.attachment = 0.3;
+        check_bits(example, 0, {1, 2, 3, 5});
+        example.fixed.clear();
     }
-    const FlowOptions options = converged(Laplacian::Fujiwara, 3e-2);
-    check_bits({"band", test::moebius_band(60, 8), options}, 7, some_numbers_of_ranks);
-    check_bits({"sphere", make_noisy_sphere(1500), converged(Laplacian::AlexaWardetzky, 1e-3)}, 16,
-               some_numbers_of_ranks);
-    check_bits({"three", test::side_by_side({test::triangle_torus(16, 12), make_hexagons(500), test::cylinder(12, 20)}),
-                options},
-               10, some_numbers_of_ranks);
-    // Fewer sub-meshes than ranks: some have nothing. Sub-meshes without anything in common.
-    check_bits({"two", make_triangles(600), options}, 2, some_numbers_of_ranks);
-    check_bits({"apart", test::side_by_side({make_triangles(300), make_hexagons(300)}), options}, 2, {1, 2, 3});
+    // Sub-meshes that share it are refused, on all ranks as on one machine.
+    for (std::size_t f = 0; f < example.labels.size(); ++f)
+        example.labels[f] = static_cast<Index>(f % 24 < 12 && example.labels[f] == 6 ? 8 : example.labels[f]);
+    FlowOptions options = example.options;
+    options.cut.labels = example.labels;
+    PolygonMesh mesh = example.mesh;
+    CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
+    check_refusal<OptionError>(
+        [&](Communicator& communicator) {
+            MeshPart part = test::part_of(example.mesh, example.labels, 9, communicator.rank(), 3);
+            distributed_mean_curvature_flow(communicator, part, example.options);
+        },
+        3, "boundary is free and shared by several sub-meshes, which need converged steps");
 }
 
-TEST_CASE("ranks find the bits of one machine in converged steps: what else there is, any number of threads")
+TEST_CASE("an estimate that is far off is told of as by one machine")
 {
-    const PolygonMesh mesh = make_mixed_polygons(900);
-    FlowOptions defaults = converged(Laplacian::VirtualRefinement, 5e-2);
-    PolygonMesh far = mesh;
-    far.vertices.rowwise() += Point(1e6, -3e5, 1e7);
-    check_bits({"far", far, defaults}, 8, {1, 3});
-    Example held{"held", mesh, defaults};
-    for (Index v = 0; v < held.mesh.n_vertices(); v += 13)
-        held.fixed.push_back(v);
-    check_bits(held, 8, {1, 3});
-    FlowOptions options = defaults;
-    options.filter = Filter::LowPass;
-    options.motion.attachment = 0.3;
-    check_bits({"low-pass", mesh, options}, 10, {1, 3, 5});
-    options = defaults;
-    options.flow = FlowEquation::Conformalized;
-    options.accuracy.tolerance = {};
-    check_bits({"conformalized, loose", mesh, options}, 10, {1, 3, 5});
-    // Single precision goes no further, and steps are taken again in double precision.
-    options = defaults;
-    options.accuracy.tolerance = 1e-14;
-    check_bits({"tight", mesh, options}, 10, {1, 3});
-    options = defaults;
-    options.accuracy.converge_iterations = 2;
-    check_bits({"few iterations", mesh, options}, 10, {1, 3});
-    for (const int threads : {2, 3}) {
-        options = defaults;
-        options.resources.threads = threads;
-        check_bits({"threads", mesh, options}, 20, {1, 3, 5});
-    }
-    options = defaults;
-    options.motion.boundary = Boundary::Free;
-    check_bits({"free boundary", mesh, options}, 10, {1, 3, 5});
-    // Factors that are made again.
-    options = defaults;
-    options.resources.memory_limit = 150'000;
-    check_bits({"scarce", mesh, options}, 20, {1, 3});
+    Example example{"drift", make_triangles(900), by_sweeps(Laplacian::Fujiwara, 1.0)};
+    PolygonMesh mesh = example.mesh;
+    FlowOptions options = example.options;
+    options.cut.subdomains = 12;
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    const auto says_so = [](const std::string& remark) { return remark.find("by estimate") != std::string::npos; };
+    const auto expected = std::ranges::find_if(report.remarks, says_so);
+    REQUIRE(expected != report.remarks.end());
+    for (const RankReport& rank : flowed_on_ranks(example, report.cut.labels, report.cut.n_sub_meshes(), 3).reports)
+        CHECK(std::ranges::count(rank.remarks, *expected) == 1);
 }
 
 TEST_CASE("ranks find the bits of one machine with weights of the attachment")

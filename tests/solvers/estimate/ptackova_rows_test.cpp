@@ -32,10 +32,16 @@ TEST_CASE("the residuals are rows of the whole system times the areas of their v
         const Eigen::MatrixXd laplacian = test::dense_laplacian(Laplacian::PtackovaVelho, mesh, topology);
         const Points expected = after - before + time_step * laplacian * after;
         std::vector<Index> vertices;
+        IndexLists faces;
         for (Index v = mesh.n_vertices(); v-- > 0;)
             if (topology.kind[v] == VertexKind::Interior && v % 3 != 0)
                 vertices.push_back(v);
-        PtackovaRows rows(mesh, topology, vertices);
+        for (const Index v : vertices) {
+            for (const Index corner : topology.corners_at(v))
+                faces.values.push_back(topology.face_of[corner]);
+            faces.close();
+        }
+        PtackovaRows rows(mesh, topology, vertices, faces);
         Points residuals(static_cast<Eigen::Index>(vertices.size()), 3);
         const Loop loop = run_serially;
         const long allocations = test::n_allocations();

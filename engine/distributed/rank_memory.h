@@ -1,0 +1,20 @@
+#pragma once
+
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/rank_setup.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "engine/state/flow_state.h"
+#include "engine/steppers/stepper.h"
+
+/// What one step of ranks hands to the next, in the stretches of all ranks. All ranks call these together.
+namespace seamflow {
+
+/// Adds to a state what the next step needs beside positions.
+/// @param state has the vertices of this rank's stretch.
+void collect_memory(Conversation& talk, const RankMesh& mesh, const Stepper& stepper, RankFlowState& state);
+
+/// Gives all of it to a stepper that has not taken a step.
+/// @throws on all ranks the same InputError if it does not fit.
+void restore_memory(Conversation& talk, const RankMesh& mesh, const RankFlowState& state, Stepper& stepper);
+
+}  // namespace seamflow

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Whether the faces around a vertex are in the sample by which the roughness of large meshes is told: those around
+/// some thousands of vertices, spread over the mesh without a pattern. Of small meshes all faces are.
+bool is_sampled(Index v, Index n_vertices);
+
+/// Some faces as a mesh of their own, without positions.
+/// @param faces the vertices of each. @param vertices all of them, ascending.
+PolygonMesh extract(const IndexLists& faces, const std::vector<Index>& vertices);
+
+}  // namespace seamflow

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/decomposition/decomposition.h"
+#include "partition/index_lists.h"
+#include "partition/loop.h"
+#include "partition/topology.h"
+#include "solvers/estimate/ptackova_rows.h"
+#include "solvers/interface/interface_copies.h"
+#include "solvers/interface/interface_peers.h"
+#include "solvers/interface/shared_rows.h"
+#include "solvers/laplacian/geometry.h"
+
+namespace seamflow {
+
+/// What a decomposed step with Δ_P leaves of its rows at Γ, as those reach too far for one sub-mesh to know. What the
+/// rows of vertices beside Γ leave, which a sub-mesh has from its own faces alone, is shared out to the vertices of Γ
+/// with which they have a face in common. Every sub-mesh adds up what its faces have of the rows; a vertex of Γ has the
+/// sum of that over its copies.
+class WholeRows {
+  public:
+    /// @param decomposition, peers see ErrorEquation; both must outlive this.
+    WholeRows(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+              InterfacePeers& peers);
+
+    /// All peers call this together.
+    /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved; at own faces and those that share an edge with one.
+    void measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
+                 double time_step, const Loop& loop);
+
+    /// At the i-th vertex of an own sub-mesh's Γ.
+    [[nodiscard]] Point residual(Index s, Index i) const;
+
+  private:
+    /// Rows of which the own faces around their vertices have a part.
+    struct Parts {
+        std::vector<Index> vertices;
+        IndexLists faces;
+    };
+
+    Parts list_parts(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
+                     const InterfacePeers& peers);
+
+    InterfaceCopies copies_;
+    SharedRows shared_;
+    /// Per row at Γ its copy, and the rows beside Γ that are shared out to it. These follow those at Γ; each with the
+    /// number of copies that have a share.
+    std::vector<Index> copy_of_row_;
+    IndexLists beside_;
+    std::vector<Index> n_sharing_;
+    PtackovaRows rows_;
+    Points of_rows_;
+    /// #copies by 3.
+    Points of_copies_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,33 @@
+#include "solvers/interface/shared_rows.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace seamflow {
+
+SharedRows::SharedRows(InterfacePeers& peers, std::map<Index, Lists> with)
+    : peers_(&peers)
+{
+    for (auto& [other, lists] : with) {
+        others_.push_back(other);
+        lists_.push_back(std::move(lists));
+    }
+}
+
+void SharedRows::complete(double* values, std::size_t width)
+{
+    InterfacePeers::Numbers to_each(others_.size());
+    for (std::size_t p = 0; p < others_.size(); ++p)
+        for (const Index row : lists_[p].given)
+            to_each[p].insert(to_each[p].end(), values + at(row) * width, values + at(row + 1) * width);
+    const InterfacePeers::Numbers from_each = peers_->exchange(others_, to_each);
+    for (std::size_t p = 0; p < others_.size(); ++p) {
+        auto next = from_each[p].begin();
+        for (const Index row : lists_[p].taken) {
+            std::copy_n(next, width, values + at(row) * width);
+            next += static_cast<std::ptrdiff_t>(width);
+        }
+    }
+}
+
+}  // namespace seamflow

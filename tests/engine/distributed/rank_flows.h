@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/mean_curvature_flow.h"
+#include "tests/engine/distributed/parts.h"
+#include "tests/support/flows.h"
+
+/// Flows on ranks that are threads, beside those of one machine.
+namespace seamflow::test {
+
+/// A mesh and the cut of a flow on one machine, whose result it has.
+struct Example {
+    std::string name;
+    PolygonMesh mesh;
+    FlowOptions options;
+    std::vector<Index> fixed = {};
+    std::vector<double> weights = {};
+    /// Of a cut of its own.
+    std::vector<Index> labels = {};
+};
+
+struct Result {
+    Points positions;
+    std::vector<RankReport> reports;
+};
+
+/// The mesh after a flow on n ranks with these labels. Vertices that several ranks have are the same at all of them.
+inline Result flowed_on_ranks(const Example& example, const std::vector<Index>& labels, Index n_sub_meshes, int n)
+{
+    Result result{example.mesh.vertices, std::vector<RankReport>(n)};
+    std::vector<std::uint8_t> is_written(example.mesh.n_vertices(), 0);
+    std::mutex mutex;
+    run_on_threads(n, [&](Communicator& communicator) {
+        MeshPart part = part_of(example.mesh, labels, n_sub_meshes, communicator.rank(), n, example.fixed);
+        for (const std::int64_t number : part.vertex_numbers)
+            if (!example.weights.empty())
+                part.attachment_weights.push_back(example.weights[static_cast<std::size_t>(number)]);
+        result.reports[communicator.rank()] = distributed_mean_curvature_flow(communicator, part, example.options);
+        const std::scoped_lock lock(mutex);
+        for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
+            const auto number = static_cast<Index>(part.vertex_numbers[v]);
+            const Point position = part.mesh.vertices.row(static_cast<Index>(v));
+            if (is_written[number] != 0)
+                CHECK(Point(result.positions.row(number)) == position);
+            result.positions.row(number) = position;
+            is_written[number] = 1;
+        }
+    });
+    return result;
+}
+
+/// Compares with the flow on one machine, for each of these numbers of ranks.
+inline void check_bits(const Example& example, int subdomains, const std::vector<int>& n_ranks)
+{
+    CAPTURE(example.name);
+    PolygonMesh mesh = example.mesh;
+    FlowOptions options = example.options;
+    options.cut.subdomains = example.labels.empty() ? subdomains : 0;
+    options.cut.labels = example.labels;
+    options.motion.fixed_vertices = example.fixed;
+    options.motion.attachment_weights = example.weights;
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    const Index n_sub_meshes = report.cut.n_sub_meshes();
+    REQUIRE(n_sub_meshes > 1);
+    for (const int n : n_ranks) {
+        CAPTURE(n);
+        const Result result = flowed_on_ranks(example, report.cut.labels, n_sub_meshes, n);
+        CHECK(same_bits(result.positions, mesh.vertices));
+        for (const RankReport& rank : result.reports) {
+            CHECK(rank.sub_meshes == n_sub_meshes);
+            CHECK(rank.colours == report.cut.n_colours());
+            CHECK(rank.interface_vertices == report.cut.interface_vertices);
+            CHECK(rank.non_manifold_vertices == report.mesh.non_manifold_vertices);
+            for (const std::string& remark : rank.remarks)
+                CHECK(std::ranges::count(report.remarks, remark) == 1);
+            REQUIRE(rank.steps.size() == report.steps.size());
+            for (std::size_t step = 0; step < rank.steps.size(); ++step) {
+                CHECK(rank.steps[step].iterations == report.steps[step].iterations);
+                CHECK(rank.steps[step].residual == report.steps[step].residual);
+                CHECK(rank.steps[step].estimated_v_max == result.reports.front().steps[step].estimated_v_max);
+                CHECK(rank.steps[step].estimated_v_max.value_or(-1.0) ==
+                      doctest::Approx(report.steps[step].estimated_v_max.value_or(-1.0)).epsilon(1e-12));
+            }
+        }
+    }
+}
+
+inline FlowOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 3)
+{
+    FlowOptions options;
+    options.laplacian = laplacian;
+    options.time_step = time_step;
+    options.steps = steps;
+    options.accuracy.approach = Approach::Sweep;
+    options.resources.threads = 1;
+    return options;
+}
+
+inline FlowOptions converged(Laplacian laplacian, double time_step, double tolerance = 1e-8)
+{
+    FlowOptions options = by_sweeps(laplacian, time_step);
+    options.accuracy.approach = Approach::Converged;
+    options.accuracy.tolerance = tolerance;
+    return options;
+}
+
+inline const std::vector<int> some_numbers_of_ranks{1, 2, 3, 5, 8};
+
+}  // namespace seamflow::test

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/samples/workshop.h"
+
+/// Runs of smooth-distributed on ranks of MPI.
+namespace seamflow::test {
+
+/// @returns the exit status. @param n ranks.
+inline int on_ranks(const Workshop& w, int n, const std::string& arguments)
+{
+    return w.run("timeout 100 " MPIRUN " -n " + std::to_string(n) + " " SMOOTH_DISTRIBUTED " " + arguments);
+}
+
+/// What the program itself said on standard error, without its name: MPI says something, too.
+inline std::vector<std::string> messages(const Workshop& w, const std::string& program)
+{
+    std::vector<std::string> found;
+    std::ifstream file(w.directory / "said");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with(program + ": "))
+            found.push_back(line.substr(program.size() + 2));
+    return found;
+}
+
+/// Writes an OBJ file in which every face has vertices of its own.
+inline void write_soup(const std::filesystem::path& from, const std::filesystem::path& to)
+{
+    std::ifstream file(from);
+    std::ofstream soup(to);
+    std::vector<std::string> vertices;
+    std::size_t n = 0;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("v "))
+            vertices.push_back(line);
+        if (!line.starts_with("f "))
+            continue;
+        std::istringstream corners(line.substr(2));
+        std::string face = "f";
+        for (std::size_t v = 0; corners >> v;) {
+            soup << vertices.at(v - 1) << '\n';
+            face.append(" ").append(std::to_string(++n));
+        }
+        soup << face << '\n';
+    }
+}
+
+}  // namespace seamflow::test
