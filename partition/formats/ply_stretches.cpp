@@ -112,13 +112,14 @@ std::size_t PlyStretches::end_of_faces(std::size_t byte, Index begin, Index end)
     return pass_over_elements(content_, byte, order_of(header_.encoding), *faces_, at(end - begin));
 }
 
-PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end) const
+PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end, FaultLog& faults) const
 {
     PolygonMesh mesh;
     if (begin == end)
         return mesh;
     Points unused(0, 3);
     PlyBinarySource source(path_, content_, byte, header_.encoding);
+    source.note_faults_in(&faults);
     ElementReader<PlyBinarySource> reader(source, n_vertices(), MeshSlice{unused, 0, mesh});
     reader.read(*faces_, at(begin), at(end));
     return mesh;

@@ -10,7 +10,9 @@
 
 #include <xxhash.h>
 
+#include "engine/distributed/files/shared_faults.h"
 #include "engine/distributed/files/shared_writing.h"
+#include "engine/distributed/parts/stretches.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/formats/ply_stretches.h"
@@ -98,13 +100,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         talk.look_together([&] { slice.vertices = ply.vertices(vertices.begin, vertices.end); });
         others_ = find_faces(talk, ply, faces);
         faces_begin_ = others_.begin;
-        talk.look_together([&] {
-            if (others_.begin == nowhere)
-                return;
-            PolygonMesh mesh = ply.faces(others_.begin, faces.begin, faces.end);
-            slice.face_offsets = std::move(mesh.face_offsets);
-            slice.corners.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
-        });
+        read_faces(talk, ply, faces, slice, faults_);
         talk.look_together([&] {
             if (talk.rank() == talk.size() - 1)
                 ply.require_end(others_.end);
@@ -114,7 +110,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         if (talk.rank() == talk.size() - 1)
             others_.end = ply.content().size();
         checksum_ = checksum(ply, vertices);
-        return slice;
+        return move_to_stretches(talk, std::move(slice), sharing_.block);
     }
 
     void require_writable_as(const std::filesystem::path& path) const override
@@ -132,7 +128,8 @@ class SlicedPlyFile final : public SharedMeshFile {
             if (checksum(ply, own) != checksum_)
                 throw InputError(changed_since_read(file_.path()));
         });
-        const std::vector<PlyChange> changes = agree_on_changes(talk, ply, vertices);
+        const std::vector<PlyChange> changes =
+            changes_of_positions(ply.vertex_element(), fit_all(talk, coordinates_fit(ply.vertex_element(), vertices)));
         std::vector<std::string> remarks;
         bool rounded = false;
         write_together(talk, path, [&](const SharedOutput& output) {
@@ -150,14 +147,32 @@ class SlicedPlyFile final : public SharedMeshFile {
         const InputFile input(file_);
         const PlyStretches ply(file_.path(), input.content());
         const Stretch faces(ply.n_faces(), talk, sharing_.block);
-        PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end);
-        mesh.vertices = vertices;
+        RankSlice slice;
+        slice.vertices = vertices;
+        FaultLog known_faults;
+        read_faces(talk, ply, faces, slice, known_faults);
+        const PolygonMesh mesh = mesh_of(move_to_stretches(talk, std::move(slice), sharing_.block));
         write_labelled_together(talk, path, mesh, labels);
     }
 
   private:
     /// So many elements are made at once, and written.
     static constexpr Index at_once = 1 << 14;
+
+    /// @param faces of this rank in the file. @param faults receives what is left out, at rank 0.
+    void read_faces(Conversation& talk, const PlyStretches& ply, const Stretch& faces, RankSlice& slice,
+                    FaultLog& faults) const
+    {
+        FaultLog own{.of_faces_alone = true};
+        talk.look_together([&] {
+            if (faces_begin_ == nowhere)
+                return;
+            PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end, own);
+            slice.face_offsets = std::move(mesh.face_offsets);
+            slice.corners.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
+        });
+        faults = join_faults(talk, own, faces.end - faces.begin);
+    }
 
     static const char* end_of_vertices(const PlyStretches& ply)
     {
@@ -171,16 +186,6 @@ class SlicedPlyFile final : public SharedMeshFile {
         const std::string_view others = others_.of(ply.content());
         return XXH3_64bits(positions.data(), positions.size()) ^
                XXH3_64bits_withSeed(others.data(), others.size(), ply.content().size());
-    }
-
-    static std::vector<PlyChange> agree_on_changes(Conversation& talk, const PlyStretches& ply, const Points& vertices)
-    {
-        std::array<bool, 3> fits = {true, true, true};
-        for (const auto& of_rank :
-             talk.gather_all(std::vector<std::array<bool, 3>>{coordinates_fit(ply.vertex_element(), vertices)}))
-            for (std::size_t k = 0; k < fits.size(); ++k)
-                fits[k] = fits[k] && of_rank[k];
-        return changes_of_positions(ply.vertex_element(), fits);
     }
 
     std::pair<std::vector<std::string>, bool> write_slice(Conversation& talk, const SharedOutput& output,
