@@ -1,5 +1,8 @@
 #include "engine/distributed/files/shared_mesh_file.h"
 
+#include <array>
+#include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -92,16 +95,26 @@ std::uint64_t bytes_in(const std::filesystem::path& path)
     return error ? 0 : size;
 }
 
-/// Looks whether a large file is text.
-/// @throws InputError for a file of which ranks cannot read slices.
+/// Whatever its name is.
+bool is_packed(const std::filesystem::path& path)
+{
+    std::array<char, 2> bytes{};
+    std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+    return is_gzip_name(path) || is_gzip({bytes.data(), bytes.size()});
+}
+
+/// Whether a file is text; OBJ and OFF, which are looked at later, count as such.
+/// @throws InputError as a reader of the whole file does.
 bool is_text(const std::filesystem::path& path, FileFormat format)
 {
     const OpenFile file(path);
     const InputFile input(file);
     if (format == FileFormat::Stl)
         return is_text_stl(input.content());
+    if (format != FileFormat::Ply)
+        return true;
     TextScanner scanner(path, input.content(), ply_syntax);
-    return format != FileFormat::Ply || read_ply_header(scanner).encoding == Encoding::Ascii;
+    return read_ply_header(scanner).encoding == Encoding::Ascii;
 }
 
 std::unique_ptr<SharedMeshFile> open_sliced(const std::filesystem::path& path, FileFormat format, bool is_text,
@@ -133,7 +146,7 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
         return std::make_unique<WholeMeshFile>(path, sharing, loop);
     bool text = false;
     talk.at_first_rank([&] {
-        if (is_gzip_name(path))
+        if (is_packed(path))
             throw InputError(fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; "
                                          "unpack it, so that every rank can read a slice",
                                          path.string(), size, sharing.whole_up_to));

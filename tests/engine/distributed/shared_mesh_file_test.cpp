@@ -221,6 +221,8 @@ TEST_CASE("files that cannot be read in slices are refused with what to do")
     };
     write_mesh(directory / "in.obj.gz", make_triangles(300), FileKind{});
     CHECK(test::contains(fault("in.obj.gz"), "unpack it, so that every rank can read a slice"));
+    std::filesystem::rename(directory / "in.obj.gz", directory / "in.obj");
+    CHECK(test::contains(fault("in.obj"), "unpack it, so that every rank can read a slice"));
     write_file(directory / "in.off", "OFF BINARY\n" + std::string(200, '\0'));
     CHECK(test::contains(fault("in.off"), "convert it to text OFF or to PLY"));
     write_file(directory / "in.txt", "OFF\n");
