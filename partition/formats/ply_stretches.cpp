@@ -47,9 +47,10 @@ void require_few(const std::filesystem::path& path, const PlyElement* element)
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* what)
 {
-    throw InputError(fmt::format("{}: {}, so that ranks cannot read it in slices; export it as a binary PLY file whose "
-                                 "vertices come first and have no lists",
-                                 path.string(), what));
+    throw InputError(
+        fmt::format("{}: {}, so that ranks cannot read it in slices; export it as a text PLY file, or as a "
+                    "binary one whose vertices come first and have no lists",
+                    path.string(), what));
 }
 
 }  // namespace
@@ -63,8 +64,6 @@ PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content)
     faces_ = header_.element("face");
     require_few(path_, &vertex_element());
     require_few(path_, faces_);
-    if (header_.encoding == Encoding::Ascii)
-        refuse(path_, "the file is text");
     if (has_list(vertex_element()))
         refuse(path_, "its vertices have lists");
     if (faces_ != nullptr && faces_ < &vertex_element())

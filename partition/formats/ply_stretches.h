@@ -22,9 +22,10 @@ namespace seamflow {
 /// A binary file, and where its elements stand.
 class PlyStretches {
   public:
-    /// @param content the whole file, of which only what is asked for is looked at. It has to outlive this.
-    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, with
-    ///         faces before them, and in text (see slice_ply_text).
+    /// @param content the whole file, which is not text (see slice_ply_text) and of which only what is asked for is
+    /// looked at. It has to outlive this.
+    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, and
+    ///         with faces before them.
     PlyStretches(std::filesystem::path path, std::string_view content);
     PlyStretches(const PlyStretches&) = delete;
     PlyStretches& operator=(const PlyStretches&) = delete;
