@@ -157,15 +157,6 @@ void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, con
     splicer.finish();
 }
 
-/// @throws InputError for binary files, and as read_off_header.
-OffHeader read_text_header(const std::filesystem::path& path, std::string_view text, TextScanner& scanner)
-{
-    if (start_of_binary_off(text))
-        throw InputError(path.string() + ": the file is binary OFF, so that ranks cannot read it in slices; convert it "
-                                         "to text OFF or to PLY");
-    return read_off_header(scanner);
-}
-
 class SlicedOff final : public SlicedText {
   public:
     SlicedOff(const std::filesystem::path& path, const TextScanner& after_header, const OffHeader& header)
@@ -272,7 +263,7 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
 std::unique_ptr<SlicedText> slice_off_text(const std::filesystem::path& path, std::string_view text)
 {
     TextScanner scanner(path, text);
-    const OffHeader header = read_text_header(path, text, scanner);
+    const OffHeader header = read_off_header(scanner);
     return std::make_unique<SlicedOff>(path, scanner, header);
 }
 

@@ -27,6 +27,11 @@ class PlyStretches {
     /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, and
     ///         with faces before them.
     PlyStretches(std::filesystem::path path, std::string_view content);
+
+    /// A file of another format with such elements.
+    /// @param begin of the elements in the file.
+    /// @throws InputError, of no use to a reader, if the vertices are not all there.
+    PlyStretches(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin);
     PlyStretches(const PlyStretches&) = delete;
     PlyStretches& operator=(const PlyStretches&) = delete;
     ~PlyStretches() = default;
@@ -72,6 +77,8 @@ class PlyStretches {
     void require_end(std::size_t byte) const;
 
   private:
+    void find_elements();
+
     std::filesystem::path path_;
     std::string_view content_;
     PlyHeader header_;

@@ -13,6 +13,7 @@
 #include "engine/distributed/files/sliced_text_file.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
+#include "partition/formats/off.h"
 #include "partition/formats/ply_header.h"
 #include "partition/formats/stl.h"
 #include "partition/formats/text_slices.h"
@@ -103,16 +104,22 @@ bool is_packed(const std::filesystem::path& path)
     return is_gzip_name(path) || is_gzip({bytes.data(), bytes.size()});
 }
 
-/// Whether a file is text; OBJ and OFF, which are looked at later, count as such.
+/// Whether a file is text.
 /// @throws InputError as a reader of the whole file does.
 bool is_text(const std::filesystem::path& path, FileFormat format)
 {
     const OpenFile file(path);
     const InputFile input(file);
-    if (format == FileFormat::Stl)
-        return is_text_stl(input.content());
-    if (format != FileFormat::Ply)
+    switch (format) {
+    case FileFormat::Obj:
         return true;
+    case FileFormat::Off:
+        return !start_of_binary_off(input.content());
+    case FileFormat::Stl:
+        return is_text_stl(input.content());
+    case FileFormat::Ply:
+        break;
+    }
     TextScanner scanner(path, input.content(), ply_syntax);
     return read_ply_header(scanner).encoding == Encoding::Ascii;
 }
@@ -120,17 +127,14 @@ bool is_text(const std::filesystem::path& path, FileFormat format)
 std::unique_ptr<SharedMeshFile> open_sliced(const std::filesystem::path& path, FileFormat format, bool is_text,
                                             const FileSharing& sharing, const Loop& loop)
 {
-    switch (format) {
-    case FileFormat::Obj:
-        return open_sliced_text(path, slice_obj_text, sharing, loop);
-    case FileFormat::Off:
-        return open_sliced_text(path, slice_off_text, sharing, loop);
-    case FileFormat::Stl:
+    if (format == FileFormat::Stl)
         return open_sliced_stl(path, is_text ? Encoding::Ascii : Encoding::BinaryLittleEndian, sharing, loop);
-    case FileFormat::Ply:
-        break;
-    }
-    return is_text ? open_sliced_text(path, slice_ply_text, sharing, loop) : open_sliced_ply(path, sharing);
+    if (!is_text)
+        return open_sliced_ply(path, format, sharing);
+    const TextSlicer slicer = format == FileFormat::Obj   ? slice_obj_text
+                              : format == FileFormat::Off ? slice_off_text
+                                                          : slice_ply_text;
+    return open_sliced_text(path, slicer, sharing, loop);
 }
 
 }  // namespace

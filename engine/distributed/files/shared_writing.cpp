@@ -70,6 +70,21 @@ void write_together(Conversation& talk, const std::filesystem::path& path,
     talk.at_first_rank([&] { output->commit(); });
 }
 
+void check_together(Conversation& talk, const std::function<void()>& check)
+{
+    std::string fault;
+    try {
+        check();
+    } catch (const OutputError& error) {
+        fault = error.what() + std::string("\n");
+    }
+    const auto faults = talk.gather_all(std::vector<char>(fault.begin(), fault.end()));
+    talk.at_first_rank([&] {
+        if (!faults.empty())
+            throw OutputError(std::string(faults.begin(), std::ranges::find(faults, '\n')));
+    });
+}
+
 std::array<bool, 3> fit_all(Conversation& talk, const std::array<bool, 3>& own)
 {
     std::array<bool, 3> fits = {true, true, true};

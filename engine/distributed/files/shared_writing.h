@@ -26,6 +26,9 @@ void require_slices_of(FileFormat format, const std::filesystem::path& path);
 void write_together(Conversation& talk, const std::filesystem::path& path,
                     const std::function<void(const SharedOutput&)>& write_own);
 
+/// Throws on all ranks what is wrong with a result: the OutputError of the lowest rank that has any.
+void check_together(Conversation& talk, const std::function<void()>& check);
+
 /// Whether the types of a file can hold the coordinates x, y and z of all ranks. @param own those of this rank.
 std::array<bool, 3> fit_all(Conversation& talk, const std::array<bool, 3>& own);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -140,23 +139,10 @@ class SlicedStlFile final : public SharedMeshFile {
     void require_fits(Conversation& talk, const std::filesystem::path& path, const RankSlice& slice,
                       const SliceBounds& bounds, const CornerPositions& positions) const
     {
-        const auto refuse_together = [&](const std::function<void()>& check) {
-            std::string fault;
-            try {
-                check();
-            } catch (const OutputError& error) {
-                fault = error.what() + std::string("\n");
-            }
-            const auto faults = talk.gather_all(std::vector<char>(fault.begin(), fault.end()));
-            talk.at_first_rank([&] {
-                if (!faults.empty())
-                    throw OutputError(std::string(faults.begin(), std::ranges::find(faults, '\n')));
-            });
-        };
         if (encoding_ != Encoding::Ascii)
-            refuse_together(
-                [&] { require_floats(path, slice.vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
-        refuse_together([&] {
+            check_together(
+                talk, [&] { require_floats(path, slice.vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
+        check_together(talk, [&] {
             for (Index f = 0; f < slice.n_faces(); ++f) {
                 std::array<Index, 3> corners{};
                 std::transform(slice.corners.begin() + slice.face_offsets[f],

@@ -167,17 +167,18 @@ inline void check_fault_as_on_one_machine(const std::filesystem::path& file, con
 inline void check_faults_as_on_one_machine(const std::filesystem::path& file, const std::vector<std::string>& contents)
 {
     std::size_t n_faulty = 0;
+    const auto result = file.parent_path() / ("out" + file.extension().string());
     for (const std::string& content : contents) {
+        std::filesystem::remove(result);
         write_file(file, content);
-        const auto result = file.parent_path() / ("out" + file.extension().string());
         const bool is_faulty = !pass_through_alone(file, result).fault.empty();
         n_faulty += is_faulty ? 1 : 0;
         if (is_faulty)
             check_fault_as_on_one_machine(file, content);
         else
             check_as_on_one_machine(file, result, sliced, 0);
-        std::filesystem::remove(result);
     }
+    std::filesystem::remove(result);
     CHECK(4 * n_faulty > 3 * contents.size());
 }
 

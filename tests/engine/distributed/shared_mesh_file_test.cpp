@@ -1,5 +1,7 @@
 // Files that ranks read and write together, beside the same on one machine.
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +17,7 @@
 #include "engine/distributed/ranks/thread_communicator.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
+#include "partition/io/byte_writer.h"
 #include "tests/engine/distributed/shared_files.h"
 #include "tests/support/flows.h"
 
@@ -76,6 +79,30 @@ std::string colourful_ply(int n_columns, const std::string& coordinate)
     append(bytes, std::int32_t{0});
     append(bytes, std::int32_t{1});
     return bytes + "\n";
+}
+
+/// A binary OFF file in one of the four layouts that there are.
+std::string binary_off(const PolygonMesh& mesh, std::endian order, bool has_colours)
+{
+    OutputBuffer file;
+    file.text("OFF BINARY\n");
+    const auto put = [&](auto value) { file.binary(value, order); };
+    for (const Index n : {mesh.n_vertices(), mesh.n_faces(), 0})
+        put(static_cast<std::uint32_t>(n));
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        for (const double coordinate : mesh.vertices.row(v))
+            put(static_cast<float>(coordinate));
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+        put(static_cast<std::uint32_t>(mesh.face(f).size()));
+        for (const Index corner : mesh.face(f))
+            put(std::int32_t{corner});
+        if (!has_colours)
+            continue;
+        put(static_cast<std::uint32_t>(f % 4));
+        for (Index k = 0; k < f % 4; ++k)
+            put(0.5F);
+    }
+    return std::string(file.content());
 }
 
 }  // namespace
@@ -162,6 +189,55 @@ TEST_CASE("faces that slices of binary PLY files leave out stay in the file, and
     }
 }
 
+TEST_CASE("ranks read and write slices of binary OFF files as one machine does")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.off";
+    for (const std::endian order : {std::endian::little, std::endian::big})
+        for (const bool has_colours : {false, true})
+            for (const PolygonMesh& mesh : {make_triangles(700), make_mixed_polygons(700)}) {
+                const std::string good = binary_off(mesh, order, has_colours);
+                write_file(file, good + "\n");
+                check_as_on_one_machine(file, directory / "out.off", sliced, 64);
+                std::vector<std::string> bad = {good.substr(0, good.size() - 5), good + "more"};
+                for (const std::size_t place : {good.size() / 5, good.size() / 2, good.size() * 3 / 4}) {
+                    bad.push_back(good);
+                    bad.back().replace(place, 12, 12, '\xff');
+                }
+                test::check_faults_as_on_one_machine(file, bad);
+            }
+    for (const std::string& content :
+         {std::string("OFF BINARY\n"), "OFF BINARY\n" + std::string(12, '\0'), "OFF BINARY\n" + std::string(200, '\0')})
+        check_fault_as_on_one_machine(file, content);
+}
+
+TEST_CASE("a result that binary OFF cannot hold is refused as on one machine")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.off";
+    const auto result = directory / "out.off";
+    write_file(file, binary_off(make_triangles(700), std::endian::big, true));
+    MeshFile alone = read_mesh(file);
+    alone.mesh.vertices(alone.mesh.n_vertices() - 2, 1) = 1e40;
+    std::string expected;
+    try {
+        write_mesh_like(*alone.source, result, alone.mesh);
+    } catch (const OutputError& error) {
+        expected = error.what();
+    }
+    REQUIRE(!expected.empty());
+    for (const int n : {1, 3})
+        run_on_threads(n, [&](Communicator& communicator) {
+            const auto work = [&](Conversation& talk) {
+                const auto opened = open_together(talk, file, sliced);
+                static_cast<void>(opened->read(talk));
+                opened->write(talk, result, hand_out(talk, alone.mesh, sliced.block).vertices);
+            };
+            CHECK_THROWS_WITH_AS(run_together(communicator, work), expected.c_str(), OutputError);
+        });
+    CHECK(!std::filesystem::exists(result));
+}
+
 TEST_CASE("the file may be written over itself, and is not touched by a failure")
 {
     const test::TemporaryDirectory directory;
@@ -223,8 +299,6 @@ TEST_CASE("files that cannot be read in slices are refused with what to do")
     CHECK(test::contains(fault("in.obj.gz"), "unpack it, so that every rank can read a slice"));
     std::filesystem::rename(directory / "in.obj.gz", directory / "in.obj");
     CHECK(test::contains(fault("in.obj"), "unpack it, so that every rank can read a slice"));
-    write_file(directory / "in.off", "OFF BINARY\n" + std::string(200, '\0'));
-    CHECK(test::contains(fault("in.off"), "convert it to text OFF or to PLY"));
     write_file(directory / "in.txt", "OFF\n");
     CHECK(test::contains(fault("in.txt"), "is none of .obj, .off, .ply or .stl"));
 }
