@@ -34,7 +34,11 @@ struct ByteRange {
     std::size_t begin = 0;
     std::size_t end = 0;
 
-    [[nodiscard]] std::string_view of(std::string_view content) const { return content.substr(begin, end - begin); }
+    /// In a file that may be shorter by now.
+    [[nodiscard]] std::string_view of(std::string_view content) const
+    {
+        return content.substr(std::min(begin, content.size()), end - begin);
+    }
 };
 
 /// What a rank has of n elements.
@@ -128,13 +132,9 @@ class SlicedPlyFile final : public SharedMeshFile {
                                    const Points& vertices) override
     {
         const InputFile input(file_);
-        const auto opened = stretches_of(input.content());
+        const auto opened = unchanged(talk, input.content());
         const PlyStretches& ply = *opened;
         const Stretch own(ply.n_vertices(), talk, sharing_.block);
-        talk.look_together([&] {
-            if (checksum(ply, own) != checksum_)
-                throw InputError(changed_since_read(file_.path()));
-        });
         if (format_ == FileFormat::Off)
             check_together(talk, [&] { require_fits_binary_off(path, vertices, own.begin, run_serially); });
         const std::vector<PlyChange> changes =
@@ -154,7 +154,7 @@ class SlicedPlyFile final : public SharedMeshFile {
                         const std::vector<Index>& labels) override
     {
         const InputFile input(file_);
-        const auto opened = stretches_of(input.content());
+        const auto opened = unchanged(talk, input.content());
         const PlyStretches& ply = *opened;
         const Stretch faces(ply.n_faces(), talk, sharing_.block);
         RankSlice slice;
@@ -173,14 +173,29 @@ class SlicedPlyFile final : public SharedMeshFile {
     {
         if (format_ == FileFormat::Ply)
             return std::make_unique<PlyStretches>(file_.path(), content);
-        return std::make_unique<PlyStretches>(file_.path(), content, layout_,
-                                              *start_of_binary_off(content) + binary_off_counts_bytes);
+        return std::make_unique<PlyStretches>(file_.path(), content, layout_, elements_begin_);
+    }
+
+    std::unique_ptr<PlyStretches> unchanged(Conversation& talk, std::string_view content) const
+    {
+        std::unique_ptr<PlyStretches> ply;
+        talk.look_together([&] {
+            try {
+                ply = stretches_of(content);
+            } catch (const InputError&) {
+                throw InputError(changed_since_read(file_.path()));
+            }
+            if (checksum(*ply, Stretch(ply->n_vertices(), talk, sharing_.block)) != checksum_)
+                throw InputError(changed_since_read(file_.path()));
+        });
+        return ply;
     }
 
     /// Finds the first layout of binary OFF that fits.
     void find_layout(Conversation& talk, std::string_view content)
     {
         const std::size_t offset = start_of_binary_off(content).value_or(0);
+        elements_begin_ = offset + binary_off_counts_bytes;
         for (const PlyHeader& header : layouts_of_binary_off(content, offset)) {
             layout_ = header;
             if (fits(talk, content))
@@ -283,6 +298,7 @@ class SlicedPlyFile final : public SharedMeshFile {
     FileFormat format_;
     /// Of a binary OFF file.
     PlyHeader layout_;
+    std::size_t elements_begin_ = 0;
     FileSharing sharing_;
     /// The bytes behind the vertices that this rank copies, and what it has read.
     ByteRange others_;

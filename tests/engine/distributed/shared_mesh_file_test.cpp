@@ -264,7 +264,8 @@ TEST_CASE("a file that changes while it is used is noticed")
         const auto result = directory / ("out" + extension);
         write_mesh(file, make_triangles(700), kind_for_writing(file, {FileFormat::Off, Encoding::Ascii}));
         const std::size_t size = test::content_of(file).size();
-        for (const std::size_t place : {size / 4, size - 2}) {
+        // The title of a binary STL file is nobody's.
+        for (const std::size_t place : {extension == ".stl" ? size / 8 : 1, size / 4, size - 2}) {
             std::string fault;
             run_on_threads(3, [&](Communicator& communicator) {
                 try {

@@ -1,7 +1,6 @@
 // Text files of OFF and PLY of which every rank reads and writes a slice.
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -215,23 +214,4 @@ TEST_CASE("faces that slices of text leave out stay in the file, and are told of
     check_as_on_one_machine(directory / "in.ply", directory / "out.ply", sliced, 64);
     std::filesystem::remove(directory / "out.ply");
     check_fault_as_on_one_machine(directory / "in.ply", ply + "more\n");
-}
-
-TEST_CASE("a header that changes while the file is used is noticed")
-{
-    const test::TemporaryDirectory directory;
-    const auto file = directory / "in.off";
-    const auto result = directory / "out.off";
-    write_mesh(file, make_triangles(700), {FileFormat::Off, Encoding::Ascii});
-    run_on_threads(3, [&](Communicator& communicator) {
-        const auto work = [&](Conversation& talk) {
-            const auto opened = open_together(talk, file, sliced);
-            const RankSlice slice = opened->read(talk);
-            talk.at_first_rank([&] { std::fstream(file, std::ios::binary | std::ios::in | std::ios::out) << "x"; });
-            opened->write(talk, result, slice.vertices);
-        };
-        CHECK_THROWS_WITH_AS(run_together(communicator, work), doctest::Contains("has been changed since it was read"),
-                             InputError);
-    });
-    CHECK(!std::filesystem::exists(result));
 }
