@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -14,7 +15,6 @@
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/ranks/thread_communicator.h"
-#include "partition/errors.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -108,7 +108,7 @@ inline Shared pass_through_alone(const std::filesystem::path& file, const std::f
         write_labelled_ply(result.parent_path() / "labelled.ply", read.mesh, labels);
         alone.written = content_of(result);
         alone.labelled = content_of(result.parent_path() / "labelled.ply");
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
         alone.fault = error.what();
     }
     return alone;
@@ -163,23 +163,28 @@ inline void check_fault_as_on_one_machine(const std::filesystem::path& file, con
     CHECK(!std::filesystem::exists(result));
 }
 
+/// Checks that ranks do with a file in slices what one machine does, whether it has a fault or none.
+/// @returns whether it has.
+inline bool check_content_as_on_one_machine(const std::filesystem::path& file, const std::string& content)
+{
+    const auto result = file.parent_path() / ("out" + file.extension().string());
+    std::filesystem::remove(result);
+    write_file(file, content);
+    const bool is_faulty = !pass_through_alone(file, result).fault.empty();
+    if (is_faulty)
+        check_fault_as_on_one_machine(file, content);
+    else
+        check_as_on_one_machine(file, result, sliced, 0);
+    std::filesystem::remove(result);
+    return is_faulty;
+}
+
 /// The same of several contents, of which a few may have no fault.
 inline void check_faults_as_on_one_machine(const std::filesystem::path& file, const std::vector<std::string>& contents)
 {
-    std::size_t n_faulty = 0;
-    const auto result = file.parent_path() / ("out" + file.extension().string());
-    for (const std::string& content : contents) {
-        std::filesystem::remove(result);
-        write_file(file, content);
-        const bool is_faulty = !pass_through_alone(file, result).fault.empty();
-        n_faulty += is_faulty ? 1 : 0;
-        if (is_faulty)
-            check_fault_as_on_one_machine(file, content);
-        else
-            check_as_on_one_machine(file, result, sliced, 0);
-    }
-    std::filesystem::remove(result);
-    CHECK(4 * n_faulty > 3 * contents.size());
+    const auto n_faulty = std::ranges::count_if(
+        contents, [&](const std::string& content) { return check_content_as_on_one_machine(file, content); });
+    CHECK(4 * n_faulty > 3 * std::ssize(contents));
 }
 
 }  // namespace seamflow::test
