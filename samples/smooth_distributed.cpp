@@ -264,11 +264,13 @@ class RankRun {
             if (const MeshFile* const whole = file_->whole())
                 require_storable(whole->mesh, path, kind_for_writing(path, whole->kind));
         }
-        if (const MeshFile* const whole = file_->whole()) {
+        const MeshFile* const whole = file_->whole();
+        if (whole != nullptr)
             record_.remarks = remarks_on_losses(command_.output, true, *whole);
-            if (file_->faults().count > 0)
-                record_.remarks.push_back(remark_on_faces(file_->faults(), command_.output, true, whole->kind));
-        }
+        if (file_->faults().count > 0)
+            record_.remarks.push_back(
+                remark_on_faces(file_->faults(), command_.output, true,
+                                whole != nullptr ? whole->kind : FileKind{*format_of(command_.input)}));
         if (std::filesystem::equivalent(command_.input, command_.output, ignored))
             record_.remarks.push_back("The result has replaced the input, in one go when it was complete.");
     }

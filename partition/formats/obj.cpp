@@ -2,12 +2,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "partition/errors.h"
+#include "partition/formats/splicing.h"
+#include "partition/formats/text_slices.h"
 #include "partition/io/mesh_builder.h"
 
 namespace seamflow {
@@ -30,10 +35,11 @@ class ObjReader {
         scanner_.note_faults_in(faults);
     }
 
-    ObjReader(const TextScanner& scanner, const MeshSlice& slice)
+    ObjReader(const TextScanner& scanner, const MeshSlice& slice, FaultLog* faults = nullptr)
         : scanner_(scanner)
         , builder_(scanner_, 1, slice)
     {
+        scanner_.note_faults_in(faults);
     }
 
     /// Reads all lines.
@@ -138,13 +144,77 @@ void ObjReader::require_no_open_reference(Index n) const
                                           std::int64_t{vertex} + 1, counted(at(n), "vertex", "vertices")));
 }
 
-PolygonMesh read_slices(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
+/// @throws InputError if there is any fault, not necessarily naming the line.
+PolygonMesh read_slices(const TextScanner& whole, const TextSlices& slices, const Loop& loop)
 {
-    const std::vector<ObjCounts> counts = count_obj(whole, slices, loop);
-    if (counts.back().n_vertices == 0)
+    if (slices.all.n_vertices == 0)
         throw InputError("no vertices");
-    return read_obj_slices(whole, slices, counts, counts.back().n_vertices, loop);
+    const auto first = static_cast<Index>(slices.counts.front().n_vertices);
+    const auto n_vertices = static_cast<Index>(slices.all.n_vertices);
+    PolygonMesh mesh;
+    mesh.vertices = uninitialised_points(static_cast<Index>(slices.counts.back().n_vertices) - first);
+    append_faces(mesh, static_cast<Index>(slices.bytes.size()), loop, [&](Index i, PolygonMesh& faces) {
+        const auto first_of_slice = static_cast<Index>(slices.counts[i].n_vertices);
+        ObjReader reader(TextScanner(whole, slices.bytes[i]), {mesh.vertices, first_of_slice, faces, first});
+        reader.read();
+        reader.require_no_open_reference(n_vertices);
+    });
+    return mesh;
 }
+
+class SlicedObj final : public SlicedText {
+  public:
+    SlicedObj(const std::filesystem::path& path, const TextScanner& whole)
+        : SlicedText(whole)
+        , path_(path)
+    {
+    }
+
+    [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
+                                                const Loop& loop) const override
+    {
+        return count_obj(after_header(), slices, loop);
+    }
+
+    [[nodiscard]] std::int64_t n_vertices_before(const TextCounts& counts) const override { return counts.n_vertices; }
+    [[nodiscard]] std::int64_t n_vertices(const TextCounts& all) const override { return all.n_vertices; }
+
+    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Loop& loop) const override
+    {
+        return read_slices(after_header(), slices, loop);
+    }
+
+    void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override
+    {
+        const Index first = first_vertex(slices);
+        found.mesh.vertices = uninitialised_points(static_cast<Index>(slices.counts.back().n_vertices) - first);
+        ObjReader reader(scanner, {found.mesh.vertices, first, found.mesh, first}, &found.faults);
+        reader.read();
+        try {
+            reader.require_no_open_reference(static_cast<Index>(slices.all.n_vertices));
+        } catch (const InputError& error) {
+            found.of_reference = error.what();
+        }
+    }
+
+    std::vector<std::string> rewrite_header(ByteWriter& file, std::string_view header, const std::array<bool, 3>&,
+                                            const TextCounts& all) const override
+    {
+        file.text(header);
+        if (all.n_normals == 0)
+            return {};
+        const auto n = static_cast<std::uint64_t>(all.n_normals);
+        return {kept_normals_remark(path_, counted(n, "normal", "normals") + " (vn)")};
+    }
+
+    void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const override
+    {
+        rewrite_obj_slice(file, after_header(), slices, slice, positions);
+    }
+
+  private:
+    std::filesystem::path path_;
+};
 
 std::string_view extra_of_statement(std::string_view keyword)
 {
@@ -185,9 +255,9 @@ std::vector<std::string> extras_of_slice(TextScanner scanner)
 
 }  // namespace
 
-std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
+std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
 {
-    std::vector<ObjCounts> counts(slices.size() + 1);
+    std::vector<TextCounts> counts(slices.size() + 1);
     for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
         TextScanner scanner(whole, slices[i]);
         while (scanner.next_line()) {
@@ -203,38 +273,9 @@ std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::
     return counts;
 }
 
-PolygonMesh read_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
-                            std::span<const ObjCounts> counts, Index n_vertices, const Loop& loop)
+std::unique_ptr<SlicedText> slice_obj_text(const std::filesystem::path& path, std::string_view text)
 {
-    PolygonMesh mesh;
-    const Index first = counts.front().n_vertices;
-    mesh.vertices = uninitialised_points(counts.back().n_vertices - first);
-    append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
-        ObjReader reader(TextScanner(whole, slices[i]), {mesh.vertices, counts[i].n_vertices, faces, first});
-        reader.read();
-        reader.require_no_open_reference(n_vertices);
-    });
-    return mesh;
-}
-
-ObjFaults faults_of_obj_slice(const TextScanner& scanner, const ObjCounts& counts, const ObjCounts& end,
-                              Index n_vertices)
-{
-    PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(end.n_vertices - counts.n_vertices);
-    ObjReader reader(scanner, {mesh.vertices, counts.n_vertices, mesh, counts.n_vertices});
-    ObjFaults faults;
-    try {
-        reader.read();
-    } catch (const InputError& error) {
-        faults.of_line = error.what();
-    }
-    try {
-        reader.require_no_open_reference(n_vertices);
-    } catch (const InputError& error) {
-        faults.of_reference = error.what();
-    }
-    return faults;
+    return std::make_unique<SlicedObj>(path, TextScanner(path, text, obj_syntax));
 }
 
 PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, const Slicing& slicing, FaultLog* faults)
@@ -248,7 +289,11 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, c
     };
     if (slices.size() < 2)
         return in_one_go();
-    return read_in_slices_if_faultless([&] { return read_slices(whole, slices, slicing.loop); }, in_one_go);
+    const auto in_slices = [&] {
+        const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.loop);
+        return read_slices(whole, {slices, counts, counts.back()}, slicing.loop);
+    };
+    return read_in_slices_if_faultless(in_slices, in_one_go);
 }
 
 void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)

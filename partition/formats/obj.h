@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/formats/text_slices.h"
 #include "partition/index_lists.h"
+#include "partition/io/byte_writer.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
@@ -23,38 +25,9 @@ inline bool is_obj_face(std::string_view keyword)
     return keyword.starts_with('f') && (keyword.size() == 1 || keyword == "fo");
 }
 
-/// What stands before a slice of a file.
-struct ObjCounts {
-    Index n_vertices = 0;
-    /// Lines `vn`.
-    Index n_normals = 0;
-
-    friend bool operator==(const ObjCounts&, const ObjCounts&) = default;
-};
-
 /// The counts before each slice of a file and, at the end, those of all of it.
 /// @throws InputError if there are more than 2^31 - 1 of a kind.
-std::vector<ObjCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop);
-
-/// Reads some slices of a file.
-/// @param counts what stands before each of them, in the whole file, and behind the last.
-/// @param n_vertices of the whole file.
-/// @returns the vertices of these slices, and their faces with corners numbered in the whole file.
-/// @throws InputError if there is any fault, not necessarily naming the line (see faults_of_obj_slice).
-PolygonMesh read_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
-                            std::span<const ObjCounts> counts, Index n_vertices, const Loop& loop);
-
-/// The first faults of a slice, as read_obj says them; empty: there are none.
-struct ObjFaults {
-    std::string of_line;
-    /// That a vertex which a face names does not come. read_obj says so only where all lines are without fault.
-    std::string of_reference;
-};
-
-/// @param scanner of the slice, which knows the number of its first line. @param counts, end what stands before the
-/// slice and behind it. @param n_vertices of the whole file.
-ObjFaults faults_of_obj_slice(const TextScanner& scanner, const ObjCounts& counts, const ObjCounts& end,
-                              Index n_vertices);
+std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop);
 
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are
@@ -77,12 +50,10 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::path& path, std::string_view text,
                                      const PolygonMesh& mesh, const Slicing& slicing);
 
-/// Writes some slices of a file again as rewrite_obj does, but with all normals as they were.
-/// @param counts as of read_obj_slices. @param positions of the vertices of these slices.
-/// @returns one text for each slice.
-std::vector<OutputBuffer> rewrite_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
-                                             std::span<const ObjCounts> counts, const Points& positions,
-                                             const Loop& loop);
+/// Writes one of some slices of a file again as rewrite_obj does, but with all normals as they were.
+/// @param positions of the vertices of all of the slices.
+void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,
+                       const Points& positions);
 
 /// The corners of faces, numbered as in PolygonMesh::face_vertices, that name each normal (`vn`) of a file that
 /// `read_obj` has read, in ascending order. Numbers of normals that there are not do not count.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -111,7 +112,7 @@ std::vector<std::string> NormalUpdate::remarks(const std::filesystem::path& path
 
 /// The normal that each corner of a slice names, or `none`; without the faces that are left out of the mesh.
 /// @param counts what stands before the slice.
-std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
+std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
 {
     std::vector<Index> normals;
     std::vector<Index> vertices;
@@ -125,8 +126,8 @@ std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
         vertices.clear();
         while (scanner.has_token()) {
             const std::string_view corner = scanner.token();
-            vertices.push_back(index_at_start(corner, counts.n_vertices));
-            normals.push_back(normal_of(corner, counts.n_normals));
+            vertices.push_back(index_at_start(corner, static_cast<Index>(counts.n_vertices)));
+            normals.push_back(normal_of(corner, static_cast<Index>(counts.n_normals)));
         }
         if (!are_corners_of_face(vertices, sorted))
             normals.resize(normals.size() - vertices.size());
@@ -137,8 +138,8 @@ std::vector<Index> normals_of_corners(TextScanner scanner, ObjCounts counts)
 /// Writes a slice again.
 /// @param counts what stands before it. @param end what stands before the next.
 /// @param positions from vertex `first` of the file on. @param normals null: they stay.
-StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, ObjCounts counts, const ObjCounts& end,
-                             const Points& positions, Index first, const NormalUpdate* normals)
+StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, TextCounts counts, const TextCounts& end,
+                             const Points& positions, std::int64_t first, const NormalUpdate* normals)
 {
     StayingNormals staying;
     while (counts != end && scanner.next_line()) {
@@ -147,7 +148,7 @@ StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, ObjCounts cou
             exchange_position(scanner, splicer, positions.row(counts.n_vertices++ - first));
         if (keyword != "vn")
             continue;
-        const Index normal = counts.n_normals++;
+        const auto normal = static_cast<Index>(counts.n_normals++);
         if (normals == nullptr)
             continue;
         const WrittenNormal given = read_normal(scanner);
@@ -164,11 +165,11 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
+    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.loop);
     std::vector<std::vector<Index>> of_slice(slices.size());
     for_each(slicing.loop, static_cast<Index>(slices.size()),
              [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i]); });
-    const Index n = counts.back().n_normals;
+    const auto n = static_cast<Index>(counts.back().n_normals);
     return make_lists(n, [&](auto&& add) {
         Index corner = 0;
         for (const std::vector<Index>& normals : of_slice)
@@ -185,7 +186,7 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const std::vector<ObjCounts> counts = count_obj(whole, slices, slicing.loop);
+    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.loop);
     std::optional<NormalUpdate> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (counts.back().n_normals > 0)
@@ -200,16 +201,12 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
 }
 
-std::vector<OutputBuffer> rewrite_obj_slices(const TextScanner& whole, std::span<const std::string_view> slices,
-                                             std::span<const ObjCounts> counts, const Points& positions,
-                                             const Loop& loop)
+void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSlices& slices, Index slice,
+                       const Points& positions)
 {
-    std::vector<OutputBuffer> texts(slices.size());
-    for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
-        rewrite_slice(TextScanner(whole, slices[i]), Splicer(texts[i], slices[i]), counts[i], counts[i + 1], positions,
-                      counts.front().n_vertices, nullptr);
-    });
-    return texts;
+    const std::string_view bytes = slices.bytes[slice];
+    rewrite_slice(TextScanner(whole, bytes), Splicer(file, bytes), slices.counts[slice], slices.counts[slice + 1],
+                  positions, slices.counts.front().n_vertices, nullptr);
 }
 
 }  // namespace seamflow

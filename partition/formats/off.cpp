@@ -3,98 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "partition/errors.h"
+#include "partition/formats/off_header.h"
 #include "partition/formats/splicing.h"
+#include "partition/formats/text_slices.h"
 #include "partition/io/mesh_builder.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
 
 namespace {
-
-/// The beginning of a text OFF file.
-struct OffHeader {
-    /// What stands before OFF: ST, C, N together mean texture coordinates, colours and normals of the vertices.
-    std::string_view prefix;
-    std::int64_t n_vertices = 0;
-    std::int64_t n_faces = 0;
-
-    [[nodiscard]] bool has_normals() const { return prefix.ends_with('N'); }
-};
-
-bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-void require_known_variant(const TextScanner& scanner, std::string_view prefix)
-{
-    if (prefix.find_first_of("4n") != std::string_view::npos)
-        scanner.fail(in_quotes(std::string(prefix) + "OFF") +
-                     " files, whose vertices have not just three coordinates, cannot be read; convert the mesh to OFF");
-    constexpr std::array<std::string_view, 8> known = {"", "C", "N", "CN", "ST", "STC", "STN", "STCN"};
-    if (std::find(known.begin(), known.end(), prefix) == known.end())
-        scanner.fail("the keyword " + in_quotes(std::string(prefix) + "OFF") +
-                     " is unknown; convert the mesh to OFF, COFF or NOFF");
-}
-
-/// @returns what stands before OFF.
-std::string_view read_keyword(TextScanner& scanner)
-{
-    if (!scanner.next_line())
-        scanner.fail("the file holds no mesh, only comments or blanks; export the mesh again");
-    const auto word = scanner.peek();
-    if (std::all_of(word.begin(), word.end(), is_digit))
-        return {};
-    const auto off = word.find("OFF");
-    if (off == std::string_view::npos || (word.size() > off + 3 && !is_digit(word[off + 3])))
-        scanner.fail("the file begins with " + in_quotes(word) +
-                     " and not with OFF; if it has another format, give it that format's extension");
-    const std::string_view prefix = word.substr(0, off);
-    require_known_variant(scanner, prefix);
-    scanner.skip(off + 3);
-    if (scanner.peek() == "BINARY")
-        scanner.fail(
-            "binary OFF files with more than coordinates and faces cannot be read; convert the mesh to text OFF "
-            "or to PLY");
-    return prefix;
-}
-
-/// @param size of the file, in bytes. @param shortest_line the fewest characters in which a vertex or a face can be
-/// written, with the line end.
-std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* what, std::int64_t shortest_line)
-{
-    const std::int64_t n = scanner.integer(what);
-    if (n < 0 || n > (size + 1) / shortest_line)
-        scanner.fail(fmt::format("{} is {}, but a file of {} bytes cannot hold so many; correct the header, or export "
-                                 "the mesh again if it was cut off",
-                                 what, n, size));
-    return n;
-}
-
-/// Reads from the beginning of the file to the end of the counts.
-/// @throws InputError naming the line; also for vertices that have not three coordinates, and for counts that the file
-///         is too short for.
-OffHeader read_off_header(TextScanner& scanner)
-{
-    const auto size = static_cast<std::int64_t>(scanner.rest().size());
-    OffHeader header;
-    header.prefix = read_keyword(scanner);
-    if (!scanner.has_token() && !scanner.next_line())
-        scanner.fail("the file ends before the numbers of vertices and faces; export the mesh again");
-    header.n_vertices = read_count(scanner, size, "the number of vertices", 6);
-    header.n_faces = read_count(scanner, size, "the number of faces", 4);
-    if (scanner.has_token())
-        scanner.integer("the number of edges");
-    if (scanner.has_token())
-        scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found " +
-                     in_quotes(scanner.peek()) + "; correct the header");
-    return header;
-}
 
 /// Reads a whole file, or a slice of one.
 class OffReader {
@@ -108,17 +34,25 @@ class OffReader {
         builder_.reserve(static_cast<std::uint64_t>(header.n_vertices), static_cast<std::uint64_t>(header.n_faces));
     }
 
-    OffReader(const TextScanner& scanner, const OffHeader& header, const MeshSlice& slice)
+    OffReader(const TextScanner& scanner, const OffHeader& header, const MeshSlice& slice, FaultLog* faults = nullptr)
         : scanner_(scanner)
         , builder_(scanner_, 0, slice)
         , header_(header)
     {
+        scanner_.note_faults_in(faults);
     }
 
     /// Reads vertices and faces, which are counted together.
     void read(std::int64_t begin, std::int64_t end);
 
-    PolygonMesh finish();
+    /// Checks that no line is left.
+    void require_end();
+
+    PolygonMesh finish()
+    {
+        require_end();
+        return builder_.finish();
+    }
 
   private:
     void next_line(const char* what, std::int64_t i, std::int64_t n);
@@ -143,13 +77,12 @@ void OffReader::read(std::int64_t begin, std::int64_t end)
     }
 }
 
-PolygonMesh OffReader::finish()
+void OffReader::require_end()
 {
     if (scanner_.next_line())
         scanner_.fail(fmt::format("the file goes on after the {} vertices and {} faces that its header announces; "
                                   "correct the counts in the header",
                                   header_.n_vertices, header_.n_faces));
-    return builder_.finish();
 }
 
 void OffReader::next_line(const char* what, std::int64_t i, std::int64_t n)
@@ -170,32 +103,51 @@ void OffReader::read_face()
     builder_.add_face(corners_);
 }
 
-/// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header, const Slicing& slicing)
+std::vector<TextCounts> count_slices(const TextScanner& after_header, std::span<const std::string_view> slices,
+                                     const Loop& loop)
 {
-    const std::vector<std::string_view> slices = after_header.slices(slicing.bytes);
-    const std::vector<std::int64_t> first = count_lines(after_header, slices, slicing.loop);
-    if (header.n_vertices == 0 || first.back() != header.n_vertices + header.n_faces)
+    std::vector<TextCounts> counts;
+    for (const std::int64_t n : count_lines(after_header, slices, loop))
+        counts.push_back({.n_lines = n});
+    return counts;
+}
+
+Index vertices_before(const TextCounts& counts, const OffHeader& header)
+{
+    return static_cast<Index>(std::min(counts.n_lines, header.n_vertices));
+}
+
+/// @throws InputError if there is any fault, not necessarily naming it.
+PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header, const TextSlices& slices,
+                        const Loop& loop)
+{
+    if (header.n_vertices == 0 || slices.all.n_lines != header.n_lines())
         throw InputError("the file ends too early, or goes on");
+    static_cast<void>(sum_of_counts(0, header.n_vertices));
+    const TextCounts& begin = slices.counts.front();
+    const TextCounts& end = slices.counts.back();
+    const Index first = vertices_before(begin, header);
+    const Index n_vertices = vertices_before(end, header) - first;
     PolygonMesh mesh;
-    mesh.vertices = uninitialised_points(sum_of_counts(0, header.n_vertices));
-    mesh.face_offsets.reserve(static_cast<std::size_t>(header.n_faces) + 1);
-    append_faces(mesh, static_cast<Index>(slices.size()), slicing.loop, [&](Index i, PolygonMesh& faces) {
-        const auto first_vertex = static_cast<Index>(std::min(first[i], header.n_vertices));
-        OffReader reader(TextScanner(after_header, slices[i]), header, {mesh.vertices, first_vertex, faces});
-        reader.read(first[i], first[i + 1]);
+    mesh.vertices = uninitialised_points(n_vertices);
+    mesh.face_offsets.reserve(static_cast<std::size_t>(end.n_lines - begin.n_lines - n_vertices) + 1);
+    append_faces(mesh, static_cast<Index>(slices.bytes.size()), loop, [&](Index i, PolygonMesh& faces) {
+        OffReader reader(TextScanner(after_header, slices.bytes[i]), header,
+                         {mesh.vertices, vertices_before(slices.counts[i], header), faces, first});
+        reader.read(slices.counts[i].n_lines, slices.counts[i + 1].n_lines);
     });
     return mesh;
 }
 
 /// Writes the lines of a slice that are vertices.
-/// @param v the first of them. @param normals null: there are none.
-void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const PolygonMesh& mesh,
+/// @param v, end the first of them and the one behind the last. @param positions from vertex `first` of the file on.
+/// @param normals null: they stay.
+void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const Points& positions, Index first,
                    const MovedNormals* normals)
 {
     for (; v < end; ++v) {
         scanner.next_line();
-        exchange_position(scanner, splicer, mesh.vertices.row(v));
+        exchange_position(scanner, splicer, positions.row(v - first));
         if (normals == nullptr)
             continue;
         const WrittenNormal given = read_normal(scanner);
@@ -204,6 +156,64 @@ void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, con
     }
     splicer.finish();
 }
+
+class SlicedOff final : public SlicedText {
+  public:
+    SlicedOff(const std::filesystem::path& path, const TextScanner& after_header, const OffHeader& header)
+        : SlicedText(after_header)
+        , path_(path)
+        , header_(header)
+    {
+    }
+
+    [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
+                                                const Loop& loop) const override
+    {
+        return count_slices(after_header(), slices, loop);
+    }
+
+    [[nodiscard]] std::int64_t n_vertices_before(const TextCounts& counts) const override
+    {
+        return vertices_before(counts, header_);
+    }
+
+    [[nodiscard]] std::int64_t n_vertices(const TextCounts&) const override { return header_.n_vertices; }
+
+    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Loop& loop) const override
+    {
+        return read_slices(after_header(), header_, slices, loop);
+    }
+
+    void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override
+    {
+        const std::int64_t begin = std::min(slices.counts.front().n_lines, header_.n_lines());
+        const std::int64_t end = slices.counts.back().n_lines;
+        const Index first = first_vertex(slices);
+        found.mesh.vertices = uninitialised_points(vertices_before({.n_lines = end}, header_) - first);
+        OffReader reader(scanner, header_, {found.mesh.vertices, first, found.mesh, first}, &found.faults);
+        reader.read(begin, is_last(slices.bytes.front()) ? header_.n_lines() : std::min(end, header_.n_lines()));
+        reader.require_end();
+    }
+
+    std::vector<std::string> rewrite_header(ByteWriter& file, std::string_view header, const std::array<bool, 3>&,
+                                            const TextCounts&) const override
+    {
+        file.text(header);
+        return header_.has_normals() ? std::vector{kept_normals_remark(path_, "normals")} : std::vector<std::string>{};
+    }
+
+    void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const override
+    {
+        const std::string_view bytes = slices.bytes[slice];
+        rewrite_slice(Splicer(file, bytes), TextScanner(after_header(), bytes),
+                      vertices_before(slices.counts[slice], header_),
+                      vertices_before(slices.counts[slice + 1], header_), positions, first_vertex(slices), nullptr);
+    }
+
+  private:
+    std::filesystem::path path_;
+    OffHeader header_;
+};
 
 /// The kinds of the numbers after the coordinates, by the keyword of the file.
 void add_extras_of_keyword(std::vector<std::string>& extras, const OffHeader& header)
@@ -237,12 +247,24 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
     const OffHeader header = read_off_header(scanner);
     const auto in_one_go = [&] {
         OffReader reader(scanner, header, faults);
-        reader.read(0, header.n_vertices + header.n_faces);
+        reader.read(0, header.n_lines());
         return reader.finish();
     };
     if (text.size() <= slicing.bytes)
         return in_one_go();
-    return read_in_slices_if_faultless([&] { return read_slices(scanner, header, slicing); }, in_one_go);
+    const auto in_slices = [&] {
+        const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
+        const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
+        return read_slices(scanner, header, {slices, counts, counts.back()}, slicing.loop);
+    };
+    return read_in_slices_if_faultless(in_slices, in_one_go);
+}
+
+std::unique_ptr<SlicedText> slice_off_text(const std::filesystem::path& path, std::string_view text)
+{
+    TextScanner scanner(path, text);
+    const OffHeader header = read_off_header(scanner);
+    return std::make_unique<SlicedOff>(path, scanner, header);
 }
 
 void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing)
@@ -269,19 +291,17 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
         return {};
     }
     TextScanner scanner(path, content);
+    const OffHeader header = read_off_header(scanner);
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
-    if (read_off_header(scanner).has_normals())
+    if (header.has_normals())
         normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.loop);
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
-    const std::vector<std::int64_t> first = count_lines(scanner, slices, slicing.loop);
-    const auto vertices_before = [&](Index i) {
-        return static_cast<Index>(std::min<std::int64_t>(first[i], mesh.n_vertices()));
-    };
+    const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
     file.text(content.substr(0, content.size() - scanner.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
-        rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(i),
-                      vertices_before(i + 1), mesh, normals ? &*normals : nullptr);
+        rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
+                      vertices_before(counts[i + 1], header), mesh.vertices, 0, normals ? &*normals : nullptr);
     });
     return {};
 }

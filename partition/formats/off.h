@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/formats/ply_header.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
@@ -50,6 +51,21 @@ std::optional<std::size_t> start_of_binary_off(std::string_view content);
 /// @throws InputError naming the byte.
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
                             const Slicing& slicing, FaultLog* faults);
+
+/// How many bytes of counts precede the vertices of such a file.
+inline constexpr std::size_t binary_off_counts_bytes = 12;
+
+/// The four layouts in their order, each as the header of a binary PLY file whose elements are the same bytes, from
+/// behind the counts on; none for a file that is too short for counts.
+std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t offset);
+
+/// Says that none of them fits.
+/// @throws InputError naming the byte.
+[[noreturn]] void refuse_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset);
+
+/// Checks that floats can hold some vertices. @param first the number of the first of them.
+/// @throws OutputError
+void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first, const Loop& loop);
 
 /// Writes such a file again, with the positions of `mesh`, rounded to floats; every other byte stays.
 /// @param mesh with the faces of the file.

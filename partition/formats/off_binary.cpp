@@ -28,7 +28,7 @@ constexpr Layout layouts[] = {
 
 constexpr std::size_t word_size = 4;
 
-constexpr std::size_t counts_bytes = 3 * word_size;
+constexpr std::size_t counts_bytes = binary_off_counts_bytes;
 constexpr std::size_t vertex_bytes = 3 * word_size;
 constexpr std::size_t typical_face_bytes = 4 * word_size;
 
@@ -94,6 +94,14 @@ class Skimmer {
     bool fits_ = true;
 };
 
+double read_number(ByteScanner& scanner)
+{
+    const double value = scanner.read<float>();
+    if (!std::isfinite(value))
+        scanner.fault("a coordinate is not a finite number; remove the vertex or mend it");
+    return value;
+}
+
 void read_face(ByteScanner& scanner, const Layout& layout, std::int64_t n_vertices, MeshBuilder& builder,
                std::vector<Index>& corners)
 {
@@ -146,11 +154,9 @@ PolygonMesh read_as(const Layout& layout, const std::filesystem::path& path, std
     builder.reserve(n_vertices, n_faces);
     for (std::uint32_t v = 0; v < n_vertices; ++v) {
         scanner.enter("vertex", v);
-        const auto x = scanner.read<float>();
-        const auto y = scanner.read<float>();
-        const auto z = scanner.read<float>();
-        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-            scanner.fault("a coordinate is not a finite number; mend or remove the vertex");
+        const double x = read_number(scanner);
+        const double y = read_number(scanner);
+        const double z = read_number(scanner);
         builder.add_vertex({x, y, z});
     }
     std::vector<Index> corners;
@@ -170,6 +176,16 @@ std::optional<Layout> layout_of(std::string_view data)
     return std::nullopt;
 }
 
+/// @param type of four bytes.
+PlyProperty word_list(const char* name, PlyType type)
+{
+    PlyProperty property;
+    property.name = name;
+    property.type = type;
+    property.length_type = PlyType::UInt32;
+    return property;
+}
+
 }  // namespace
 
 PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset,
@@ -182,24 +198,58 @@ PolygonMesh read_binary_off(const std::filesystem::path& path, std::string_view 
         return read_in_slices_if_faultless([&] { return read_slices(*layout, file.substr(offset), slicing); },
                                            in_one_go);
     }
+    refuse_binary_off(path, file, offset);
+}
+
+void refuse_binary_off(const std::filesystem::path& path, std::string_view file, std::size_t offset)
+{
     ByteScanner(path, file, offset, std::endian::big)
         .fail("the binary data do not end where their counts say, in either byte order; the file has been cut off, or "
               "holds more "
               "than coordinates and faces: convert the mesh to text OFF or to PLY");
 }
 
-bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,
-                        const Slicing& slicing)
+std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t offset)
 {
-    const std::endian order = layout_of(file.substr(offset)).value_or(Layout{}).order;
-    const auto too_large = select(slicing.loop, mesh.n_vertices(), [&](Index v) {
-        return mesh.vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
+    std::vector<PlyHeader> headers;
+    if (file.size() < offset + counts_bytes)
+        return headers;
+    for (const Layout& layout : layouts) {
+        const char* const counts = file.data() + offset;
+        PlyElement vertices;
+        vertices.name = "vertex";
+        vertices.count = from_bytes<std::uint32_t>(counts, layout.order);
+        for (const std::string name : {"x", "y", "z"})
+            vertices.properties.emplace_back().name = name;
+        PlyElement faces;
+        faces.name = "face";
+        faces.count = from_bytes<std::uint32_t>(counts + word_size, layout.order);
+        faces.properties.push_back(word_list("vertex_indices", PlyType::Int32));
+        if (layout.colours_follow_faces)
+            faces.properties.push_back(word_list("colours", PlyType::Float32));
+        const bool is_big = layout.order == std::endian::big;
+        headers.push_back({is_big ? Encoding::BinaryBigEndian : Encoding::BinaryLittleEndian, {vertices, faces}});
+    }
+    return headers;
+}
+
+void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first, const Loop& loop)
+{
+    const auto too_large = select(loop, static_cast<Index>(vertices.rows()), [&](Index v) {
+        return vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
     });
     if (!too_large.empty())
         throw OutputError(
             fmt::format("{}: cannot be written: vertex {} (numbered from 0) has a coordinate too large for the single "
                         "precision of binary OFF; write another format",
-                        output.path().string(), too_large.front()));
+                        path.string(), first + too_large.front()));
+}
+
+bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t offset, const PolygonMesh& mesh,
+                        const Slicing& slicing)
+{
+    const std::endian order = layout_of(file.substr(offset)).value_or(Layout{}).order;
+    require_fits_binary_off(output.path(), mesh.vertices, 0, slicing.loop);
     const std::size_t first = offset + counts_bytes;
     output.text(file.substr(0, first));
     write_elements(output, mesh.n_vertices(), elements_per_slice(slicing, vertex_bytes), slicing.loop,

@@ -14,6 +14,7 @@
 #include "partition/formats/ply_plain.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
+#include "partition/formats/text_slices.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -73,69 +74,45 @@ PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faul
     return reader.finish();
 }
 
-/// How many elements of that name the first `end` elements of a file have.
-std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::string_view name)
-{
-    std::uint64_t n = 0;
-    for_each_kind(header.elements, {0, end}, [&](const PlyElement& element, std::uint64_t, std::uint64_t n_here) {
-        n = element.name == name ? n_here : n;
-    });
-    return n;
-}
-
-/// @param source_of called with the bytes of a slice.
 /// @throws InputError if there is any fault, not necessarily naming it.
-/// @param reads_plain called with a slice and where it belongs, reads it in another way if it returns true.
-template <class SourceOf, class ReadsPlain>
-PolygonMesh read_slices(const PlyHeader& header, std::span<const PlySlice> slices, const Loop& loop,
-                        const SourceOf& source_of, const ReadsPlain& reads_plain)
+PolygonMesh read_binary_slices(const TextScanner& after_header, const std::filesystem::path& path,
+                               std::string_view file, const PlyHeader& header, const Slicing& slicing)
 {
+    if (header.element("vertex")->count > std::numeric_limits<Index>::max())
+        throw InputError("too many vertices");
     const auto n_vertices = static_cast<Index>(header.element("vertex")->count);
+    const std::vector<PlySlice> slices = slice_ply(file, after_header, header.encoding, header.elements, slicing);
+    const auto source_of = [&](std::string_view bytes) {
+        return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()), header.encoding);
+    };
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(n_vertices);
     if (const PlyElement* const faces = header.element("face"))
         mesh.face_offsets.reserve(faces->count + 1);
-    append_faces(mesh, static_cast<Index>(slices.size()), loop, [&](Index i, PolygonMesh& faces) {
+    append_faces(mesh, static_cast<Index>(slices.size()), slicing.loop, [&](Index i, PolygonMesh& faces) {
         const auto first = static_cast<Index>(count_before(slices[i].begin, header, "vertex"));
         const MeshSlice place{mesh.vertices, first, faces};
-        if (reads_plain(slices[i], place))
+        if (read_plain_slice(header, slices[i], place))
             return;
-        auto source = source_of(slices[i].bytes);
-        ElementReader<decltype(source)> reader(source, n_vertices, place);
+        PlyBinarySource source = source_of(slices[i].bytes);
+        ElementReader<PlyBinarySource> reader(source, n_vertices, place);
         for_each_kind(header.elements, slices[i],
                       [&](const PlyElement& element, std::uint64_t begin, std::uint64_t end) {
                           reader.read(element, begin, end);
                       });
     });
-    auto end = source_of(std::string_view(slices.back().bytes.data() + slices.back().bytes.size(), 0));
+    PlyBinarySource end = source_of(std::string_view(slices.back().bytes.data() + slices.back().bytes.size(), 0));
     end.finish();
     return mesh;
 }
 
-/// The same of a file of whatever encoding.
-PolygonMesh read_slices(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
-                        const PlyHeader& header, const Slicing& slicing)
+/// @throws InputError if there is any fault, not necessarily naming it.
+PolygonMesh read_text_slices(const std::filesystem::path& path, std::string_view file, const Slicing& slicing)
 {
-    if (header.element("vertex")->count > std::numeric_limits<Index>::max())
-        throw InputError("too many vertices");
-    const std::vector<PlySlice> slices = slice_ply(file, after_header, header.encoding, header.elements, slicing);
-    if (header.encoding != Encoding::Ascii)
-        return read_slices(
-            header, slices, slicing.loop,
-            [&](std::string_view bytes) {
-                return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()),
-                                       header.encoding);
-            },
-            [&](const PlySlice& slice, const MeshSlice& place) { return read_plain_slice(header, slice, place); });
-    std::uint64_t n_elements = 0;
-    for (const PlyElement& element : header.elements)
-        n_elements += element.count;
-    if (slices.empty() || slices.back().end != n_elements)
-        throw InputError("the file ends too early, or goes on");
-    return read_slices(
-        header, slices, slicing.loop,
-        [&](std::string_view bytes) { return PlyTextSource(TextScanner(after_header, bytes)); },
-        [](const PlySlice&, const MeshSlice&) { return false; });
+    const auto text = slice_ply_text(path, file);
+    const std::vector<std::string_view> slices = text->after_header().slices(slicing.bytes);
+    const std::vector<TextCounts> counts = text->count(slices, slicing.loop);
+    return text->read({slices, counts, counts.back()}, slicing.loop);
 }
 
 }  // namespace
@@ -163,8 +140,11 @@ MeshFile read_ply(const std::filesystem::path& path, std::string_view file, cons
     const FileKind kind{FileFormat::Ply, header.encoding};
     if (scanner.rest().size() <= slicing.bytes)
         return {in_one_go(), kind};
-    return {read_in_slices_if_faultless([&] { return read_slices(scanner, path, file, header, slicing); }, in_one_go),
-            kind};
+    const auto in_slices = [&] {
+        return header.encoding == Encoding::Ascii ? read_text_slices(path, file, slicing)
+                                                  : read_binary_slices(scanner, path, file, header, slicing);
+    };
+    return {read_in_slices_if_faultless(in_slices, in_one_go), kind};
 }
 
 }  // namespace seamflow

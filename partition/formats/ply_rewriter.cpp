@@ -179,11 +179,12 @@ std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem:
 }
 
 /// Writes a slice.
-/// @param normals null: there are none.
+/// @param positions from vertex `first` of the file on. @param normals null: they stay.
 /// @returns whether positions were rounded.
 template <class Source>
 bool rewrite_slice(Source source, Splicer splicer, const PlyHeader& header, const PlySlice& slice,
-                   const std::vector<Change>& changes, const PolygonMesh& mesh, const MovedNormals* normals)
+                   const std::vector<Change>& changes, const Points& positions, Index first,
+                   const MovedNormals* normals)
 {
     VertexRewriter<Source> rewriter(source, splicer, header.encoding);
     const PlyElement* const vertices = header.element("vertex");
@@ -195,7 +196,7 @@ bool rewrite_slice(Source source, Splicer splicer, const PlyHeader& header, cons
                               pass_over(source, element, i);
                           else
                               rewriter.rewrite(element, changes, static_cast<Index>(i),
-                                               mesh.vertices.row(static_cast<Index>(i)), normals);
+                                               positions.row(static_cast<Index>(i) - first), normals);
                   });
     splicer.finish();
     return rewriter.rounded();
@@ -217,8 +218,8 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
         FaultLog known_faults{.of_faces_alone = true};
         const auto rewrite = [&](auto source) {
             source.note_faults_in(&known_faults);
-            return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes, mesh,
-                                 normals);
+            return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes,
+                                 mesh.vertices, 0, normals);
         };
         const auto offset = static_cast<std::size_t>(slices[i].bytes.data() - content.data());
         rounded[i] = header.encoding == Encoding::Ascii
@@ -255,7 +256,7 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
     splicer.finish();
     if (normals_of(vertices) != Normals::None)
-        remarks.push_back("the normals of " + path.string() + " are written as they were");
+        remarks.push_back(kept_normals_remark(path, "normals"));
     return remarks;
 }
 
@@ -271,6 +272,16 @@ bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, s
         rewriter.rewrite(vertices, changes, v, positions.row(v), nullptr);
     splicer.finish();
     return rewriter.rounded();
+}
+
+void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const PlyHeader& header, const PlySlice& slice,
+                      const Points& positions, Index first)
+{
+    FaultLog known_faults{.of_faces_alone = true};
+    PlyTextSource source(TextScanner(after_header, slice.bytes));
+    source.note_faults_in(&known_faults);
+    const std::vector<Change> changes = changes_of_positions(*header.element("vertex"), {true, true, true});
+    rewrite_slice(std::move(source), Splicer(file, slice.bytes), header, slice, changes, positions, first, nullptr);
 }
 
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,

@@ -136,6 +136,16 @@ void BinarySlicer::add(const PlyElement& element, const Slicing& slicing)
 
 }  // namespace
 
+/// How many elements of that name the first `end` elements of a file have.
+std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::string_view name)
+{
+    std::uint64_t n = 0;
+    for_each_kind(header.elements, {0, end}, [&](const PlyElement& element, std::uint64_t, std::uint64_t n_here) {
+        n = element.name == name ? n_here : n;
+    });
+    return n;
+}
+
 std::size_t pass_over_elements(std::string_view file, std::size_t offset, std::endian order, const PlyElement& element,
                                std::uint64_t n)
 {

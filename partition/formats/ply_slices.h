@@ -35,6 +35,9 @@ std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_
 std::size_t pass_over_elements(std::string_view file, std::size_t offset, std::endian order, const PlyElement& element,
                                std::uint64_t n);
 
+/// How many elements of that name the first `end` elements of a file have.
+std::uint64_t count_before(std::uint64_t end, const PlyHeader& header, std::string_view name);
+
 /// Calls `act` with every kind of elements in a slice and the numbers of the first element and the one behind the last
 /// among those of its kind.
 void for_each_kind(std::span<const PlyElement> elements, const PlySlice& slice, const auto& act)

@@ -47,9 +47,10 @@ void require_few(const std::filesystem::path& path, const PlyElement* element)
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* what)
 {
-    throw InputError(fmt::format("{}: {}, so that ranks cannot read it in slices; export it as a binary PLY file whose "
-                                 "vertices come first and have no lists",
-                                 path.string(), what));
+    throw InputError(
+        fmt::format("{}: {}, so that ranks cannot read it in slices; export it as a text PLY file, or as a "
+                    "binary one whose vertices come first and have no lists",
+                    path.string(), what));
 }
 
 }  // namespace
@@ -60,25 +61,16 @@ PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content)
 {
     TextScanner scanner(path_, content, ply_syntax);
     header_ = read_header(scanner);
-    faces_ = header_.element("face");
+    elements_begin_ = content.size() - scanner.rest().size();
+    const PlyElement* const faces = header_.element("face");
     require_few(path_, &vertex_element());
-    require_few(path_, faces_);
-    if (header_.encoding == Encoding::Ascii)
-        refuse(path_, "the file is text");
+    require_few(path_, faces);
     if (has_list(vertex_element()))
         refuse(path_, "its vertices have lists");
-    if (faces_ != nullptr && faces_ < &vertex_element())
+    if (faces != nullptr && faces < &vertex_element())
         refuse(path_, "its faces come before its vertices");
-    elements_begin_ = content.size() - scanner.rest().size();
-    std::size_t offset = elements_begin_;
     try {
-        for (const PlyElement& element : header_.elements) {
-            if (&element == faces_)
-                break;
-            if (element.name == "vertex")
-                vertices_begin_ = offset;
-            offset = pass_over_elements(content, offset, order_of(header_.encoding), element, element.count);
-        }
+        find_elements();
     } catch (const InputError&) {
         // Whoever reads the elements one by one finds out where they are not as the header says.
         PlyBinarySource source(path_, content, elements_begin_, header_.encoding);
@@ -86,6 +78,30 @@ PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content)
             for (std::uint64_t i = 0; i < element.count; ++i)
                 pass_over(source, element, i);
         throw;
+    }
+}
+
+PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin)
+    : path_(std::move(path))
+    , content_(content)
+    , header_(std::move(header))
+    , elements_begin_(begin)
+{
+    require_few(path_, &vertex_element());
+    require_few(path_, header_.element("face"));
+    find_elements();
+}
+
+void PlyStretches::find_elements()
+{
+    faces_ = header_.element("face");
+    std::size_t offset = elements_begin_;
+    for (const PlyElement& element : header_.elements) {
+        if (&element == faces_)
+            break;
+        if (element.name == "vertex")
+            vertices_begin_ = offset;
+        offset = pass_over_elements(content_, offset, order_of(header_.encoding), element, element.count);
     }
     faces_begin_ = offset;
     vertex_bytes_ = bytes_with_triples(vertex_element());
@@ -112,13 +128,14 @@ std::size_t PlyStretches::end_of_faces(std::size_t byte, Index begin, Index end)
     return pass_over_elements(content_, byte, order_of(header_.encoding), *faces_, at(end - begin));
 }
 
-PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end) const
+PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end, FaultLog& faults) const
 {
     PolygonMesh mesh;
     if (begin == end)
         return mesh;
     Points unused(0, 3);
     PlyBinarySource source(path_, content_, byte, header_.encoding);
+    source.note_faults_in(&faults);
     ElementReader<PlyBinarySource> reader(source, n_vertices(), MeshSlice{unused, 0, mesh});
     reader.read(*faces_, at(begin), at(end));
     return mesh;

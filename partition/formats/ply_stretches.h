@@ -10,19 +10,28 @@
 #include <vector>
 
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_slices.h"
 #include "partition/io/byte_writer.h"
+#include "partition/io/fault_log.h"
+#include "partition/io/text_scanner.h"
 #include "partition/polygon_mesh.h"
 
-/// Binary PLY files of which a reader takes, and a writer makes, some of the vertices and faces alone.
+/// PLY files of which a reader takes, and a writer makes, some of the vertices and faces alone.
 namespace seamflow {
 
-/// A file, and where its elements stand.
+/// A binary file, and where its elements stand.
 class PlyStretches {
   public:
-    /// @param content the whole file, of which only what is asked for is looked at. It has to outlive this.
-    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, with
-    ///         faces before them, and in text.
+    /// @param content the whole file, which is not text (see slice_ply_text) and of which only what is asked for is
+    /// looked at. It has to outlive this.
+    /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, and
+    ///         with faces before them.
     PlyStretches(std::filesystem::path path, std::string_view content);
+
+    /// A file of another format with such elements.
+    /// @param begin of the elements in the file.
+    /// @throws InputError, of no use to a reader, if the vertices are not all there.
+    PlyStretches(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin);
     PlyStretches(const PlyStretches&) = delete;
     PlyStretches& operator=(const PlyStretches&) = delete;
     ~PlyStretches() = default;
@@ -58,8 +67,9 @@ class PlyStretches {
     [[nodiscard]] std::size_t end_of_faces(std::size_t byte, Index begin, Index end) const;
 
     /// The faces themselves, with corners numbered in the whole file.
+    /// @param faults where to note those that are left out, numbered from 0 for `begin`.
     /// @throws InputError naming element and byte.
-    [[nodiscard]] PolygonMesh faces(std::size_t byte, Index begin, Index end) const;
+    [[nodiscard]] PolygonMesh faces(std::size_t byte, Index begin, Index end, FaultLog& faults) const;
 
     /// Checks what follows the last face.
     /// @param byte where that ends.
@@ -67,6 +77,8 @@ class PlyStretches {
     void require_end(std::size_t byte) const;
 
   private:
+    void find_elements();
+
     std::filesystem::path path_;
     std::string_view content_;
     PlyHeader header_;
@@ -106,6 +118,11 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
 bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, std::string_view content,
                           const PlyHeader& header, std::string_view bytes, const Points& positions,
                           const std::vector<PlyChange>& changes);
+
+/// Writes a slice of a text file with other positions.
+/// @param after_header of the file. @param positions from vertex `first` of the file on.
+void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const PlyHeader& header, const PlySlice& slice,
+                      const Points& positions, Index first);
 
 /// Whether a face has more than 255 sides: then all lists of corners say their lengths in four bytes, else in one.
 bool has_long_face(const PolygonMesh& mesh);

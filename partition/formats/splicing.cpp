@@ -104,6 +104,12 @@ std::string changed_since_read(const std::filesystem::path& source)
                              "cannot be taken over; leave it alone until the result is written";
 }
 
+std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals)
+{
+    return "the " + normals + " of " + source.string() +
+           " stay as they were: ranks that each have a slice of the file do not make them new";
+}
+
 std::string rounding_remark(const std::filesystem::path& source)
 {
     return source.string() + " holds positions in single precision, and so does the result; text formats (" +

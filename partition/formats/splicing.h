@@ -94,6 +94,9 @@ class MovedNormals {
 /// What is wrong with a file that cannot be written again.
 std::string changed_since_read(const std::filesystem::path& source);
 
+/// A sentence for the user of a file in slices. @param normals which, in a few words.
+std::string kept_normals_remark(const std::filesystem::path& source, const std::string& normals);
+
 /// A sentence for the user of a file whose numbers hold less than the results.
 /// @param source the file that decides about their type.
 std::string rounding_remark(const std::filesystem::path& source);

@@ -4,13 +4,16 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "partition/formats/mesh_io.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
+#include "partition/io/text_scanner.h"
 #include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
@@ -31,7 +34,7 @@ MeshFile read_stl(const std::filesystem::path& path, std::string_view file, cons
 class StlStretches {
   public:
     /// @param content the whole file, of which only what is asked for is looked at. It has to outlive this.
-    /// @throws InputError as read_stl; also for text.
+    /// @throws InputError as read_stl.
     StlStretches(std::filesystem::path path, std::string_view content);
     StlStretches(const StlStretches&) = delete;
     StlStretches& operator=(const StlStretches&) = delete;
@@ -44,18 +47,64 @@ class StlStretches {
 
     /// Appends the facets from `begin` to `end` - 1.
     /// @param faces without vertices; corners are numbers of the points that are returned.
+    /// @param faults where to note those that are left out, numbered from 0 for `begin`.
     /// @throws InputError naming facet and byte.
-    PointNumbers facets(Index begin, Index end, PolygonMesh& faces) const;
+    PointNumbers facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const;
 
-    /// Checks what follows the last facet, and that there is one.
-    /// @throws InputError naming facet and byte.
+    /// Checks what follows the last facet.
+    /// @throws InputError naming the byte.
     void require_end() const;
+
+    /// Says that the file has no vertices.
+    /// @throws InputError naming the byte.
+    [[noreturn]] void refuse_empty() const;
 
   private:
     std::filesystem::path path_;
     std::string_view content_;
     Index n_facets_ = 0;
 };
+
+/// A text STL file of which a reader takes some of the facets alone.
+class StlText {
+  public:
+    /// @param path for messages only. @param content the whole file. It has to outlive this.
+    StlText(const std::filesystem::path& path, std::string_view content);
+
+    /// All of it, but for a byte order mark.
+    [[nodiscard]] std::string_view all() const { return whole_.rest(); }
+
+    /// At most n shares of it that begin where a facet does, but for the first.
+    [[nodiscard]] std::vector<std::string_view> shares(std::size_t n) const;
+
+    /// Appends the facets of a share.
+    /// @param faces, @returns see StlStretches::facets.
+    /// @throws InputError if there is any fault, not necessarily naming it (see `check`).
+    PointNumbers facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const;
+
+    /// The same as a reader of the whole file does it who notes which facets are left out.
+    /// @param lines_before so many lines of the file precede. @param in_solid whether the share begins within a solid;
+    /// receives whether what follows does. @param faults see StlStretches::facets.
+    /// @throws InputError naming the line.
+    PointNumbers check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
+                       FaultLog& faults) const;
+
+    [[nodiscard]] std::size_t lines_of(std::string_view share) const;
+
+    /// "path:line" of any line.
+    [[nodiscard]] std::string position_of(std::size_t line) const { return whole_.position_of(line); }
+
+    /// Reads all in one go. @param faults see read_stl. @throws InputError naming the line.
+    [[nodiscard]] PolygonMesh read_all(FaultLog* faults) const;
+
+  private:
+    [[nodiscard]] bool is_last(std::string_view share) const;
+
+    TextScanner whole_;
+};
+
+/// Whether it is text rather than binary (see read_stl).
+bool is_text_stl(std::string_view file);
 
 /// Whether `read_stl` can make anything of it: the size is that of a binary file, or the text begins with `solid`.
 bool is_stl(std::string_view file);
@@ -70,19 +119,18 @@ void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh
 /// The corners of a facet.
 using StlFacet = std::array<Point, 3>;
 
-/// What require_fits_stl checks of positions for the binary encoding, of some vertices and of one facet.
+/// What require_fits_stl checks of positions: of some vertices for the binary encoding, and of one facet.
 /// @param first the number of the first of the vertices.
 /// @throws OutputError
 void require_floats(const std::filesystem::path& path, const Points& vertices, Index first = 0);
 /// @param f, corners the number of the facet, and those of its vertices.
-void require_distinct_floats(const std::filesystem::path& path, Index f, std::span<const Index> corners,
-                             const StlFacet& facet);
+void require_distinct_corners(const std::filesystem::path& path, Index f, std::span<const Index> corners,
+                              const StlFacet& facet, Encoding encoding);
 
-/// What a binary file begins with, and one of its facets, as write_stl makes them.
-void write_binary_stl_header(ByteWriter& file, Index n_faces);
-void write_binary_stl_facet(ByteWriter& file, const StlFacet& facet);
-inline constexpr std::size_t binary_stl_header_bytes = 84;
-inline constexpr std::size_t binary_stl_facet_bytes = 50;
+/// What a file begins with, one of its facets, and what it ends with, as write_stl makes them.
+void write_stl_begin(ByteWriter& file, Index n_faces, Encoding encoding);
+void write_stl_facet(ByteWriter& file, const StlFacet& facet, Encoding encoding);
+void write_stl_end(ByteWriter& file, Encoding encoding);
 
 /// Writes STL with unit normals (0 0 0 where a face has no area).
 /// @pre require_fits_stl

@@ -44,8 +44,8 @@ void require_no_isolated_vertex(const std::filesystem::path& path, const Polygon
 }
 
 template <class Scalar>
-void require_distinct_corners(const std::filesystem::path& path, Index f, std::span<const Index> corners,
-                              const StlFacet& facet)
+void require_distinct_as(const std::filesystem::path& path, Index f, std::span<const Index> corners,
+                         const StlFacet& facet)
 {
     for (std::size_t k = 0; k < 3; ++k)
         if (facet[k].cast<Scalar>() == facet[(k + 1) % 3].cast<Scalar>())
@@ -83,25 +83,38 @@ void write_text_facet(ByteWriter& file, const StlFacet& triangle)
     file.text("endloop\nendfacet\n");
 }
 
-}  // namespace
-
-void write_binary_stl_facet(ByteWriter& file, const StlFacet& facet)
+void write_binary_facet(ByteWriter& file, const StlFacet& triangle)
 {
-    const Eigen::Vector3f normal = normal_of(facet);
+    const Eigen::Vector3f normal = normal_of(triangle);
     for (const float x : {normal[0], normal[1], normal[2]})
         file.binary(x, std::endian::little);
-    for (const auto& point : facet)
+    for (const auto& point : triangle)
         for (const double x : {point[0], point[1], point[2]})
             file.binary(static_cast<float>(x), std::endian::little);
     file.binary(std::uint16_t{0}, std::endian::little);
 }
 
-void write_binary_stl_header(ByteWriter& file, Index n_faces)
+}  // namespace
+
+void write_stl_begin(ByteWriter& file, Index n_faces, Encoding encoding)
 {
+    if (encoding == Encoding::Ascii)
+        return file.text("solid mesh\n");
     std::string title = "binary STL";
     title.resize(80, ' ');
     file.text(title);
     file.binary(static_cast<std::uint32_t>(n_faces), std::endian::little);
+}
+
+void write_stl_facet(ByteWriter& file, const StlFacet& facet, Encoding encoding)
+{
+    encoding == Encoding::Ascii ? write_text_facet(file, facet) : write_binary_facet(file, facet);
+}
+
+void write_stl_end(ByteWriter& file, Encoding encoding)
+{
+    if (encoding == Encoding::Ascii)
+        file.text("endsolid mesh\n");
 }
 
 void require_floats(const std::filesystem::path& path, const Points& vertices, Index first)
@@ -114,41 +127,30 @@ void require_floats(const std::filesystem::path& path, const Points& vertices, I
                                     first + v));
 }
 
-void require_distinct_floats(const std::filesystem::path& path, Index f, std::span<const Index> corners,
-                             const StlFacet& facet)
+void require_distinct_corners(const std::filesystem::path& path, Index f, std::span<const Index> corners,
+                              const StlFacet& facet, Encoding encoding)
 {
-    require_distinct_corners<float>(path, f, corners, facet);
+    encoding == Encoding::Ascii ? require_distinct_as<double>(path, f, corners, facet)
+                                : require_distinct_as<float>(path, f, corners, facet);
 }
 
 void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding)
 {
     require_triangles(path, mesh);
     require_no_isolated_vertex(path, mesh);
-    if (encoding == Encoding::Ascii) {
-        for (Index f = 0; f < mesh.n_faces(); ++f)
-            require_distinct_corners<double>(path, f, mesh.face(f), facet_of(mesh, f));
-    } else {
+    if (encoding != Encoding::Ascii)
         require_floats(path, mesh.vertices);
-        for (Index f = 0; f < mesh.n_faces(); ++f)
-            require_distinct_floats(path, f, mesh.face(f), facet_of(mesh, f));
-    }
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        require_distinct_corners(path, f, mesh.face(f), facet_of(mesh, f), encoding);
 }
 
 void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing)
 {
-    if (encoding == Encoding::Ascii)
-        file.text("solid mesh\n");
-    else
-        write_binary_stl_header(file, mesh.n_faces());
+    write_stl_begin(file, mesh.n_faces(), encoding);
     constexpr std::size_t bytes_per_facet = 128;
     write_elements(file, mesh.n_faces(), elements_per_slice(slicing, bytes_per_facet), slicing.loop,
-                   [&](ByteWriter& slice, Index f) {
-                       const StlFacet triangle = facet_of(mesh, f);
-                       encoding == Encoding::Ascii ? write_text_facet(slice, triangle)
-                                                   : write_binary_stl_facet(slice, triangle);
-                   });
-    if (encoding == Encoding::Ascii)
-        file.text("endsolid mesh\n");
+                   [&](ByteWriter& slice, Index f) { write_stl_facet(slice, facet_of(mesh, f), encoding); });
+    write_stl_end(file, encoding);
 }
 
 }  // namespace seamflow

@@ -1,15 +1,22 @@
 #include "engine/distributed/files/shared_mesh_file.h"
 
+#include <array>
+#include <fstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "engine/distributed/files/sliced_obj_file.h"
 #include "engine/distributed/files/sliced_ply_file.h"
 #include "engine/distributed/files/sliced_stl_file.h"
+#include "engine/distributed/files/sliced_text_file.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
+#include "partition/formats/off.h"
+#include "partition/formats/ply_header.h"
+#include "partition/formats/stl.h"
+#include "partition/formats/text_slices.h"
 #include "partition/io/gzip.h"
 #include "partition/io/input_file.h"
 
@@ -89,6 +96,47 @@ std::uint64_t bytes_in(const std::filesystem::path& path)
     return error ? 0 : size;
 }
 
+/// Whatever its name is.
+bool is_packed(const std::filesystem::path& path)
+{
+    std::array<char, 2> bytes{};
+    std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+    return is_gzip_name(path) || is_gzip({bytes.data(), bytes.size()});
+}
+
+/// Whether a file is text.
+/// @throws InputError as a reader of the whole file does.
+bool is_text(const std::filesystem::path& path, FileFormat format)
+{
+    const OpenFile file(path);
+    const InputFile input(file);
+    switch (format) {
+    case FileFormat::Obj:
+        return true;
+    case FileFormat::Off:
+        return !start_of_binary_off(input.content());
+    case FileFormat::Stl:
+        return is_text_stl(input.content());
+    case FileFormat::Ply:
+        break;
+    }
+    TextScanner scanner(path, input.content(), ply_syntax);
+    return read_ply_header(scanner).encoding == Encoding::Ascii;
+}
+
+std::unique_ptr<SharedMeshFile> open_sliced(const std::filesystem::path& path, FileFormat format, bool is_text,
+                                            const FileSharing& sharing, const Loop& loop)
+{
+    if (format == FileFormat::Stl)
+        return open_sliced_stl(path, is_text ? Encoding::Ascii : Encoding::BinaryLittleEndian, sharing, loop);
+    if (!is_text)
+        return open_sliced_ply(path, format, sharing);
+    const TextSlicer slicer = format == FileFormat::Obj   ? slice_obj_text
+                              : format == FileFormat::Off ? slice_off_text
+                                                          : slice_ply_text;
+    return open_sliced_text(path, slicer, sharing, loop);
+}
+
 }  // namespace
 
 std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
@@ -96,21 +144,20 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
 {
     std::uint64_t size = 0;
     talk.at_first_rank([&] { size = bytes_in(path); });
-    size = talk.gather_all(std::vector<std::uint64_t>{size}).front();
-    if (size <= sharing.whole_up_to)
-        return std::make_unique<WholeMeshFile>(path, sharing, loop);
+    size = talk.tell_all(std::vector<std::uint64_t>{size}).front();
     const auto format = format_of(path);
+    if (size <= sharing.whole_up_to || !format)
+        return std::make_unique<WholeMeshFile>(path, sharing, loop);
+    bool text = false;
     talk.at_first_rank([&] {
-        if (format == FileFormat::Off || is_gzip_name(path))
-            throw InputError(
-                fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; convert it to a "
-                            "binary .ply or an .obj file, of which every rank reads a slice",
-                            path.string(), size, sharing.whole_up_to));
-        static_cast<void>(OpenFile(path));
+        if (is_packed(path))
+            throw InputError(fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; "
+                                         "unpack it, so that every rank can read a slice",
+                                         path.string(), size, sharing.whole_up_to));
+        text = is_text(path, *format);
     });
-    if (format == FileFormat::Obj)
-        return open_sliced_obj(path, sharing, loop);
-    return format == FileFormat::Stl ? open_sliced_stl(path, sharing) : open_sliced_ply(path, sharing);
+    text = talk.tell_all(std::vector<char>{static_cast<char>(text ? 1 : 0)}).front() != 0;
+    return open_sliced(path, *format, text, sharing, loop);
 }
 
 }  // namespace seamflow

@@ -62,7 +62,7 @@ class SharedMeshFile {
 };
 
 /// @param loop runs what is done slice by slice, as long as the file is used.
-/// @throws InputError for a file that cannot be opened, or that is too large for its format.
+/// @throws InputError for a file that cannot be opened, and for one that rank 0 does not read alone and that is packed.
 std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
                                               const FileSharing& sharing = {}, const Loop& loop = run_serially);
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,6 +68,61 @@ void write_together(Conversation& talk, const std::filesystem::path& path,
     // All of them have written.
     static_cast<void>(talk.gather_all(std::vector<char>{}));
     talk.at_first_rank([&] { output->commit(); });
+}
+
+void check_together(Conversation& talk, const std::function<void()>& check)
+{
+    std::string fault;
+    try {
+        check();
+    } catch (const OutputError& error) {
+        fault = error.what() + std::string("\n");
+    }
+    const auto faults = talk.gather_all(std::vector<char>(fault.begin(), fault.end()));
+    talk.at_first_rank([&] {
+        if (!faults.empty())
+            throw OutputError(std::string(faults.begin(), std::ranges::find(faults, '\n')));
+    });
+}
+
+std::array<bool, 3> fit_all(Conversation& talk, const std::array<bool, 3>& own)
+{
+    std::array<bool, 3> fits = {true, true, true};
+    for (const auto& of_rank : talk.gather_all(std::vector<std::array<bool, 3>>{own}))
+        for (std::size_t k = 0; k < fits.size(); ++k)
+            fits[k] = fits[k] && of_rank[k];
+    return fits;
+}
+
+FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Loop& loop)
+{
+    FilePieces pieces{std::vector<std::size_t>(at(n)), std::move(make)};
+    for_each(loop, n, [&](Index i) {
+        OutputBuffer piece;
+        pieces.make(i, piece);
+        pieces.sizes[i] = piece.content().size();
+    });
+    return pieces;
+}
+
+void write_pieces_together(Conversation& talk, const std::filesystem::path& path, std::string_view begin,
+                           const FilePieces& own, std::string_view end, const Loop& loop)
+{
+    std::vector<std::size_t> offsets{0};
+    std::partial_sum(own.sizes.begin(), own.sizes.end(), std::back_inserter(offsets));
+    const auto bounds = gather_bounds_of(talk, static_cast<std::int64_t>(offsets.back()));
+    const std::size_t first = begin.size() + static_cast<std::size_t>(bounds[talk.rank()]);
+    write_together(talk, path, [&](const SharedOutput& output) {
+        if (talk.rank() == 0) {
+            output.write(begin, 0);
+            output.write(end, begin.size() + static_cast<std::size_t>(bounds.back()));
+        }
+        for_each(loop, static_cast<Index>(own.sizes.size()), [&](Index i) {
+            OutputBuffer piece;
+            own.make(i, piece);
+            output.write(piece.content(), first + offsets[i]);
+        });
+    });
 }
 
 void write_labelled_together(Conversation& talk, const std::filesystem::path& path, const PolygonMesh& mesh,

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "engine/distributed/ranks/conversation.h"
 #include "partition/formats/mesh_io.h"
+#include "partition/io/byte_writer.h"
 #include "partition/io/shared_output.h"
+#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 /// Files that ranks write together. All of them call these functions together.
@@ -20,6 +25,27 @@ void require_slices_of(FileFormat format, const std::filesystem::path& path);
 /// @throws OutputError
 void write_together(Conversation& talk, const std::filesystem::path& path,
                     const std::function<void(const SharedOutput&)>& write_own);
+
+/// Throws on all ranks what is wrong with a result: the OutputError of the lowest rank that has any.
+void check_together(Conversation& talk, const std::function<void()>& check);
+
+/// Whether the types of a file can hold the coordinates x, y and z of all ranks. @param own those of this rank.
+std::array<bool, 3> fit_all(Conversation& talk, const std::array<bool, 3>& own);
+
+/// What this rank writes of a file: pieces that follow each other, and those of the ranks before it.
+struct FilePieces {
+    /// In bytes, each.
+    std::vector<std::size_t> sizes;
+    /// Makes one of them; several at a time.
+    std::function<void(Index piece, ByteWriter& file)> make;
+};
+
+/// Makes each of n pieces once to see how long it is, so that none has to be kept until all are known.
+FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Loop& loop);
+
+/// As write_together, with `begin` before the pieces of all ranks and `end` behind them, which rank 0 writes.
+void write_pieces_together(Conversation& talk, const std::filesystem::path& path, std::string_view begin,
+                           const FilePieces& own, std::string_view end, const Loop& loop);
 
 /// As write_labelled_ply, of a mesh of which every rank has a stretch.
 /// @param mesh of this rank's stretch, with corners numbered in the whole mesh. @param labels of its faces.

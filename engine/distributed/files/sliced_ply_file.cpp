@@ -1,18 +1,23 @@
 #include "engine/distributed/files/sliced_ply_file.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
+#include "engine/distributed/files/shared_faults.h"
 #include "engine/distributed/files/shared_writing.h"
+#include "engine/distributed/parts/stretches.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
+#include "partition/formats/off.h"
+#include "partition/formats/ply_header.h"
 #include "partition/formats/ply_stretches.h"
 #include "partition/formats/splicing.h"
 #include "partition/io/input_file.h"
@@ -29,7 +34,11 @@ struct ByteRange {
     std::size_t begin = 0;
     std::size_t end = 0;
 
-    [[nodiscard]] std::string_view of(std::string_view content) const { return content.substr(begin, end - begin); }
+    /// In a file that may be shorter by now.
+    [[nodiscard]] std::string_view of(std::string_view content) const
+    {
+        return content.substr(std::min(begin, content.size()), end - begin);
+    }
 };
 
 /// What a rank has of n elements.
@@ -80,8 +89,9 @@ ByteRange find_faces(Conversation& talk, const PlyStretches& ply, const Stretch&
 
 class SlicedPlyFile final : public SharedMeshFile {
   public:
-    SlicedPlyFile(const std::filesystem::path& path, const FileSharing& sharing)
+    SlicedPlyFile(const std::filesystem::path& path, FileFormat format, const FileSharing& sharing)
         : file_(path)
+        , format_(format)
         , sharing_(sharing)
     {
     }
@@ -89,8 +99,10 @@ class SlicedPlyFile final : public SharedMeshFile {
     RankSlice read(Conversation& talk) override
     {
         const InputFile input(file_);
-        std::optional<PlyStretches> opened;
-        talk.look_together([&] { opened.emplace(file_.path(), input.content()); });
+        if (format_ == FileFormat::Off)
+            find_layout(talk, input.content());
+        std::unique_ptr<PlyStretches> opened;
+        talk.look_together([&] { opened = stretches_of(input.content()); });
         const PlyStretches& ply = *opened;
         const Stretch vertices(ply.n_vertices(), talk, sharing_.block);
         const Stretch faces(ply.n_faces(), talk, sharing_.block);
@@ -98,14 +110,11 @@ class SlicedPlyFile final : public SharedMeshFile {
         talk.look_together([&] { slice.vertices = ply.vertices(vertices.begin, vertices.end); });
         others_ = find_faces(talk, ply, faces);
         faces_begin_ = others_.begin;
+        read_faces(talk, ply, faces, slice, faults_);
         talk.look_together([&] {
-            if (others_.begin == nowhere)
-                return;
-            PolygonMesh mesh = ply.faces(others_.begin, faces.begin, faces.end);
-            slice.face_offsets = std::move(mesh.face_offsets);
-            slice.corners.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
-        });
-        talk.look_together([&] {
+            if (ply.n_vertices() == 0)
+                throw InputError(fmt::format("{}: byte {}: the file has no vertices; export the mesh again",
+                                             file_.path().string(), ply.header_bytes().size() - 4));
             if (talk.rank() == talk.size() - 1)
                 ply.require_end(others_.end);
         });
@@ -114,25 +123,22 @@ class SlicedPlyFile final : public SharedMeshFile {
         if (talk.rank() == talk.size() - 1)
             others_.end = ply.content().size();
         checksum_ = checksum(ply, vertices);
-        return slice;
+        return move_to_stretches(talk, std::move(slice), sharing_.block);
     }
 
-    void require_writable_as(const std::filesystem::path& path) const override
-    {
-        require_slices_of(FileFormat::Ply, path);
-    }
+    void require_writable_as(const std::filesystem::path& path) const override { require_slices_of(format_, path); }
 
     std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
                                    const Points& vertices) override
     {
         const InputFile input(file_);
-        const PlyStretches ply(file_.path(), input.content());
+        const auto opened = unchanged(talk, input.content());
+        const PlyStretches& ply = *opened;
         const Stretch own(ply.n_vertices(), talk, sharing_.block);
-        talk.look_together([&] {
-            if (checksum(ply, own) != checksum_)
-                throw InputError(changed_since_read(file_.path()));
-        });
-        const std::vector<PlyChange> changes = agree_on_changes(talk, ply, vertices);
+        if (format_ == FileFormat::Off)
+            check_together(talk, [&] { require_fits_binary_off(path, vertices, own.begin, run_serially); });
+        const std::vector<PlyChange> changes =
+            changes_of_positions(ply.vertex_element(), fit_all(talk, coordinates_fit(ply.vertex_element(), vertices)));
         std::vector<std::string> remarks;
         bool rounded = false;
         write_together(talk, path, [&](const SharedOutput& output) {
@@ -148,16 +154,93 @@ class SlicedPlyFile final : public SharedMeshFile {
                         const std::vector<Index>& labels) override
     {
         const InputFile input(file_);
-        const PlyStretches ply(file_.path(), input.content());
+        const auto opened = unchanged(talk, input.content());
+        const PlyStretches& ply = *opened;
         const Stretch faces(ply.n_faces(), talk, sharing_.block);
-        PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end);
-        mesh.vertices = vertices;
+        RankSlice slice;
+        slice.vertices = vertices;
+        FaultLog known_faults;
+        read_faces(talk, ply, faces, slice, known_faults);
+        const PolygonMesh mesh = mesh_of(move_to_stretches(talk, std::move(slice), sharing_.block));
         write_labelled_together(talk, path, mesh, labels);
     }
 
   private:
     /// So many elements are made at once, and written.
     static constexpr Index at_once = 1 << 14;
+
+    [[nodiscard]] std::unique_ptr<PlyStretches> stretches_of(std::string_view content) const
+    {
+        if (format_ == FileFormat::Ply)
+            return std::make_unique<PlyStretches>(file_.path(), content);
+        return std::make_unique<PlyStretches>(file_.path(), content, layout_, elements_begin_);
+    }
+
+    std::unique_ptr<PlyStretches> unchanged(Conversation& talk, std::string_view content) const
+    {
+        std::unique_ptr<PlyStretches> ply;
+        talk.look_together([&] {
+            try {
+                ply = stretches_of(content);
+            } catch (const InputError&) {
+                throw InputError(changed_since_read(file_.path()));
+            }
+            if (checksum(*ply, Stretch(ply->n_vertices(), talk, sharing_.block)) != checksum_)
+                throw InputError(changed_since_read(file_.path()));
+        });
+        return ply;
+    }
+
+    /// Finds the first layout of binary OFF that fits.
+    void find_layout(Conversation& talk, std::string_view content)
+    {
+        const std::size_t offset = start_of_binary_off(content).value_or(0);
+        elements_begin_ = offset + binary_off_counts_bytes;
+        for (const PlyHeader& header : layouts_of_binary_off(content, offset)) {
+            layout_ = header;
+            if (fits(talk, content))
+                return;
+        }
+        talk.look_together([&] { refuse_binary_off(file_.path(), content, offset); });
+    }
+
+    /// Whether the data end where the counts say.
+    bool fits(Conversation& talk, std::string_view content) const
+    {
+        std::unique_ptr<PlyStretches> off;
+        try {
+            off = stretches_of(content);
+        } catch (const InputError&) {
+            return false;
+        }
+        std::uint8_t is_there = 1;
+        const ByteRange own = find_faces(talk, *off, Stretch(off->n_faces(), talk, sharing_.block));
+        try {
+            if (own.end == nowhere)
+                is_there = 0;
+            else if (talk.rank() == talk.size() - 1)
+                off->require_end(own.end);
+        } catch (const InputError&) {
+            is_there = 0;
+        }
+        const auto all = talk.gather_all(std::vector<std::uint8_t>{is_there});
+        return std::ranges::find(all, 0) == all.end();
+    }
+
+    /// @param faces of this rank in the file. @param faults receives what is left out, at rank 0.
+    void read_faces(Conversation& talk, const PlyStretches& ply, const Stretch& faces, RankSlice& slice,
+                    FaultLog& faults) const
+    {
+        FaultLog own{.of_faces_alone = true};
+        talk.look_together([&] {
+            if (faces_begin_ == nowhere)
+                return;
+            PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end, own);
+            slice.face_offsets = std::move(mesh.face_offsets);
+            slice.corners.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
+        });
+        faults = join_faults(talk, own, faces.end - faces.begin);
+    }
 
     static const char* end_of_vertices(const PlyStretches& ply)
     {
@@ -173,24 +256,17 @@ class SlicedPlyFile final : public SharedMeshFile {
                XXH3_64bits_withSeed(others.data(), others.size(), ply.content().size());
     }
 
-    static std::vector<PlyChange> agree_on_changes(Conversation& talk, const PlyStretches& ply, const Points& vertices)
-    {
-        std::array<bool, 3> fits = {true, true, true};
-        for (const auto& of_rank :
-             talk.gather_all(std::vector<std::array<bool, 3>>{coordinates_fit(ply.vertex_element(), vertices)}))
-            for (std::size_t k = 0; k < fits.size(); ++k)
-                fits[k] = fits[k] && of_rank[k];
-        return changes_of_positions(ply.vertex_element(), fits);
-    }
-
     std::pair<std::vector<std::string>, bool> write_slice(Conversation& talk, const SharedOutput& output,
                                                           const PlyStretches& ply, const Stretch& own,
                                                           const Points& vertices,
                                                           const std::vector<PlyChange>& changes) const
     {
         OutputBuffer header;
-        std::vector<std::string> remarks =
-            rewrite_ply_header(header, ply.path(), ply.header_bytes(), ply.vertex_element(), changes);
+        std::vector<std::string> remarks;
+        if (format_ == FileFormat::Off)
+            header.text(ply.header_bytes());
+        else
+            remarks = rewrite_ply_header(header, ply.path(), ply.header_bytes(), ply.vertex_element(), changes);
         header.text(ply.bytes_before_vertices());
         if (talk.rank() == 0)
             output.write(header.content(), 0);
@@ -219,6 +295,10 @@ class SlicedPlyFile final : public SharedMeshFile {
     }
 
     OpenFile file_;
+    FileFormat format_;
+    /// Of a binary OFF file.
+    PlyHeader layout_;
+    std::size_t elements_begin_ = 0;
     FileSharing sharing_;
     /// The bytes behind the vertices that this rank copies, and what it has read.
     ByteRange others_;
@@ -228,9 +308,10 @@ class SlicedPlyFile final : public SharedMeshFile {
 
 }  // namespace
 
-std::unique_ptr<SharedMeshFile> open_sliced_ply(const std::filesystem::path& path, const FileSharing& sharing)
+std::unique_ptr<SharedMeshFile> open_sliced_ply(const std::filesystem::path& path, FileFormat format,
+                                                const FileSharing& sharing)
 {
-    return std::make_unique<SlicedPlyFile>(path, sharing);
+    return std::make_unique<SlicedPlyFile>(path, format, sharing);
 }
 
 }  // namespace seamflow

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <cstddef>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,11 +11,12 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "engine/distributed/files/shared_faults.h"
 #include "engine/distributed/files/shared_writing.h"
+#include "engine/distributed/files/stl_share.h"
 #include "engine/distributed/parts/corner_positions.h"
 #include "engine/distributed/parts/joined_points.h"
 #include "engine/distributed/parts/stretches.h"
-#include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/formats/splicing.h"
 #include "partition/formats/stl.h"
@@ -28,19 +28,22 @@ namespace {
 
 class SlicedStlFile final : public SharedMeshFile {
   public:
-    SlicedStlFile(const std::filesystem::path& path, const FileSharing& sharing)
+    SlicedStlFile(const std::filesystem::path& path, Encoding encoding, const FileSharing& sharing, Loop loop)
         : file_(path)
+        , encoding_(encoding)
         , sharing_(sharing)
+        , loop_(std::move(loop))
     {
     }
 
     RankSlice read(Conversation& talk) override
     {
         const InputFile input(file_);
-        std::optional<StlStretches> stl;
-        talk.look_together([&] { stl.emplace(file_.path(), input.content()); });
-        RankSlice slice = read_stretch(talk, *stl);
-        checksum_ = checksum(talk, *stl);
+        const auto share = share_stl(talk, file_.path(), input.content(), encoding_, loop_);
+        RankSlice slice = read_share(talk, *share, faults_);
+        own_begin_ = static_cast<std::size_t>(share->bytes().data() - input.content().data());
+        n_own_ = share->bytes().size();
+        checksum_ = checksum(input.content());
         return slice;
     }
 
@@ -56,23 +59,18 @@ class SlicedStlFile final : public SharedMeshFile {
         const SliceBounds bounds = gather_bounds(talk, slice);
         const CornerPositions positions(talk, slice, bounds);
         require_fits(talk, path, slice, bounds, positions);
-        write_together(talk, path, [&](const SharedOutput& output) {
-            if (talk.rank() == 0) {
-                OutputBuffer header;
-                write_binary_stl_header(header, static_cast<Index>(bounds.faces.back()));
-                output.write(header.content(), 0);
-            }
-            std::size_t offset =
-                binary_stl_header_bytes + static_cast<std::size_t>(bounds.faces[talk.rank()]) * binary_stl_facet_bytes;
-            constexpr Index at_once = 1 << 14;
-            for (Index begin = 0; begin < slice.n_faces(); begin += at_once) {
-                OutputBuffer piece;
-                for (Index f = begin; f < std::min(slice.n_faces(), begin + at_once); ++f)
-                    write_binary_stl_facet(piece, facet(slice, positions, f));
-                output.write(piece.content(), offset);
-                offset += piece.content().size();
-            }
-        });
+        constexpr Index at_once = 1 << 12;
+        const auto make = [&](Index piece, ByteWriter& file) {
+            const Index begin = piece * at_once;
+            for (Index f = begin; f < begin + std::min(at_once, slice.n_faces() - begin); ++f)
+                write_stl_facet(file, facet(slice, positions, f), encoding_);
+        };
+        const FilePieces pieces = measure_pieces((slice.n_faces() + at_once - 1) / at_once, make, loop_);
+        OutputBuffer begin;
+        OutputBuffer end;
+        write_stl_begin(begin, static_cast<Index>(bounds.faces.back()), encoding_);
+        write_stl_end(end, encoding_);
+        write_pieces_together(talk, path, begin.content(), pieces, end.content(), loop_);
         return {};
     }
 
@@ -89,103 +87,89 @@ class SlicedStlFile final : public SharedMeshFile {
         return {positions[corners[0]], positions[corners[1]], positions[corners[2]]};
     }
 
-    /// The first and the one behind the last facet of this rank.
-    [[nodiscard]] std::pair<Index, Index> own_facets(const Conversation& talk, const StlStretches& stl) const
+    /// Of what this rank has read.
+    /// @param content of a file that may be shorter by now.
+    [[nodiscard]] XXH64_hash_t checksum(std::string_view content) const
     {
-        const auto bound = [&](int r) {
-            return static_cast<Index>(begin_of_stretch(stl.n_facets(), r, talk.size(), sharing_.block));
-        };
-        return {bound(talk.rank()), bound(talk.rank() + 1)};
+        const std::string_view own = content.substr(std::min(own_begin_, content.size()), n_own_);
+        return XXH3_64bits_withSeed(own.data(), own.size(), content.size());
     }
 
-    [[nodiscard]] XXH64_hash_t checksum(const Conversation& talk, const StlStretches& stl) const
+    /// @param faults receives what is left out, at rank 0.
+    RankSlice read_share(Conversation& talk, const StlShare& share, FaultLog& faults) const
     {
-        const auto own = own_facets(talk, stl);
-        const std::string_view bytes = stl.bytes(own.first, own.second);
-        return XXH3_64bits_withSeed(bytes.data(), bytes.size(), at(stl.n_facets()));
-    }
-
-    RankSlice read_stretch(Conversation& talk, const StlStretches& stl) const
-    {
-        const auto own = own_facets(talk, stl);
         PolygonMesh faces;
-        PointNumbers points;
-        talk.look_together([&] { points = stl.facets(own.first, own.second, faces); });
-        talk.look_together([&] { stl.require_end(); });
+        FaultLog own{.of_faces_alone = true};
+        PointNumbers points = share.read(talk, faces, own);
+        faults = join_faults(talk, own, faces.n_faces() + static_cast<Index>(own.faces_left_out.size()));
         const JoinedPoints joined = join_points(talk, points.points());
         points = {};
         const auto bounds = gather_bounds_of(talk, joined.firsts.rows());
+        if (bounds.back() == 0)
+            share.refuse_empty(talk);
         talk.look_together([&] {
             if (bounds.back() > std::numeric_limits<Index>::max())
                 throw InputError(fmt::format("{}: more than 2147483647 vertices; divide the mesh into several files",
                                              file_.path().string()));
         });
-        RankSlice slice;
-        slice.vertices =
-            move_rows(talk, joined.firsts, bounds, bounds_of_stretches(bounds.back(), talk.size(), sharing_.block));
-        slice.face_offsets = std::move(faces.face_offsets);
+        RankSlice found;
+        found.vertices = joined.firsts;
+        found.face_offsets = std::move(faces.face_offsets);
         for (const Index corner : faces.face_vertices)
-            slice.corners.push_back(joined.numbers[corner]);
-        return slice;
+            found.corners.push_back(joined.numbers[corner]);
+        return move_to_stretches(talk, std::move(found), sharing_.block);
     }
 
     /// The same as was read, but for the positions.
     RankSlice read_again(Conversation& talk, const Points& vertices) const
     {
         const InputFile input(file_);
-        RankSlice slice;
-        std::optional<StlStretches> stl;
         talk.look_together([&] {
-            stl.emplace(file_.path(), input.content());
-            if (checksum(talk, *stl) != checksum_)
+            if (checksum(input.content()) != checksum_)
                 throw InputError(changed_since_read(file_.path()));
         });
-        slice = read_stretch(talk, *stl);
+        FaultLog known_faults;
+        RankSlice slice =
+            read_share(talk, *share_stl(talk, file_.path(), input.content(), encoding_, loop_), known_faults);
         slice.vertices = vertices;
         return slice;
     }
 
     /// Throws on all ranks what write_mesh would say first.
-    static void require_fits(Conversation& talk, const std::filesystem::path& path, const RankSlice& slice,
-                             const SliceBounds& bounds, const CornerPositions& positions)
+    void require_fits(Conversation& talk, const std::filesystem::path& path, const RankSlice& slice,
+                      const SliceBounds& bounds, const CornerPositions& positions) const
     {
-        const auto refuse_together = [&](const std::function<void()>& check) {
-            std::string fault;
-            try {
-                check();
-            } catch (const OutputError& error) {
-                fault = error.what() + std::string("\n");
-            }
-            const auto faults = talk.gather_all(std::vector<char>(fault.begin(), fault.end()));
-            talk.at_first_rank([&] {
-                if (!faults.empty())
-                    throw OutputError(std::string(faults.begin(), std::ranges::find(faults, '\n')));
-            });
-        };
-        refuse_together(
-            [&] { require_floats(path, slice.vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
-        refuse_together([&] {
+        if (encoding_ != Encoding::Ascii)
+            check_together(
+                talk, [&] { require_floats(path, slice.vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
+        check_together(talk, [&] {
             for (Index f = 0; f < slice.n_faces(); ++f) {
                 std::array<Index, 3> corners{};
                 std::transform(slice.corners.begin() + slice.face_offsets[f],
                                slice.corners.begin() + slice.face_offsets[f + 1], corners.begin(),
                                [](std::int64_t corner) { return static_cast<Index>(corner); });
-                require_distinct_floats(path, static_cast<Index>(bounds.faces[talk.rank()]) + f, corners,
-                                        facet(slice, positions, f));
+                require_distinct_corners(path, static_cast<Index>(bounds.faces[talk.rank()]) + f, corners,
+                                         facet(slice, positions, f), encoding_);
             }
         });
     }
 
     OpenFile file_;
+    Encoding encoding_;
     FileSharing sharing_;
+    Loop loop_;
+    /// What this rank has read of it.
+    std::size_t own_begin_ = 0;
+    std::size_t n_own_ = 0;
     XXH64_hash_t checksum_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<SharedMeshFile> open_sliced_stl(const std::filesystem::path& path, const FileSharing& sharing)
+std::unique_ptr<SharedMeshFile> open_sliced_stl(const std::filesystem::path& path, Encoding encoding,
+                                                const FileSharing& sharing, const Loop& loop)
 {
-    return std::make_unique<SlicedStlFile>(path, sharing);
+    return std::make_unique<SlicedStlFile>(path, encoding, sharing, loop);
 }
 
 }  // namespace seamflow

@@ -4,12 +4,16 @@
 #include <memory>
 
 #include "engine/distributed/files/shared_mesh_file.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/loop.h"
 
 namespace seamflow {
 
-/// A binary STL file of which every rank reads and writes a slice. All ranks have to see the file under this path. It
-/// is read once more when it is written: the vertices of its facets are not kept.
+/// An STL file of which every rank reads and writes a slice. All ranks have to see the file under this path. It is read
+/// once more when it is written: the vertices of its facets are not kept.
+/// @param encoding of the file. @param loop runs what is done piece by piece.
 /// @throws InputError naming the file.
-std::unique_ptr<SharedMeshFile> open_sliced_stl(const std::filesystem::path& path, const FileSharing& sharing);
+std::unique_ptr<SharedMeshFile> open_sliced_stl(const std::filesystem::path& path, Encoding encoding,
+                                                const FileSharing& sharing, const Loop& loop);
 
 }  // namespace seamflow

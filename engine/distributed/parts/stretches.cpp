@@ -86,14 +86,18 @@ Points move_rows(Conversation& talk, const Points& own, const std::vector<std::i
     return rows;
 }
 
-RankSlice move_to_stretches(Conversation& talk, const RankSlice& found, Index block)
+RankSlice move_to_stretches(Conversation& talk, RankSlice found, Index block)
 {
-    const auto vertices = gather_bounds_of(talk, found.vertices.rows());
-    const auto faces = gather_bounds_of(talk, found.n_faces());
+    const SliceBounds from = gather_bounds(talk, found);
+    const auto vertices = bounds_of_stretches(from.vertices.back(), talk.size(), block);
+    const auto faces = bounds_of_stretches(from.faces.back(), talk.size(), block);
+    if (vertices != from.vertices)
+        found.vertices = move_rows(talk, found.vertices, from.vertices, vertices);
+    if (faces == from.faces)
+        return found;
     RankSlice slice;
-    slice.vertices =
-        move_rows(talk, found.vertices, vertices, bounds_of_stretches(vertices.back(), talk.size(), block));
-    move_faces(talk, found, faces, bounds_of_stretches(faces.back(), talk.size(), block), slice);
+    slice.vertices = std::move(found.vertices);
+    move_faces(talk, found, from.faces, faces, slice);
     return slice;
 }
 

@@ -53,7 +53,7 @@ Points move_rows(Conversation& talk, const Points& own, const std::vector<std::i
 
 /// Makes stretches as SharedMeshFile::read gives them of what ranks have found in slices of a file.
 /// @param found without labels; its corners are numbered in the whole mesh.
-RankSlice move_to_stretches(Conversation& talk, const RankSlice& found, Index block);
+RankSlice move_to_stretches(Conversation& talk, RankSlice found, Index block);
 
 /// The same as a mesh, with corners numbered in the whole mesh.
 PolygonMesh mesh_of(const RankSlice& slice);

@@ -158,5 +158,5 @@ TEST_CASE("binary OFF that is cut off, too long, or holds what is no number is r
     CHECK(contains(test::complaint_about("a.off", "OFF BINARY\n" + std::string(12, '\xff')), "do not end"));
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(contains(test::complaint_about("a.off", binary_tetrahedron(std::endian::big, true, nan)),
-                   "vertex 0 (numbered from 0), byte 31: a coordinate is not a finite number"));
+                   "vertex 0 (numbered from 0), byte 23: a coordinate is not a finite number"));
 }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/io/fault_log.h"
+#include "partition/loop.h"
+#include "partition/point_numbers.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The facets of an STL file that are for one rank to read: about as many as for each other.
+class StlShare {
+  public:
+    StlShare() = default;
+    StlShare(const StlShare&) = delete;
+    StlShare& operator=(const StlShare&) = delete;
+    virtual ~StlShare() = default;
+
+    /// The bytes of this rank.
+    [[nodiscard]] virtual std::string_view bytes() const = 0;
+
+    /// Reads the facets. All ranks call this together.
+    /// @param faces without vertices; receives them, with numbers of the points that are returned as corners.
+    /// @param faults receives what is left out, numbered from 0 in this share.
+    /// @throws InputError as read_stl.
+    virtual PointNumbers read(Conversation& talk, PolygonMesh& faces, FaultLog& faults) const = 0;
+
+    /// Says that all facets together have no vertices. All ranks call this together.
+    /// @throws InputError
+    virtual void refuse_empty(Conversation& talk) const = 0;
+};
+
+/// All ranks call this together.
+/// @param content has to outlive the result.
+/// @throws InputError as read_stl.
+std::unique_ptr<StlShare> share_stl(Conversation& talk, const std::filesystem::path& path, std::string_view content,
+                                    Encoding encoding, const Loop& loop);
+
+}  // namespace seamflow

@@ -1,0 +1,82 @@
+#include "partition/formats/off_header.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace seamflow {
+
+namespace {
+
+bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+void require_known_variant(const TextScanner& scanner, std::string_view prefix)
+{
+    if (prefix.find_first_of("4n") != std::string_view::npos)
+        scanner.fail(in_quotes(std::string(prefix) + "OFF") +
+                     " files, whose vertices have not just three coordinates, cannot be read; convert the mesh to OFF");
+    constexpr std::array<std::string_view, 8> known = {"", "C", "N", "CN", "ST", "STC", "STN", "STCN"};
+    if (std::find(known.begin(), known.end(), prefix) == known.end())
+        scanner.fail("the keyword " + in_quotes(std::string(prefix) + "OFF") +
+                     " is unknown; convert the mesh to OFF, COFF or NOFF");
+}
+
+/// @returns what stands before OFF.
+std::string_view read_keyword(TextScanner& scanner)
+{
+    if (!scanner.next_line())
+        scanner.fail("the file holds no mesh, only comments or blanks; export the mesh again");
+    const auto word = scanner.peek();
+    if (std::all_of(word.begin(), word.end(), is_digit))
+        return {};
+    const auto off = word.find("OFF");
+    if (off == std::string_view::npos || (word.size() > off + 3 && !is_digit(word[off + 3])))
+        scanner.fail("the file begins with " + in_quotes(word) +
+                     " and not with OFF; if it has another format, give it that format's extension");
+    const std::string_view prefix = word.substr(0, off);
+    require_known_variant(scanner, prefix);
+    scanner.skip(off + 3);
+    if (scanner.peek() == "BINARY")
+        scanner.fail(
+            "binary OFF files with more than coordinates and faces cannot be read; convert the mesh to text OFF "
+            "or to PLY");
+    return prefix;
+}
+
+/// @param size of the file, in bytes. @param shortest_line the fewest characters in which a vertex or a face can be
+/// written, with the line end.
+std::int64_t read_count(TextScanner& scanner, std::int64_t size, const char* what, std::int64_t shortest_line)
+{
+    const std::int64_t n = scanner.integer(what);
+    if (n < 0 || n > (size + 1) / shortest_line)
+        scanner.fail(fmt::format("{} is {}, but a file of {} bytes cannot hold so many; correct the header, or export "
+                                 "the mesh again if it was cut off",
+                                 what, n, size));
+    return n;
+}
+
+}  // namespace
+
+OffHeader read_off_header(TextScanner& scanner)
+{
+    const auto size = static_cast<std::int64_t>(scanner.rest().size());
+    OffHeader header;
+    header.prefix = read_keyword(scanner);
+    if (!scanner.has_token() && !scanner.next_line())
+        scanner.fail("the file ends before the numbers of vertices and faces; export the mesh again");
+    header.n_vertices = read_count(scanner, size, "the number of vertices", 6);
+    header.n_faces = read_count(scanner, size, "the number of faces", 4);
+    if (scanner.has_token())
+        scanner.integer("the number of edges");
+    if (scanner.has_token())
+        scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found " +
+                     in_quotes(scanner.peek()) + "; correct the header");
+    return header;
+}
+
+}  // namespace seamflow

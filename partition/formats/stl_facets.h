@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <string_view>
+#include <utility>
+
+#include "partition/io/input_position.h"
+#include "partition/io/mesh_builder.h"
+#include "partition/loop.h"
+#include "partition/point_numbers.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Compares with a keyword in lower case.
+inline bool is_keyword(std::string_view token, std::string_view keyword)
+{
+    return std::equal(token.begin(), token.end(), keyword.begin(), keyword.end(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
+/// Joins the corners of facets to vertices, and facets to a mesh.
+class FacetCollector {
+  public:
+    using Corner = PointNumbers::Place;
+
+    /// Of a whole file.
+    explicit FacetCollector(const InputPosition& position)
+        : position_(position)
+        , builder_(position)
+    {
+    }
+
+    /// Of a slice, whose vertices are the points in it.
+    /// @param slice without vertices.
+    FacetCollector(const InputPosition& position, const MeshSlice& slice)
+        : position_(position)
+        , builder_(position, 0, slice)
+    {
+    }
+
+    void add(const std::array<Corner, 3>& points)
+    {
+        const Index number = n_facets_++;
+        if (points[0] == points[1] || points[1] == points[2] || points[2] == points[0]) {
+            position_.harmless_fault("two corners of the facet have the same coordinates; remove the facet");
+            position_.leave_out_face(number);
+            return;
+        }
+        const std::array<Index, 3> corners = {numbers_(points[0]), numbers_(points[1]), numbers_(points[2])};
+        builder_.add_face(corners);
+    }
+
+    [[nodiscard]] PointNumbers take_points() { return std::move(numbers_); }
+
+    PolygonMesh finish()
+    {
+        for (const Corner& point : numbers_.points())
+            builder_.add_vertex(point);
+        return builder_.finish();
+    }
+
+  private:
+    const InputPosition& position_;
+    MeshBuilder builder_;
+    PointNumbers numbers_;
+    Index n_facets_ = 0;
+};
+
+/// Reads slices several at a time. The points of a slice become numbers of its own, and these those of all slices.
+/// @param read called with a slice and where its faces belong; gives its points.
+/// @param faces gets the faces of all slices.
+PointNumbers join_facets(Index n_slices, const Loop& loop,
+                         const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read,
+                         PolygonMesh& faces);
+
+/// Makes vertices of points.
+/// @throws InputError, of no use to a reader, if there are none.
+void set_vertices(PolygonMesh& mesh, const PointNumbers& points);
+
+}  // namespace seamflow

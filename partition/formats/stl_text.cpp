@@ -1,0 +1,208 @@
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/stl.h"
+#include "partition/formats/stl_facets.h"
+#include "partition/io/mesh_builder.h"
+#include "partition/io/slices.h"
+#include "partition/io/text_scanner.h"
+#include "partition/point_numbers.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Reads a whole file, or a slice of one.
+class TextReader {
+  public:
+    TextReader(const TextScanner& scanner, FaultLog* faults)
+        : scanner_(scanner)
+        , collector_(scanner_)
+    {
+        scanner_.note_faults_in(faults);
+    }
+
+    TextReader(const TextScanner& scanner, const MeshSlice& slice, FaultLog* faults = nullptr)
+        : scanner_(scanner)
+        , collector_(scanner_, slice)
+    {
+        scanner_.note_faults_in(faults);
+    }
+
+    /// @param in_solid whether the first line is within a solid. @param end where the last line to be read begins, at
+    /// most.
+    /// @returns the same of what follows.
+    bool read(bool in_solid, const char* end);
+
+    /// @throws InputError within a solid.
+    void require_end(bool in_solid)
+    {
+        if (in_solid)
+            next_line("facet or endsolid");
+    }
+
+    FacetCollector& collector() { return collector_; }
+
+  private:
+    using Corner = FacetCollector::Corner;
+
+    void read_facet();
+    Corner read_corner();
+    void next_line(std::string_view keyword);
+    void expect(std::string_view keyword);
+
+    TextScanner scanner_;
+    FacetCollector collector_;
+};
+
+bool TextReader::read(bool in_solid, const char* end)
+{
+    while (scanner_.next_line() && scanner_.peek().data() < end) {
+        if (!in_solid) {
+            expect("solid");
+            in_solid = true;
+        } else if (is_keyword(scanner_.peek(), "endsolid")) {
+            in_solid = false;
+        } else {
+            expect("facet");
+            read_facet();
+        }
+    }
+    return in_solid;
+}
+
+void TextReader::read_facet()
+{
+    next_line("outer loop");
+    expect("outer");
+    expect("loop");
+    const Corner a = read_corner();
+    const Corner b = read_corner();
+    const Corner c = read_corner();
+    next_line("endloop");
+    if (is_keyword(scanner_.peek(), "vertex"))
+        scanner_.fail("the facet has more than 3 corners, but STL holds triangles only; export the mesh as " +
+                      extensions_of(FormatGroup::Polygons));
+    expect("endloop");
+    next_line("endfacet");
+    expect("endfacet");
+    collector_.add({a, b, c});
+}
+
+TextReader::Corner TextReader::read_corner()
+{
+    next_line("vertex");
+    expect("vertex");
+    const Corner position = scanner_.coordinates();
+    if (scanner_.has_token())
+        scanner_.fail("expected the end of the line after the three coordinates, but found " +
+                      in_quotes(scanner_.peek()) + "; put each vertex on a line of its own");
+    return position;
+}
+
+void TextReader::next_line(std::string_view keyword)
+{
+    if (!scanner_.next_line())
+        scanner_.fail("the file ends where " + in_quotes(keyword) +
+                      " should follow; it has been cut off: export or copy the mesh again");
+}
+
+void TextReader::expect(std::string_view keyword)
+{
+    const auto token = scanner_.token();
+    if (!is_keyword(token, keyword))
+        scanner_.fail(fmt::format("expected {}, but found {}; correct the line or export the mesh again",
+                                  in_quotes(keyword), token.empty() ? "the end of the line" : in_quotes(token)));
+}
+
+const char* end_of(std::string_view text)
+{
+    return text.data() + text.size();
+}
+
+/// Slices of a text that begin at facets, but for the first.
+std::vector<std::string_view> slices_at_facets(const TextScanner& whole, std::size_t bytes)
+{
+    std::vector<std::string_view> slices;
+    const char* const end = whole.rest().data() + whole.rest().size();
+    const auto slice_between = [](const char* first, const char* last) {
+        return std::string_view(first, static_cast<std::size_t>(last - first));
+    };
+    const char* begin = whole.rest().data();
+    for (const std::string_view slice : whole.slices(bytes)) {
+        TextScanner scanner(whole, slice_between(slice.data() + slice.size(), end));
+        const char* line = scanner.rest().data();
+        while (scanner.next_line() && !is_keyword(scanner.peek(), "facet"))
+            line = scanner.rest().data();
+        if (scanner.rest().empty())
+            line = end;
+        if (line > begin)
+            slices.push_back(slice_between(begin, line));
+        begin = std::max(begin, line);
+    }
+    return slices;
+}
+
+}  // namespace
+
+StlText::StlText(const std::filesystem::path& path, std::string_view content)
+    : whole_(path, content, {.comment = '\0'})
+{
+}
+
+std::vector<std::string_view> StlText::shares(std::size_t n) const
+{
+    return slices_at_facets(whole_, (whole_.rest().size() + n - 1) / n);
+}
+
+PointNumbers StlText::facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const
+{
+    const std::vector<std::string_view> slices = slices_at_facets(TextScanner(whole_, share), slicing.bytes);
+    const auto read = [&](Index i, const MeshSlice& place) {
+        TextReader reader(TextScanner(whole_, slices[i]), place);
+        const bool begins_in_solid = slices[i].data() != whole_.rest().data();
+        if (reader.read(begins_in_solid, end_of(slices[i])) == is_last(slices[i]))
+            throw InputError("a solid ends too early, or does not end");
+        return reader.collector().take_points();
+    };
+    return join_facets(static_cast<Index>(slices.size()), slicing.loop, read, faces);
+}
+
+PointNumbers StlText::check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
+                            FaultLog& faults) const
+{
+    const std::string_view rest(share.data(), static_cast<std::size_t>(end_of(whole_.rest()) - share.data()));
+    Points none(0, 3);
+    TextReader reader(TextScanner(whole_, rest, lines_before), {none, 0, faces}, &faults);
+    in_solid = reader.read(in_solid, end_of(share));
+    if (is_last(share))
+        reader.require_end(in_solid);
+    return reader.collector().take_points();
+}
+
+std::size_t StlText::lines_of(std::string_view share) const
+{
+    TextScanner scanner(whole_, share);
+    while (scanner.next_line()) {
+    }
+    return scanner.line();
+}
+
+PolygonMesh StlText::read_all(FaultLog* faults) const
+{
+    TextReader reader(whole_, faults);
+    reader.require_end(reader.read(false, end_of(whole_.rest())));
+    return reader.collector().finish();
+}
+
+bool StlText::is_last(std::string_view share) const
+{
+    return end_of(share) == end_of(whole_.rest());
+}
+
+}  // namespace seamflow
