@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/samples/workshop.h"
+
+/// Runs of smooth-distributed on ranks of MPI.
+namespace seamflow::test {
+
+/// @returns the exit status. @param n ranks.
+inline int on_ranks(const Workshop& w, int n, const std::string& arguments)
+{
+    return w.run("timeout 100 " MPIRUN " -n " + std::to_string(n) + " " SMOOTH_DISTRIBUTED " " + arguments);
+}
+
+/// What the program itself said on standard error, without its name: MPI says something, too.
+inline std::vector<std::string> messages(const Workshop& w, const std::string& program)
+{
+    std::vector<std::string> found;
+    std::ifstream file(w.directory / "said");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with(program + ": "))
+            found.push_back(line.substr(program.size() + 2));
+    return found;
+}
+
+template <class Value>
+Value number_at(std::string_view bytes, std::size_t offset)
+{
+    Value value;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+/// The count of an element in the header of a PLY file.
+inline std::size_t count_in(const std::string& content, const std::string& element)
+{
+    return std::stoul(content.substr(content.find("element " + element) + element.size() + 9));
+}
+
+/// Writes the labels of a file of --parts.
+inline void write_labels_of(const std::filesystem::path& parts, const std::filesystem::path& labels)
+{
+    const std::string content = content_of(parts);
+    const std::string end = "end_header\n";
+    std::size_t offset = content.find(end) + end.size() + 24 * count_in(content, "vertex");
+    std::ofstream file(labels);
+    for (std::size_t left = count_in(content, "face"); left > 0; --left) {
+        offset += 1 + 4 * std::size_t{number_at<std::uint8_t>(content, offset)} + 3;
+        file << number_at<std::int32_t>(content, offset) << '\n';
+        offset += 4;
+    }
+}
+
+}  // namespace seamflow::test
