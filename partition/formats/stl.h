@@ -78,7 +78,7 @@ class StlText {
     [[nodiscard]] std::vector<std::string_view> shares(std::size_t n) const;
 
     /// Appends the facets of a share.
-    /// @param faces, @returns see StlStretches::facets.
+    /// @param faces without vertices; corners are numbers of the points that are returned.
     /// @throws InputError if there is any fault, not necessarily naming it (see `check`).
     PointNumbers facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const;
 

@@ -1,13 +1,9 @@
 // smooth-distributed on ranks of MPI, beside smooth.
 
-#include <algorithm>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tests/samples/running_ranks.h"
@@ -17,40 +13,9 @@ using namespace seamflow;
 using test::messages;
 using test::on_ranks;
 using test::Workshop;
+using test::write_labels_of;
 using test::write_soup;
 namespace fs = std::filesystem;
-
-namespace {
-
-template <class Value>
-Value number_at(std::string_view bytes, std::size_t offset)
-{
-    Value value;
-    std::memcpy(&value, bytes.data() + offset, sizeof value);
-    return value;
-}
-
-/// The count of an element in the header of a PLY file.
-std::size_t count_in(const std::string& content, const std::string& element)
-{
-    return std::stoul(content.substr(content.find("element " + element) + element.size() + 9));
-}
-
-/// Writes the labels of a file of --parts.
-void write_labels_of(const fs::path& parts, const fs::path& labels)
-{
-    const std::string content = test::content_of(parts);
-    const std::string end = "end_header\n";
-    std::size_t offset = content.find(end) + end.size() + 24 * count_in(content, "vertex");
-    std::ofstream file(labels);
-    for (std::size_t left = count_in(content, "face"); left > 0; --left) {
-        offset += 1 + 4 * std::size_t{number_at<std::uint8_t>(content, offset)} + 3;
-        file << number_at<std::int32_t>(content, offset) << '\n';
-        offset += 4;
-    }
-}
-
-}  // namespace
 
 TEST_CASE("the file is the same for any number of ranks, and that of smooth with the same cut")
 {
@@ -260,43 +225,6 @@ TEST_CASE("what cannot be done is said once, with the exit status of smooth, and
     }
 }
 
-TEST_CASE("files that no rank reads as a whole are refused with what to do, before anything is done")
-{
-    const Workshop w;
-    REQUIRE(w.run(GENERATE " noisy-sphere ball.ply --vertices 900") == 0);
-    REQUIRE(w.run(GENERATE " noisy-sphere ball.off.gz --vertices 900") == 0);
-    CHECK(on_ranks(w, 2, "ball.off.gz n.off --radius 1% --whole-up-to 1") == 3);
-    REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().find("unpack it") != std::string::npos);
-    CHECK(on_ranks(w, 2, "ball.ply n.obj --radius 1% --whole-up-to 1") == 2);
-    REQUIRE(messages(w, "smooth-distributed").size() == 1);
-    CHECK(messages(w, "smooth-distributed").front().find("as a .ply file") != std::string::npos);
-    CHECK(!w.has("n.obj"));
-}
-
-TEST_CASE("faces that smooth leaves out are left out by ranks, with the same file and remark")
-{
-    const Workshop w;
-    REQUIRE(w.run(GENERATE " noisy-sphere ball.obj --vertices 2000") == 0);
-    std::ofstream(w.directory / "ball.obj", std::ios::app) << "f 1 2\nf 3 4 3\n";
-    const std::string options = " --time-step-edges 3 --converge never --threads 1";
-    REQUIRE(on_ranks(w, 1, "ball.obj 1.obj --subdomains 5 --parts cut.ply" + options) == 0);
-    write_labels_of(w.directory / "cut.ply", w.directory / "labels");
-    // Those that are left out have labels, too.
-    std::ofstream(w.directory / "labels", std::ios::app) << "9\n9\n";
-    REQUIRE(w.smooth("ball.obj n.obj --labels labels" + options) == 0);
-    const std::string expected = test::content_of(w.directory / "n.obj");
-    const std::string remark = "remark     2 faces name a vertex twice or have fewer than three corners";
-    CHECK(w.count_lines("said", remark) == 1);
-    for (const int n : {1, 2, 3})
-        for (const std::string sharing : {"1", "1G"}) {
-            CAPTURE(n);
-            REQUIRE(on_ranks(w, n, "ball.obj n.obj --labels labels --whole-up-to " + sharing + options) == 0);
-            CHECK((test::content_of(w.directory / "n.obj") == expected));
-            CHECK(w.count_lines("said", remark) == 1);
-        }
-}
-
 TEST_CASE("options of smooth that ranks do not know are refused by name")
 {
     const Workshop w;
@@ -330,25 +258,4 @@ TEST_CASE("a rank that is killed ends the others, and the file that was there st
     CHECK(status > 0);
     CHECK(status != 124);
     CHECK((test::content_of(w.directory / "n.obj") == "as it was\n"));
-}
-
-TEST_CASE("nasty files of the corpus end as with smooth")
-{
-    const char* const folder = std::getenv("SEAMFLOW_CORPUS");
-    if (folder == nullptr)
-        return;
-    const Workshop w;
-    for (const auto& entry : fs::directory_iterator(fs::path(folder) / "nasty")) {
-        const std::string file = entry.path().string();
-        CAPTURE(file);
-        const std::string options = " n" + entry.path().extension().string() +
-                                    " --time-step-edges 1 --subdomains 3 --converge never --threads 1";
-        const int status = w.smooth("'" + file + "'" + options);
-        const auto expected = messages(w, "smooth");
-        for (const std::string sharing : {"", " --whole-up-to 1"}) {
-            CAPTURE(sharing);
-            CHECK(on_ranks(w, 3, "'" + file + "'" + options + sharing) == status);
-            CHECK(messages(w, "smooth-distributed") == expected);
-        }
-    }
 }

@@ -163,7 +163,7 @@ TEST_CASE("faults of slices of text STL files are those that one machine finds f
         const std::size_t after = i + 1 < lines.size() ? lines[i + 1] : good.size();
         if (i % 3 == 0)
             bad.push_back(good.substr(0, lines[i]));
-        if (i % 5 == 0)
+        if (i % 5 == 0 || good.compare(lines[i], 5, "facet") == 0)
             bad.push_back(good.substr(0, lines[i]) + "endsolid\n" + good.substr(lines[i]));
         if (i % 4 == 0)
             bad.push_back(good.substr(0, lines[i]) + "facet normal 0 0 1\n" + good.substr(lines[i]));
