@@ -15,7 +15,6 @@ using test::on_ranks;
 using test::Workshop;
 using test::write_labels_of;
 using test::write_soup;
-namespace fs = std::filesystem;
 
 TEST_CASE("the file is the same for any number of ranks, and that of smooth with the same cut")
 {
