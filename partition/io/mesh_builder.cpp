@@ -93,8 +93,10 @@ void MeshBuilder::add_face(std::span<const Index> corners)
         return;
     }
     if (corners.size() > most - mesh_.face_vertices.size())
-        position_.fail(
-            fmt::format("the faces have more than {} corners together; divide the mesh into several files", most));
+        position_.fail(fmt::format(
+            "the faces have more than {} corners together; let ranks share them (smooth-distributed), or divide "
+            "the mesh into several files",
+            most));
     mesh_.add_face(corners);
 }
 
