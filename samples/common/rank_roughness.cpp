@@ -6,6 +6,7 @@
 
 #include "engine/tasks/parallel_loop.h"
 #include "partition/index_lists.h"
+#include "partition/vector_area.h"
 #include "samples/common/surface_sample.h"
 
 namespace seamflow {

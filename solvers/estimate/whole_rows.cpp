@@ -1,6 +1,7 @@
 #include "solvers/estimate/whole_rows.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace seamflow {
