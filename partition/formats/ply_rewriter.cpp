@@ -236,6 +236,8 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
 std::array<bool, 3> coordinates_fit(const PlyElement& vertices, const Points& positions)
 {
     std::array<bool, 3> fits = {true, true, true};
+    if (positions.rows() == 0)
+        return fits;
     for (const PlyProperty& property : vertices.properties)
         if (const auto column = std::find(columns.begin(), columns.begin() + 3, property.name);
             column != columns.begin() + 3)

@@ -143,7 +143,8 @@ bool has_long_face(const PolygonMesh& mesh)
 std::string labelled_ply_header(const PlyCounts& counts)
 {
     constexpr std::array<Index, 1> any{};
-    return header_of(counts, Encoding::BinaryLittleEndian, {.face_labels = any});
+    return header_of(counts, Encoding::BinaryLittleEndian,
+                     {.face_labels = std::span(any).first(counts.faces > 0 ? 1 : 0)});
 }
 
 void write_ply_vertices(ByteWriter& file, const PolygonMesh& mesh, Index begin, Index end)
