@@ -12,6 +12,7 @@
 using namespace seamflow;
 using test::messages;
 using test::on_ranks;
+using test::on_ranks_of_which_one_is_killed;
 using test::Workshop;
 using test::write_soup;
 namespace fs = std::filesystem;
@@ -118,16 +119,8 @@ TEST_CASE("a rank that is killed leaves the output as it was, and a checkpoint f
             approach;
         const std::string list = "c/smooth-distributed.checkpoint";
         std::ofstream(w.directory / "n.obj") << "as it was\n";
-        std::ofstream(w.directory / "rank.sh") << "echo $$ >pid.$OMPI_COMM_WORLD_RANK\n"
-                                                  "exec " SMOOTH_DISTRIBUTED " " +
-                                                      flow + " --steps 100000 --checkpoint c\n";
-        std::ofstream(w.directory / "kill.sh") << "timeout 100 " MPIRUN " -n 3 sh rank.sh >out 2>&1 &\n"
-                                                  "until grep -qs '^step [3-9]' " +
-                                                      list +
-                                                      "; do sleep 0.1; kill -0 $! || exit 0; done\n"
-                                                      "kill -9 $(cat pid.1)\n"
-                                                      "wait $!\n";
-        const int status = w.run("sh kill.sh");
+        const int status = on_ranks_of_which_one_is_killed(w, flow + " --steps 100000 --checkpoint c",
+                                                           "grep -qs '^step [3-9]' " + list);
         CHECK(status > 0);
         CHECK(status != 124);
         CHECK((test::content_of(w.directory / "n.obj") == "as it was\n"));

@@ -12,6 +12,7 @@
 using namespace seamflow;
 using test::messages;
 using test::on_ranks;
+using test::on_ranks_of_which_one_is_killed;
 using test::Workshop;
 using test::write_labels_of;
 using test::write_soup;
@@ -246,14 +247,9 @@ TEST_CASE("a rank that is killed ends the others, and the file that was there st
 {
     const Workshop w;
     std::ofstream(w.directory / "n.obj") << "as it was\n";
-    std::ofstream(w.directory / "rank.sh")
-        << "echo $$ >pid.$OMPI_COMM_WORLD_RANK\n"
-           "exec " SMOOTH_DISTRIBUTED " mesh.obj n.obj --radius 1% --steps 1000000 --subdomains 6 --threads 1\n";
-    std::ofstream(w.directory / "kill.sh") << "timeout 100 " MPIRUN " -n 3 sh rank.sh >out 2>&1 &\n"
-                                              "until [ -s pid.1 ] && grep -q amount out; do sleep 0.1; done\n"
-                                              "kill -9 $(cat pid.1)\n"
-                                              "wait $!\n";
-    const int status = w.run("sh kill.sh");
+    const int status =
+        on_ranks_of_which_one_is_killed(w, "mesh.obj n.obj --radius 1% --steps 1000000 --subdomains 6 --threads 1",
+                                        "[ -s pid.1 ] && grep -q amount out");
     CHECK(status > 0);
     CHECK(status != 124);
     CHECK((test::content_of(w.directory / "n.obj") == "as it was\n"));

@@ -32,6 +32,23 @@ inline std::vector<std::string> messages(const Workshop& w, const std::string& p
     return found;
 }
 
+/// Runs three ranks, kills one as soon as a shell's condition holds, and waits for the others.
+/// @param until may wait for a number of the process in `pid.1`, and for what is said in `out`; $! is mpirun.
+/// @returns the exit status.
+inline int on_ranks_of_which_one_is_killed(const Workshop& w, const std::string& arguments, const std::string& until)
+{
+    std::ofstream(w.directory / "rank.sh") << "echo $$ >pid.$OMPI_COMM_WORLD_RANK\n"
+                                              "exec " SMOOTH_DISTRIBUTED " "
+                                           << arguments << '\n';
+    std::ofstream(w.directory / "kill.sh") << "timeout 100 " MPIRUN " -n 3 sh rank.sh >out 2>&1 &\n"
+                                              "until "
+                                           << until
+                                           << "; do sleep 0.1; kill -0 $! || exit 0; done\n"
+                                              "kill -9 $(cat pid.1)\n"
+                                              "wait $!\n";
+    return w.run("sh kill.sh");
+}
+
 /// Writes an OBJ file in which every face has vertices of its own.
 inline void write_soup(const std::filesystem::path& from, const std::filesystem::path& to)
 {
