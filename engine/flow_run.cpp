@@ -142,7 +142,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     Stopwatch watch;
     if (prepared_->curvature.empty() && options().report.measures)
         curvature_before_ =
-            measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, options().laplacian);
+            measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, laplacian_of(options()));
     describe(*prepared_, mesh, report);
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
     stepper_ =
@@ -286,7 +286,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
             of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
             of_step.max_mean_curvature_before = curvature_before_;
             of_step.max_mean_curvature_after = curvature_before_ =
-                measure_largest_curvature(mesh, prepared_->topology, after, options().laplacian);
+                measure_largest_curvature(mesh, prepared_->topology, after, laplacian_of(options()));
         }
         const double measuring = watch.lap();
         if (reference_) {

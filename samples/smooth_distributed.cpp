@@ -149,7 +149,10 @@ class RankRun {
             if (motion.attachment > 0.0)
                 record_.run.attachment = motion.attachment;
             record_.run.has_attachment_weights = !command_.attach_weights.empty();
-            command_.options.time_step = time_step_of(command_.amount, record_.run.scale, command_.options.steps);
+            if (command_.options.laplacian == Laplacian::Uniform && std::isnormal(record_.size.mean_edge))
+                command_.options.uniform_edge = record_.size.mean_edge;
+            command_.options.time_step =
+                time_step_of(command_.amount, record_.run.scale, command_.options.steps, filter_of(command_.options));
         });
         record_.time_step = command_.options.time_step;
     }

@@ -61,6 +61,10 @@ void require_for_ranks(const FlowOptions& options)
         unknown = "options for single faces and vertices: labels, fixed vertices and weights are those of the parts";
     else if (options.report.reference || options.report.record_schedule || options.report.keep_gaps)
         unknown = "an undecomposed flow to compare with, a schedule, nor gaps";
+    if (unknown == nullptr && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
+        throw OptionError(
+            "uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: say what it "
+            "is (measure in engine/distributed/parts/slice_measures.h finds it)");
     if (unknown != nullptr)
         throw OptionError(
             fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));

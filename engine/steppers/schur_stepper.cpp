@@ -103,7 +103,8 @@ void SchurStepper::make_systems(Decomposition& decomposition, const PolygonMesh&
         own.n_vertices = sub_mesh.n_vertices;
         run_for(s, [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
-            parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian, terms);
+            parts_[s].system =
+                std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms);
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
         own.owned = std::move(sub_mesh.owned);
@@ -205,7 +206,7 @@ NeumannSystem::Assembled SchurStepper::assemble(Index s, SolverWorkspace& worksp
     const OwnVertices& sub_mesh = parts_[s].sub_mesh;
     const Points& positions = localised(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
     const NeumannSystem& system = *parts_[s].system;
-    if (!is_second_)
+    if (data_ == nullptr)
         return system.assemble(positions, workspace.increments, time_step_, workspace);
     const Points& data = localised_data(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
     return system.assemble(positions, workspace.increments, data, time_step_, workspace);
@@ -266,7 +267,7 @@ void SchurStepper::condense_in(Index s, Precision precision)
 }
 
 /// With the factor of the first solution of the step, or the same made again.
-void SchurStepper::condense_second(Index s)
+void SchurStepper::condense_again(Index s)
 {
     Part& part = parts_[s];
     SolverWorkspace& workspace = workspaces_.local();
@@ -282,8 +283,8 @@ void SchurStepper::condense_second(Index s)
 
 void SchurStepper::condense(Index s)
 {
-    if (is_second_)
-        return condense_second(s);
+    if (data_ != nullptr)
+        return condense_again(s);
     // Without Γ there is no iteration: one solution is exact.
     const bool is_exact = factors_.precision == Precision::Automatic && parts_[s].system->n_interface() == 0;
     condense_in(s, is_exact ? Precision::Double : factors_.precision);
@@ -430,11 +431,11 @@ void SchurStepper::back_substitute(Index s)
     Stopwatch watch;
     substitute(s, factor, interface_.update, workspace);
     const std::vector<Index>& global = part.sub_mesh.local_to_global;
-    const Points& base = is_second_ ? first_ : *before_;
     for (const Index v : part.system->unknowns())
         if (part.sub_mesh.owned[v] != 0)
-            positions_.row(global[v]) = base.row(global[v]) + workspace.increments.row(v);
-    if (is_low_pass_ && !is_second_ && is_kept(s))
+            positions_.row(global[v]) = data_ != nullptr ? Point(workspace.increments.row(v))
+                                                         : before_->row(global[v]) + workspace.increments.row(v);
+    if (!filter_.is_plain() && is_kept(s))
         part.factor = std::move(factor);
     seconds_[s].solve += watch.lap();
 }

@@ -119,7 +119,7 @@ class SchurStepper final : public ConvergedStepper {
     void substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace);
     void begin_increments(Index s, SolverWorkspace& workspace);
     void condense(Index s);
-    void condense_second(Index s);
+    void condense_again(Index s);
     void condense_in(Index s, Precision precision);
     void refine(Index s, const Points& update);
     [[nodiscard]] bool has_single() const;

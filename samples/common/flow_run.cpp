@@ -33,7 +33,8 @@ void stay_within_noise(SmoothCommand& command, const PolygonMesh& mesh, const Lo
     // What is printed of it is to be all of it.
     const double edges = std::stod(fmt::format("{:.3g}", within * *command.amount.time_step_edges));
     command.amount.time_step_edges = edges;
-    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
+    command.options.time_step =
+        time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     command.chosen += fmt::format("--time-step-edges {}", edges);
 }
 
@@ -45,7 +46,8 @@ void resolve_by_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loo
     const std::optional<Weld> welded = within ? weld(mesh, topology, *within, loop) : std::nullopt;
     const PolygonMesh& flowing = welded ? welded->mesh : mesh;
     resolve_noise(command, flowing, welded ? welded->topology : topology, loop, run);
-    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
+    command.options.time_step =
+        time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     stay_within_noise(command, flowing, loop, run);
 }
 
@@ -58,7 +60,7 @@ RunRecord begin_record(const SmoothCommand& command)
             .arguments = command.arguments,
             .laplacian = std::string(name_of(command.options.laplacian)),
             .flow = command.options.flow,
-            .filter = command.options.filter,
+            .filter = filter_of(command.options),
             .rescale = command.options.motion.rescale,
             .keep_edges = command.options.keep_edges,
             .preset = command.preset};
@@ -74,7 +76,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop&
     if (command.amount.slope_of_noise)
         resolve_by_noise(command, mesh, loop, run);
     else
-        command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
+        command.options.time_step =
+            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     if (motion.attachment > 0.0)
         run.attachment = motion.attachment;
     run.has_attachment_weights = !motion.attachment_weights.empty();

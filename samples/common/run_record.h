@@ -18,9 +18,9 @@ struct RunRecord {
     std::vector<std::string> arguments;
     /// Name of the Laplacian.
     std::string laplacian;
-    /// The flow beside it: FlowOptions::flow, filter, and MotionOptions::attachment.
+    /// The flow beside it: FlowOptions::flow, its filter, and MotionOptions::attachment.
     FlowEquation flow = FlowEquation::MeanCurvature;
-    Filter filter = Filter::Diffusion;
+    StepFilter filter = {};
     /// In 1/length²; empty where there is none.
     std::optional<double> attachment = {};
     /// Whether each vertex has one of its own.

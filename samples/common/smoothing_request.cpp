@@ -67,13 +67,13 @@ MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
     return {.mean_edge = mean_edge_length(mesh, mesh.vertices, loop), .diagonal = extent_of(mesh.vertices)};
 }
 
-double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps)
+double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps, const StepFilter& filter)
 {
     if (request.time_step_edges)
         return require_step(*request.time_step_edges * scale.mean_edge * scale.mean_edge, "--time-step-edges");
     if (!request.radius)
         return request.time_step;
-    return time_step_for_radius(*request.radius, steps, scale.diagonal);
+    return time_step_for_radius(*request.radius, steps, scale.diagonal, filter);
 }
 
 }  // namespace seamflow

@@ -48,8 +48,8 @@ struct SmoothingRequest {
 /// @returns at least .01 and at most 100, over all steps.
 double time_step_edges_for_noise(double noise, double slope, bool is_low_pass, int steps);
 
-/// dt in length² for that many steps.
+/// dt in length² for that many steps, each with that filter.
 /// @throws InputError for a mesh that has no size to measure by.
-double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps);
+double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps, const StepFilter& filter = {});
 
 }  // namespace seamflow
