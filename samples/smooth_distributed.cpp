@@ -143,9 +143,9 @@ class RankRun {
         record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
         about_file(command_.input, [&] {
             MotionOptions& motion = command_.options.motion;
-            motion.weld = command_.weld ? std::optional(length_of(*command_.weld, record_.run.scale)) : std::nullopt;
+            motion.weld = command_.weld ? std::optional(length_of(*command_.weld, record_.size.diagonal)) : std::nullopt;
             if (command_.attach)
-                motion.attachment = attachment_of(*command_.attach, record_.run.scale);
+                motion.attachment = attachment_of(*command_.attach, record_.size.diagonal);
             if (motion.attachment > 0.0)
                 record_.run.attachment = motion.attachment;
             record_.run.has_attachment_weights = !command_.attach_weights.empty();

@@ -54,8 +54,8 @@ void require_for_ranks(const FlowOptions& options)
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
-    else if (options.motion.rescale != Rescale::None || options.motion.strict)
-        unknown = "rescaled results, nor strict";
+    else if (options.motion.rescale != Rescale::None || options.motion.strict || options.motion.limits.exist())
+        unknown = "rescaled results, limits of components, nor strict";
     else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
              !options.motion.attachment_weights.empty())
         unknown = "options for single faces and vertices: labels, fixed vertices and weights are those of the parts";

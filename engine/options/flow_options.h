@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -199,6 +201,17 @@ struct LengthOnMesh {
     bool of_diagonal = false;
 };
 
+/// What each connected component of a mesh may lose; one that would lose more has its displacement, and so its loss,
+/// scaled down, to nothing where less than a tenth of it would be left. For flows that choose their amount by themselves.
+struct ComponentLimits {
+    /// Of the volume that it encloses, in parts of it; of closed components whose faces are oriented alike.
+    double volume = std::numeric_limits<double>::infinity();
+    /// How far vertices may move along the normals, as root mean square over the component, in length.
+    double move = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move); }
+};
+
 /// Which vertices move, and where to.
 struct MotionOptions {
     /// Within which distance, in units of length, vertices on the boundary count as at equal places, where two edges of
@@ -225,6 +238,8 @@ struct MotionOptions {
     /// unscaled, too; the conformalized flow goes on from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex that has faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
+    /// Of each result: the flow itself goes on as it is. Not in distributed flows.
+    ComponentLimits limits = {};
 };
 
 /// What a flow may use of the machine.

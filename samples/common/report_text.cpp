@@ -119,6 +119,10 @@ void print_preset(std::ostream& out, const RunRecord& run, const std::string& op
 
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
+    if (options.steps == 0) {
+        out << "amount     none" << std::endl;
+        return;
+    }
     const std::string steps = fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
                                           counted(options.steps, "step", "steps"),
                                           options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
@@ -126,8 +130,7 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
         out << fmt::format("{}, edges sharper than {:g} degrees kept", steps, *options.keep_edges) << std::endl;
         return;
     }
-    const double radius =
-        options.steps == 0 ? 0.0 : smoothed_radius(options.time_step, options.steps, filter_of(options));
+    const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
     out << fmt::format("{}: bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height", steps, radius,
                        100.0 * radius / scale.diagonal)
         << std::endl;

@@ -59,14 +59,11 @@ void add_amount(CLI::App& app, SmoothingRequest& amount)
 std::string describe_presets()
 {
     std::string text;
-    for (const Preset& preset : presets()) {
+    for (const PresetTraits& preset : all_presets()) {
         text += fmt::format("{}{}: {} (", text.empty() ? "" : "; ", preset.name, preset.purpose);
         for (const PresetOption& option : options_of(preset))
             text += fmt::format("{} {} ", option.name, option.value);
-        text += preset.amount.slope_of_noise
-                    ? fmt::format("and an amount that leaves slopes of {} degrees of the noise",
-                                  *preset.amount.slope_of_noise)
-                    : amount_of(preset);
+        text += preset.measures_noise() ? "and what the noise asks for" : amount_of(preset);
         text += ")";
     }
     return text;
@@ -95,13 +92,16 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "--plain", [&options] { options = FlowOptions::plain(); },
         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
     std::vector<std::string> names;
-    for (const Preset& preset : presets())
+    for (const PresetTraits& preset : all_presets())
         names.emplace_back(preset.name);
     app.add_option("--preset", command.preset,
                    "options that suit a kind of mesh; those that are given go before them. " + describe_presets() +
                        " [scan if no amount is given; cad with --keep-edges]")
         ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
+    add_length(app, "--noise", command.noise,
+               "how far vertices are off the surface, as standard deviation along its normals, where that is known; in "
+               "units of length, or in % of the bounding box's diagonal [measured]");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_choice(app, "--flow", options.flow,
                "conformalized: the weights of the Laplacian stay those of the input; necks do not pinch, and closed "
