@@ -69,14 +69,12 @@ Signals signals_of(const PolygonMesh& mesh, const FilterSample& sample)
 /// Risks of all amounts, by what the basis is along given normals.
 class Risks {
   public:
-    /// @param products n_terms by n_terms: of the basis along the normals, mean over the measured vertices.
-    /// @param traces n_terms: tr(Tⱼ) / #V. @param filters n_terms by n_amounts: the coefficients of the filters.
+    /// @param products n_terms by n_terms: of the changes Tⱼ X - (-1)ʲ X along the normals, mean over the measured
+    /// vertices. @param traces n_terms: tr(Tⱼ - (-1)ʲ) / #V. @param filters n_terms by n_amounts: the coefficients.
     Risks(const Eigen::MatrixXd& products, const Eigen::VectorXd& traces, const Eigen::MatrixXd& filters)
     {
-        Eigen::MatrixXd moves = filters;
-        moves.row(0).array() -= 1.0;
-        squared_moves_ = moves.cwiseProduct(products * moves).colwise().sum().cwiseMax(0.0);
-        traces_ = traces.transpose() * filters;
+        squared_moves_ = filters.cwiseProduct(products * filters).colwise().sum().cwiseMax(0.0);
+        traces_ = (traces.transpose() * filters).array() + 1.0;
     }
 
     /// Along the normals, mean over the vertices: length².
@@ -171,11 +169,11 @@ class FilteredSample {
             sample_, signals_, n_terms,
             [&](Index j, const Signals& term) {
                 for_each(loop_, n, [&](Index m) {
-                    along_normals(m, j) = normals[m].dot(term.row(sample_.measured[m]).head<3>());
+                    along_normals(m, j) = normals[m].dot(change(j, term, sample_.measured[m]).head<3>());
                 });
                 traces[j] = sum(loop_, n, [&](Index m) {
                     const Index place = sample_.measured[m];
-                    return signals_(place, probe_column) * term(place, probe_column);
+                    return signals_(place, probe_column) * change(j, term, place)[probe_column];
                 });
             },
             loop_);
@@ -189,14 +187,21 @@ class FilteredSample {
             [amount](double eigenvalue) { return filter_of_order_three(amount, eigenvalue); });
     }
 
+    /// Tⱼ X - (-1)ʲ X, which is 0 for what is constant: filters leave that as it is, however large it is and however
+    /// few terms they have.
+    [[nodiscard]] Eigen::RowVector4d change(Index j, const Signals& term, Index place) const
+    {
+        return term.row(place) + (j % 2 == 0 ? -1.0 : 1.0) * signals_.row(place);
+    }
+
     void filter_positions(const Eigen::VectorXd& coefficients)
     {
-        Signals filtered = Signals::Zero(signals_.rows(), Signals::ColsAtCompileTime);
+        Signals filtered = signals_;
         const auto n = static_cast<Index>(filtered.rows());
         visit_chebyshev_basis(
             sample_, signals_, n_terms,
             [&](Index j, const Signals& term) {
-                for_each(loop_, n, [&](Index i) { filtered.row(i) += coefficients[j] * term.row(i); });
+                for_each(loop_, n, [&](Index i) { filtered.row(i) += coefficients[j] * change(j, term, i); });
             },
             loop_);
         for_each(loop_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });

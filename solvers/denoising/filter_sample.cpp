@@ -9,16 +9,16 @@ namespace seamflow {
 namespace {
 
 constexpr Index most_vertices = 30'000;
-constexpr Index n_patches = 64;
-constexpr int patch_rings = 12;
-constexpr int measured_rings = 7;
-constexpr int beyond = patch_rings + 1;
+constexpr Index n_patches = 32;
+constexpr int patch_rings = 18;
+constexpr int measured_rings = 8;
+constexpr int outside_patches = patch_rings + 1;
 
-/// #V: how many rings of faces away the nearest middle of a patch is; `beyond` further out.
+/// #V: how many rings of faces away the nearest middle of a patch is; `outside_patches` further out.
 std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Topology& topology)
 {
     const Index n = mesh.n_vertices();
-    std::vector<std::int8_t> rings(at(n), beyond);
+    std::vector<std::int8_t> rings(at(n), outside_patches);
     std::vector<Index> front;
     for (Index i = 0; i < n_patches; ++i) {
         const auto v = static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * n_patches));
@@ -30,7 +30,7 @@ std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Top
         for (const Index v : front)
             for (const Index corner : topology.corners_at(v))
                 for (const Index w : mesh.face(topology.face_of[corner]))
-                    if (rings[w] == beyond) {
+                    if (rings[w] == outside_patches) {
                         rings[w] = ring;
                         next.push_back(w);
                     }
@@ -60,7 +60,7 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
     const std::vector<std::int8_t> rings =
         n <= most_vertices ? std::vector<std::int8_t>(at(n), 0) : rings_around_middles(mesh, topology);
     FilterSample sample;
-    sample.vertices = select(loop, n, [&](Index v) { return rings[v] < beyond; });
+    sample.vertices = select(loop, n, [&](Index v) { return rings[v] < outside_patches; });
     const auto n_places = static_cast<Index>(sample.vertices.size());
     std::vector<std::vector<Index>> neighbours(at(n_places));
     for_each(loop, n_places, [&](Index i) {

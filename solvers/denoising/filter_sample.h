@@ -20,7 +20,7 @@ struct FilterSample {
     std::vector<Index> measured;
 };
 
-/// The whole mesh up to 30,000 vertices; else 64 patches of 12 rings of faces, measured within 7.
+/// The whole mesh up to 30,000 vertices; else 32 patches of 18 rings of faces, measured within 8.
 FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -21,7 +21,7 @@ using namespace seamflow;
 
 namespace {
 
-constexpr Index n_terms = 60;
+constexpr Index n_terms_of_filters = 60;
 
 /// The mesh after the filter, whole: it has fewer than thirty thousand vertices.
 PolygonMesh filtered(PolygonMesh mesh, double amount)
@@ -29,10 +29,11 @@ PolygonMesh filtered(PolygonMesh mesh, double amount)
     const FilterSample sample = take_filter_sample(mesh, make_topology(mesh));
     Signals signals = Signals::Zero(mesh.n_vertices(), 4);
     signals.leftCols<3>() = mesh.vertices;
-    const Eigen::VectorXd coefficients = ChebyshevExpansion(n_terms).coefficients(
-        [&](double eigenvalue) { return 1.0 / (1.0 + std::pow(amount * eigenvalue, 3)); });
+    const Eigen::VectorXd coefficients = ChebyshevExpansion(n_terms_of_filters).coefficients([&](double eigenvalue) {
+        return 1.0 / (1.0 + std::pow(amount * eigenvalue, 3));
+    });
     mesh.vertices.setZero();
-    visit_chebyshev_basis(sample, signals, n_terms,
+    visit_chebyshev_basis(sample, signals, n_terms_of_filters,
                           [&](Index j, const Signals& term) { mesh.vertices += coefficients[j] * term.leftCols<3>(); });
     return mesh;
 }
