@@ -46,8 +46,12 @@ constexpr double smaller_than_elsewhere = 1.04;
 /// The correlation of residuals of neighbours over that of independent noise, which is negative: of noise in smooth
 /// neighbourhoods it is 0.3 to 0.8, of shape it is mostly below 0.
 constexpr double least_whiteness = 0.2;
-/// In mean edges.
-constexpr double most_noise = 0.5;
+/// Of vertices with noise, few are as near to their fits as this part of its deviation: more than this many of all are
+/// on planes or the like, where noise would have moved them.
+constexpr double quiet = 0.02;
+constexpr double most_quiet = 0.06;
+/// In mean edges as measured: noise of half of the true mean edge makes edges that are half as long again.
+constexpr double most_noise = 1.0 / 3.0;
 constexpr double least_noise = 1e-3;
 
 /// The sums of squared residuals over some vertices, those of fits to two and to three rings.
@@ -81,6 +85,8 @@ struct Neighbourhood {
     /// Every other vertex, and the rest.
     std::array<Residuals, 2> halves;
     Products products;
+    /// Of all vertices, of fits to two rings, without signs.
+    std::vector<double> residuals;
 };
 
 /// The fits at a vertex. Residuals are linear in the heights of the vertices around; of independent noise of variance 1
@@ -296,10 +302,23 @@ Neighbourhood measure_neighbourhood(const PolygonMesh& mesh, const Topology& top
         if (topology.kind[v] == VertexKind::Interior)
             if (std::optional<VertexFit> fit = fit_at(mesh, surroundings, v)) {
                 found.halves[fits.size() % 2] += {fit->near * fit->near, fit->squared_wide, 1};
+                found.residuals.push_back(std::abs(fit->near));
                 fits.push_back(std::move(*fit));
             }
     found.products = products_of(fits, surroundings);
     return found;
+}
+
+/// The part of all vertices that noise of that deviation has not moved.
+double quiet_part(const std::vector<Neighbourhood>& neighbourhoods, double noise)
+{
+    std::size_t n = 0;
+    std::ptrdiff_t n_quiet = 0;
+    for (const Neighbourhood& found : neighbourhoods) {
+        n += found.residuals.size();
+        n_quiet += std::ranges::count_if(found.residuals, [&](double r) { return r < quiet * noise; });
+    }
+    return static_cast<double>(n_quiet) / static_cast<double>(n);
 }
 
 /// What the smoothest neighbourhoods tell.
@@ -362,7 +381,8 @@ double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const L
     evidence.add_smoothest(neighbourhoods, 1);
     const double noise = evidence.noise();
     const double edge = mean_edge_length(mesh, mesh.vertices, loop);
-    return noise >= least_noise * edge && noise <= most_noise * edge ? noise : 0.0;
+    const bool is_believed = noise >= least_noise * edge && noise <= most_noise * edge;
+    return is_believed && quiet_part(neighbourhoods, noise) <= most_quiet ? noise : 0.0;
 }
 
 }  // namespace seamflow

@@ -17,10 +17,12 @@ namespace seamflow {
 /// - Noise is independent from vertex to vertex: its residuals do not grow with the rings, and those of neighbours are
 ///   correlated as the fits make them. Shape grows, or bends neighbours alike. What grows is subtracted; where it grows
 ///   as for shape alone, or neighbours are bent alike, the noise is 0.
+/// - Noise spares no vertex: where many are on their fits, the noise is 0.
 ///
 /// Costs the same for all large meshes, but for the mean edge.
 /// @returns in units of length; 0 where noise is not proved: on meshes of fewer than 200 vertices with rings to fit to,
-/// where the estimate is above half a mean edge, and where it is below a thousandth of one.
+/// where the estimate is above a third of the mean edge, which noise of half of the true mean edge makes, and where it
+/// is below a thousandth of it.
 double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
 
 }  // namespace seamflow
