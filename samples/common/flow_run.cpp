@@ -51,8 +51,8 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop&
     motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
     if (command.attach)
         motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
-    if (command.amount.slope_of_noise)
-        resolve_by_noise(command, mesh, loop, run);
+    if (command.chooses_amount)
+        choose_amount(command, mesh, loop, run);
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));

@@ -30,7 +30,6 @@ struct SmoothingRequest {
     /// What all steps together smooth (see smoothed_radius), if not empty.
     std::optional<LengthOnMesh> radius = {};
 };
-};
 
 /// dt in length² for that many steps, each with that filter.
 /// @throws InputError for a mesh that has no size to measure by.
