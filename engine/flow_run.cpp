@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/measure/component_limits.h"
+#include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
@@ -250,16 +251,21 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     std::optional<LimitedComponents> limited;
     if (options().motion.limits.exist())
         limited.emplace(mesh, prepared_->topology, options().motion.limits);
+    std::optional<DisplacementBound> bound;
+    if (options().motion.within)
+        bound.emplace(mesh, prepared_->topology, *options().motion.within);
     // Mean curvature is measured across edges, but for that of Δ_P.
     if (traits_of(options().laplacian).reach != Reach::TwoRings)
         prepared_->topology.twin = std::vector<Index>();
     const bool is_scaled = goes_on_scaled(options());
     const bool is_scaled_apart = options().motion.rescale != Rescale::None && !is_scaled;
     // The flow goes on from its own positions, whatever is made of them.
-    const bool is_result_apart = is_scaled_apart || limited;
+    const bool is_result_apart = is_scaled_apart || bound || limited;
     const auto make_result = [&](Points& positions) {
         if (is_scaled_apart)
             rescaling.apply(positions);
+        if (bound)
+            bound->apply(positions);
         if (limited)
             limited->apply(positions);
     };

@@ -22,6 +22,7 @@
 #include "engine/distributed/rank_checkpoint.h"
 #include "engine/distributed/ranks/mpi_communicator.h"
 #include "engine/distributed/ranks/packing.h"
+#include "engine/setup/presets.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -143,7 +144,10 @@ class RankRun {
         record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
         about_file(command_.input, [&] {
             MotionOptions& motion = command_.options.motion;
-            motion.weld = command_.weld ? std::optional(length_of(*command_.weld, record_.size.diagonal)) : std::nullopt;
+            motion.weld =
+                command_.weld ? std::optional(length_of(*command_.weld, record_.size.diagonal)) : std::nullopt;
+            motion.within =
+                command_.within ? std::optional(length_of(*command_.within, record_.size.diagonal)) : std::nullopt;
             if (command_.attach)
                 motion.attachment = attachment_of(*command_.attach, record_.size.diagonal);
             if (motion.attachment > 0.0)

@@ -122,8 +122,14 @@ void require_valid_constraints(const FlowOptions& options)
     if (options.motion.weld)
         require(*options.motion.weld >= 0.0 && std::isfinite(*options.motion.weld), "weld", *options.motion.weld,
                 "at least 0 and finite (a length; empty: never)");
-    if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
-        throw OptionError("rescale is for results whose sub-meshes are joined; keep_gaps leaves them separate");
+    if (options.motion.within)
+        require(*options.motion.within > 0.0 && std::isfinite(*options.motion.within), "within", *options.motion.within,
+                "above 0 and finite (a length; empty: no bound)");
+    if (options.report.keep_gaps &&
+        (options.motion.rescale != Rescale::None || options.motion.within || options.motion.limits.exist()))
+        throw OptionError(
+            "rescale, within and limits are for results whose sub-meshes are joined; keep_gaps leaves them "
+            "separate");
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave rescale "
                           "out; Filter::LowPass, with which what is large hardly shrinks, lets them stay");

@@ -202,7 +202,8 @@ struct LengthOnMesh {
 };
 
 /// What each connected component of a mesh may lose; one that would lose more has its displacement, and so its loss,
-/// scaled down, to nothing where less than a tenth of it would be left. For flows that choose their amount by themselves.
+/// scaled down, to nothing where less than a tenth of it would be left. For flows that choose their amount by
+/// themselves.
 struct ComponentLimits {
     /// Of the volume that it encloses, in parts of it; of closed components whose faces are oriented alike.
     double volume = std::numeric_limits<double>::infinity();
@@ -238,7 +239,11 @@ struct MotionOptions {
     /// unscaled, too; the conformalized flow goes on from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex that has faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
-    /// Of each result: the flow itself goes on as it is. Not in distributed flows.
+    /// How far any vertex may end from where it was at first, above 0, in units of length: of each result, as the
+    /// flow itself goes on as it is. Those that would go further are held at that distance, and the others give way
+    /// smoothly (see DisplacementBound). Empty: they go as far as they do.
+    std::optional<double> within = {};
+    /// Of each result, as `within`. Not in distributed flows.
     ComponentLimits limits = {};
 };
 

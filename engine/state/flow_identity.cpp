@@ -91,7 +91,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [weld, boundary, fixed_vertices, strict, attachment, attachment_weights, rescale, limits] = motion;
+    const auto& [weld, boundary, fixed_vertices, strict, attachment, attachment_weights, rescale, within, limits] =
+        motion;
     const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
     // These do not change results, or (steps) only where they end; a radius has become a time step.
@@ -132,6 +133,7 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"attachment", text_of(attachment)},
         {"attachment_weights", text_of(attachment_weights)},
         {"rescale", text_of(rescale)},
+        {"within", within ? text_of(*within) : ""},
         {"limit of volume", text_of(limits.volume)},
         {"limit of move", text_of(limits.move)},
         {"correction", text_of(correction)},

@@ -23,8 +23,8 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& 
         return;
     run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
     if (run.remark_on_amount.empty())
-        command.chosen +=
-            fmt::format("--time-step-edges {:.3g}", command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+        command.chosen += fmt::format("--time-step-edges {:.3g}",
+                                      command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
     else
         command.chosen = "nothing is smoothed";
 }
@@ -49,6 +49,7 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop&
     run.scale = measure_scale(mesh, loop);
     MotionOptions& motion = command.options.motion;
     motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
+    motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
     if (command.attach)
         motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
     if (command.chooses_amount)

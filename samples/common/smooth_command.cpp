@@ -133,6 +133,10 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--attach-property", command.attach_property, "the name of that property [weight]")
         ->needs(weights)
         ->type_name("NAME");
+    add_length(
+        app, "--within", command.within,
+        "no vertex ends further than this from where it was: those that would are held there, and the others give "
+        "way smoothly; in units of length, or in % of the bounding box's diagonal");
     add_weld(app, command);
     app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or have edges or faces of size 0 where the Laplacian divides, "

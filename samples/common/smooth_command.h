@@ -29,6 +29,8 @@ struct SmoothCommand {
     /// Whether the preset says how much, and the noise that it is to go by, if that is known.
     bool chooses_amount = false;
     std::optional<LengthOnMesh> noise;
+    /// How far any vertex may end from where it was.
+    std::optional<LengthOnMesh> within;
     /// Options that a preset has chosen, as they would be typed, without the amount: "--steps 3". Empty: there is none.
     std::string chosen;
     /// The name of that preset.

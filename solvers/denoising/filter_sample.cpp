@@ -39,19 +39,6 @@ std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Top
     return rings;
 }
 
-/// Sorted.
-std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v)
-{
-    std::vector<Index> neighbours;
-    for (const Index corner : topology.corners_at(v)) {
-        neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
-        neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
-    }
-    sort_unique(neighbours);
-    std::erase(neighbours, v);
-    return neighbours;
-}
-
 }  // namespace
 
 FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)

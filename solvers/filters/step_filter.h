@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "partition/loop.h"
-#include "solvers/laplacian/geometry.h"
+#include "partition/polygon_mesh.h"
 
 namespace seamflow {
 

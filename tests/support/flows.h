@@ -10,9 +10,9 @@
 namespace seamflow::test {
 
 inline constexpr std::array all_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement,
-                                           Laplacian::PtackovaVelho};
+                                           Laplacian::PtackovaVelho, Laplacian::Uniform};
 inline constexpr std::array symmetric_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky,
-                                                 Laplacian::VirtualRefinement};
+                                                 Laplacian::VirtualRefinement, Laplacian::Uniform};
 
 /// The positions after a flow.
 inline Points flowed(PolygonMesh mesh, const FlowOptions& options)

@@ -14,18 +14,6 @@ using namespace seamflow;
 
 namespace {
 
-/// By their edges, ascending.
-std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v)
-{
-    std::vector<Index> neighbours;
-    for (const Index corner : topology.corners_at(v)) {
-        neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
-        neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
-    }
-    sort_unique(neighbours);
-    return neighbours;
-}
-
 /// Whether the neighbours of all that have some in the sample are those of the mesh.
 bool has_all_neighbours(const FilterSample& sample, const PolygonMesh& mesh, const Topology& topology)
 {
