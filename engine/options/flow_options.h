@@ -294,7 +294,7 @@ struct FlowOptions {
     Laplacian laplacian = Laplacian::Fujiwara;
     /// Whether the Laplacian's K follows the surface.
     FlowEquation flow = FlowEquation::MeanCurvature;
-    /// A filter other than Diffusion of order 1 takes several solutions a step, with one factorisation: 6 and 11 for
+    /// A filter other than Diffusion of order 1 takes several solutions a step, with one factorisation: 8 and 11 for
     /// Diffusion of order 2 and 3, to a hundredth, m for LowPass of order m. For symmetric Laplacians and backward
     /// Euler steps, taken in any way; sweeps take it with predicted transmission alone, and keep all factors.
     Filter filter = Filter::Diffusion;

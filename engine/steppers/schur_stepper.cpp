@@ -375,8 +375,9 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
     return true;
 }
 
-/// Whether Γ moves no more than rounding of positions would: what is left of such residuals says nothing.
-bool SchurStepper::is_at_rest(const Loop& loop) const
+/// Of each coordinate, whether Γ moves no more along it than rounding of positions would: what is left of such
+/// residuals says nothing.
+std::array<bool, 3> SchurStepper::at_rest(const Loop& loop) const
 {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
     std::vector<double> farthest(parts_.size(), 0.0);
@@ -387,10 +388,15 @@ bool SchurStepper::is_at_rest(const Loop& loop) const
     });
     // Without Γ nothing is known.
     constexpr double unknown = -1.0;
-    const double moved = interface_.update.size() > 0 ? interface_.update.cwiseAbs().maxCoeff() : unknown;
+    Point moved = Point::Constant(unknown);
+    if (interface_.update.size() > 0)
+        moved = interface_.update.cwiseAbs().colwise().maxCoeff();
     const double position = parts_.empty() ? 0.0 : std::ranges::max(farthest);
-    const std::vector<double> of_all = peers_->largest({moved, position});
-    return of_all[0] != unknown && of_all[0] <= rounding * of_all[1];
+    const std::vector<double> of_all = peers_->largest({moved[0], moved[1], moved[2], position});
+    std::array<bool, 3> rests{};
+    for (std::size_t c = 0; c < 3; ++c)
+        rests[c] = of_all[c] != unknown && of_all[c] <= rounding * of_all[3];
+    return rests;
 }
 
 /// @returns stagnation also where refinement of the interiors stagnates.
@@ -402,10 +408,17 @@ InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, cons
         interface_.complements, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, loop); },
         interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, loop);
-    if (is_at_rest(loop)) {
-        result.residual = std::min(result.residual, stop.tolerance);
-        result.stagnated = false;
-    } else if (has_single() && !refine_interiors(stop.tolerance, first, loop)) {
+    const std::array<bool, 3> rests = at_rest(loop);
+    if (std::ranges::find(rests, true) != rests.end()) {
+        double moving = 0.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!rests[c])
+                moving = std::max(moving, result.residuals[static_cast<Eigen::Index>(c)]);
+        result.residual = std::min(result.residual, std::max(moving, stop.tolerance));
+        result.stagnated &= moving > stop.tolerance;
+    }
+    if (std::ranges::find(rests, false) != rests.end() && has_single() &&
+        !refine_interiors(stop.tolerance, first, loop)) {
         result.residual = std::max(result.residual, largest_ratio(interior_residual(), first));
         result.stagnated = true;
     }

@@ -111,7 +111,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
                "large hardly shrinks [diffusion]");
     add_integer(app, "--order", options.order, 1,
                 "k of the filter diffusion, 1 to 3, or m of low-pass, 2 to 8: the higher, the less is taken of what is "
-                "large; takes 6 solutions a step for k = 2, 11 for k = 3, m for m [1, low-pass 2]");
+                "large; takes 8 solutions a step for k = 2, 11 for k = 3, m for m [1, low-pass 2]");
     add_amount(app, command.amount);
     add_choice(app, "--boundary", options.motion.boundary,
                "whether the rims of an open surface stay where they are or draw in freely [fixed]");

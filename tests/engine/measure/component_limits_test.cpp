@@ -43,7 +43,7 @@ TEST_CASE("a component that would lose too much is given less, along straight li
     const Topology topology = make_topology(mesh);
     const double edge = mean_edge_length(mesh, mesh.vertices);
     FlowOptions options;
-    options.time_step = edge * edge;
+    options.time_step = 0.1 * edge * edge;
     const Points free = flowed(mesh, options);
     LimitedComponents limited(mesh, topology, {.volume = 0.02});
     Points positions = free;
@@ -58,7 +58,8 @@ TEST_CASE("a component that would lose too much is given less, along straight li
     const Points asked = free.bottomRows(n) - mesh.vertices.bottomRows(n);
     const double factor = given.norm() / asked.norm();
     CHECK(factor > 0.1);
-    CHECK((given - factor * asked).norm() < 1e-12 * asked.norm());
+    // The second component is far from the origin.
+    CHECK((given - factor * asked).norm() < 1e-8 * asked.norm());
     CHECK(limited.remark().find("1 ") != std::string::npos);
 
     options.motion.limits = {.volume = 0.02};

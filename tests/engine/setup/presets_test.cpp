@@ -153,7 +153,13 @@ TEST_CASE("a preset does the same to a mesh that is larger, further away, renumb
     PolygonMesh away = c.noisy;
     away.vertices.rowwise() += Point(100.0, -20.0, 3.0);
     CHECK(std::abs(amount(away) / own - 1.0) < 1e-3);
-    CHECK(std::abs(amount(side_by_side({c.noisy, c.noisy})) / own - 1.0) < 0.15);
+    // Twice as many vertices say a little more of the noise.
+    const Points both = smoothed(side_by_side({c.noisy, c.noisy}), Preset::Scan).vertices;
+    PolygonMesh first = c.noisy;
+    first.vertices = both.topRows(c.noisy.n_vertices());
+    const Point offset = first.vertices.colwise().mean() - result.vertices.colwise().mean();
+    first.vertices.rowwise() -= offset;
+    CHECK(std::abs(distance(c.truth, first.vertices) / distance(c.truth, result.vertices) - 1.0) < 0.1);
 }
 
 TEST_CASE("the amount is that of the radius, whatever filter and operator the options have")
@@ -189,7 +195,8 @@ TEST_CASE("presets have names, and all of them work on a scan, on any number of 
         FlowOptions one = choice.options;
         one.resources.threads = 1;
         CHECK(same_bits(flowed(c.noisy, choice.options), flowed(c.noisy, one)));
-        CHECK(distance(c.truth, flowed(c.noisy, choice.options)) < distance(c.truth, c.noisy.vertices));
+        if (preset.measures_noise())
+            CHECK(distance(c.truth, flowed(c.noisy, choice.options)) < distance(c.truth, c.noisy.vertices));
     }
     PolygonMesh point = c.noisy;
     point.vertices.setZero();

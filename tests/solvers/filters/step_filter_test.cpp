@@ -85,10 +85,10 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("a better tolerance takes more solutions, a hundredth six and eleven")
+TEST_CASE("a better tolerance takes more solutions, a hundredth eight and eleven")
 {
     CHECK(n_solutions({Filter::Diffusion, 1}) == 1);
-    CHECK(n_solutions({Filter::Diffusion, 2}) == 6);
+    CHECK(n_solutions({Filter::Diffusion, 2}) == 8);
     CHECK(n_solutions({Filter::Diffusion, 3}) == 11);
     CHECK(n_solutions({Filter::LowPass, 5}) == 5);
     CHECK(n_solutions({Filter::Diffusion, 3, 1e-6}) > n_solutions({Filter::Diffusion, 3, 1e-3}));
