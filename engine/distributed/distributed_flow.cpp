@@ -225,8 +225,11 @@ class RankFlow {
         make_result(mesh);
         if (meter_) {
             report.measures = meter_->measure(before, result_);
-            if (of_step.estimated_v_max && report.measures->mean_edge > 0.0)
-                report.estimated_v_max = *of_step.estimated_v_max / report.measures->mean_edge;
+            // In those of the flow.
+            const Points& flowing = mesh.part.mesh.vertices;
+            const double edge = bound_ ? meter_->measure(flowing, flowing).mean_edge : report.measures->mean_edge;
+            if (of_step.estimated_v_max && edge > 0.0)
+                report.estimated_v_max = *of_step.estimated_v_max / edge;
         }
         return report;
     }
