@@ -17,7 +17,14 @@ constexpr int diffusion_rounds = 2;
 /// Chords longer than so many σ stop diffusion.
 constexpr double sigmas_at_edges = 3.0;
 /// σ, and the width of what guides are means of, in chords of noise.
-constexpr double sigma_by_noise = 5.0;
+constexpr double sigma_by_noise = 6.0;
+constexpr double width_by_noise = 7.0;
+/// More noise than that makes means of whole patches better guides than those of alike normals, where the patch
+/// disagrees by no more than so many times the square of the noise.
+constexpr double much_noise = 0.06;
+constexpr double most_disagreement = 2.0;
+/// The mean around another face is a better guide only where normals disagree so many times less.
+constexpr double clearly_less = 0.5;
 /// Chords below are rounding.
 constexpr double least_sigma = 1e-6;
 /// Of the residual of a round, relative to that at its beginning; and most iterations.
@@ -52,6 +59,8 @@ NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const Topology& topolo
     , reach_(areas_.size())
     , scale_(areas_.size())
     , guides_(mesh.n_faces(), 3)
+    , means_(mesh.n_faces(), 3)
+    , disagreement_(areas_.size())
     , weights_(neighbours_.faces.size())
     , diagonal_(areas_.size())
     , residual_(mesh.n_faces(), 3)
@@ -73,10 +82,11 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
         normalise_row(normals, f);
     });
     noise_ = measure_noise(normals, edge_chord, loop);
-    const double width = std::max(sigma_by_noise * noise_, least_sigma);
-    const double longest = sigmas_at_edges * std::min(width, edge_chord / sigmas_at_edges);
+    const double longest = std::min(sigmas_at_edges * std::max(sigma_by_noise * noise_, least_sigma), edge_chord);
     for (int round = 0; round < diffusion_rounds; ++round) {
-        find_guides(normals, width, loop);
+        find_guides(normals, loop);
+        if (noise_ > much_noise)
+            find_patches(normals, loop);
         find_weights(longest, loop);
         diffuse(normals, loop);
         for_each(loop, n, [&](Index f) { normalise_row(normals, f); });
@@ -111,17 +121,25 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const L
     });
 }
 
-/// The median of the chords between each face and the neighbour across an edge that it is most alike. Those of sharper
-/// edges do not count.
+/// The median of the chords between each face and the neighbour across an edge that it is most alike, or the mean of
+/// these, which round parts are more alike. Those of sharper edges do not count.
 double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Loop& loop) const
 {
     const Index n = mesh_->n_faces();
     std::vector<double> chords(at(n));
     for_each(loop, n, [&](Index f) {
         chords[f] = std::numeric_limits<double>::infinity();
-        for (Index h = mesh_->face_offsets[f]; h < mesh_->face_offsets[f + 1]; ++h)
-            if (across_[h] >= 0)
-                chords[f] = std::min(chords[f], (normals.row(f) - normals.row(across_[h])).norm());
+        Point mean = Point::Zero();
+        for (Index h = mesh_->face_offsets[f]; h < mesh_->face_offsets[f + 1]; ++h) {
+            if (across_[h] < 0)
+                continue;
+            const double chord = (normals.row(f) - normals.row(across_[h])).norm();
+            chords[f] = std::min(chords[f], chord);
+            if (chord < edge_chord)
+                mean += normals.row(across_[h]);
+        }
+        if (const double length = mean.norm(); length > 0.0)
+            chords[f] = std::min(chords[f], (normals.row(f) - mean / length).norm());
     });
     std::erase_if(chords, [&](double chord) { return !(chord < edge_chord); });
     if (chords.empty())
@@ -131,8 +149,9 @@ double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, 
     return *middle;
 }
 
-void NormalDiffusion::find_guides(const Points& normals, double width, const Loop& loop)
+void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
 {
+    const double width = std::max(width_by_noise * noise_, least_sigma);
     for_each(loop, mesh_->n_faces(), [&](Index f) {
         Point total = areas_[f] * normals.row(f);
         for (const Index g : neighbours_[f]) {
@@ -141,6 +160,35 @@ void NormalDiffusion::find_guides(const Points& normals, double width, const Loo
         }
         guides_.row(f) = total;
         normalise_row(guides_, f);
+    });
+}
+
+/// Takes the mean normal of a face and its neighbours, around the face or one of its neighbours, where that is of one
+/// side of edges.
+void NormalDiffusion::find_patches(const Points& normals, const Loop& loop)
+{
+    const Index n = mesh_->n_faces();
+    for_each(loop, n, [&](Index f) {
+        Point total = areas_[f] * normals.row(f);
+        double weight = areas_[f];
+        for (const Index g : neighbours_[f]) {
+            total += areas_[g] * normals.row(g);
+            weight += areas_[g];
+        }
+        disagreement_[f] = weight > 0.0 ? 1.0 - total.norm() / weight : 1.0;
+        means_.row(f) = total;
+        normalise_row(means_, f);
+    });
+    for_each(loop, n, [&](Index f) {
+        Index patch = f;
+        double least = clearly_less * disagreement_[f];
+        for (const Index g : neighbours_[f])
+            if (disagreement_[g] < least) {
+                least = disagreement_[g];
+                patch = g;
+            }
+        if (disagreement_[patch] < most_disagreement * noise_ * noise_)
+            guides_.row(f) = means_.row(patch);
     });
 }
 

@@ -19,11 +19,12 @@ namespace seamflow {
 /// that τ is in length². The factor at the end, Tukey's diffusivity (Black et al., Robust anisotropic diffusion, 1998),
 /// stops it at edges. It takes chords of guides g, which noise moves less than the normals (Zhang et al., Guided mesh
 /// normal filtering, 2015): g_i is the mean normal of the face and its neighbours, those counting less that differ from
-/// it by more than noise does. σ is five times the noise, and at most a third of the chord of the angle that counts as
-/// an edge: sharper edges stop all, and where there is no noise, planar faces alone have weights. The noise is
-/// measured: the median chord between a face and the one across an edge that it is most alike. The system is symmetric
-/// and positive definite; conjugate gradients take all three columns together, so that results turn with the surface.
-/// Bits do not depend on how loops are run.
+/// it by more than noise does; where there is much noise, that of the face and all its neighbours, around i or a
+/// neighbour of i, which agrees best, if it agrees as far as noise lets it. σ is six times the noise, and at most a
+/// third of the chord of the angle that counts as an edge: sharper edges stop all, and where there is no noise, planar
+/// faces alone have weights. The noise is measured: the median chord between a face and the one across an edge that it
+/// is most alike, or the mean of these. The system is symmetric and positive definite; conjugate gradients take all
+/// three columns together, so that results turn with the surface. Bits do not depend on how loops are run.
 class NormalDiffusion {
   public:
     /// @param mesh must outlive this; its vertices are not looked at. @param topology with twins; not needed
@@ -42,7 +43,8 @@ class NormalDiffusion {
   private:
     void measure(const Points& positions, double time_step, const Loop& loop);
     [[nodiscard]] double measure_noise(const Points& normals, double edge_chord, const Loop& loop) const;
-    void find_guides(const Points& normals, double width, const Loop& loop);
+    void find_guides(const Points& normals, const Loop& loop);
+    void find_patches(const Points& normals, const Loop& loop);
     void find_weights(double longest, const Loop& loop);
     void diffuse(Points& normals, const Loop& loop);
 
@@ -58,8 +60,11 @@ class NormalDiffusion {
     /// #F: r_i, in length, and 2 √(τ a_i / m_i) with the area in mean face areas.
     std::vector<double> reach_;
     std::vector<double> scale_;
-    /// #F by 3.
+    /// #F by 3: guides; and the mean normals of each face and its neighbours, and how little these agree: 0 where all
+    /// are the same, 1 where they cancel out.
     Points guides_;
+    Points means_;
+    std::vector<double> disagreement_;
     double noise_ = 0.0;
     /// τ w_ij as in neighbours_, and their sums for each face.
     std::vector<float> weights_;
