@@ -14,7 +14,7 @@ namespace {
 
 /// Normals are smoothed and vertices moved so often, each time by a part of the step (measured: see
 /// engine/accuracy.md).
-constexpr int passes = 6;
+constexpr int passes = 3;
 /// Steps of so many face areas move vertices half as far as they would.
 constexpr double short_step = 0.01;
 

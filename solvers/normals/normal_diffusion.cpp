@@ -13,16 +13,16 @@ namespace seamflow {
 namespace {
 
 /// The weights follow the normals so often (measured, as what follows: see engine/accuracy.md).
-constexpr int diffusion_rounds = 2;
+constexpr int diffusion_rounds = 4;
 /// Chords longer than so many σ stop diffusion.
 constexpr double sigmas_at_edges = 3.0;
 /// σ, and the width of what guides are means of, in chords of noise.
-constexpr double sigma_by_noise = 6.0;
+constexpr double sigma_by_noise = 8.0;
 constexpr double width_by_noise = 7.0;
 /// More noise than that makes means of whole patches better guides than those of alike normals, where the patch
 /// disagrees by no more than so many times the square of the noise.
-constexpr double much_noise = 0.06;
-constexpr double most_disagreement = 2.0;
+constexpr double much_noise = 0.03;
+constexpr double most_disagreement = 8.0;
 /// The mean around another face is a better guide only where normals disagree so many times less.
 constexpr double clearly_less = 0.5;
 /// Chords below are rounding.
@@ -87,7 +87,7 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
         find_guides(normals, loop);
         if (noise_ > much_noise)
             find_patches(normals, loop);
-        find_weights(longest, loop);
+        find_weights(normals, longest, loop);
         diffuse(normals, loop);
         for_each(loop, n, [&](Index f) { normalise_row(normals, f); });
     }
@@ -192,14 +192,15 @@ void NormalDiffusion::find_patches(const Points& normals, const Loop& loop)
     });
 }
 
-void NormalDiffusion::find_weights(double longest, const Loop& loop)
+void NormalDiffusion::find_weights(const Points& normals, double longest, const Loop& loop)
 {
     for_each(loop, mesh_->n_faces(), [&](Index f) {
         double total = 0.0;
         for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
             const Index g = neighbours_.faces[k];
-            const double chord = (guides_.row(f) - guides_.row(g)).norm() / longest;
-            const double diffusivity = std::max(1.0 - chord * chord, 0.0);
+            const double chords = std::sqrt((normals.row(f) - normals.row(g)).squaredNorm() *
+                                            (guides_.row(f) - guides_.row(g)).squaredNorm());
+            const double diffusivity = std::max(1.0 - chords / (longest * longest), 0.0);
             const double squared = (centroids_.row(f) - centroids_.row(g)).squaredNorm();
             const double scale = scale_[f] * scale_[g];
             const double weight =
