@@ -25,6 +25,7 @@ set(SEAMFLOW_HEADERS
     engine/options/flow_options.h
     engine/options/flow_report.h
     engine/options/schedule.h
+    engine/setup/presets.h
     engine/setup/smoothed_radius.h
     engine/state/checkpoint.h
     engine/state/flow_identity.h
@@ -50,6 +51,7 @@ set(SEAMFLOW_HEADERS
     partition/version.h
     solvers/conditions/robin_parameter.h
     solvers/direct/factorisation.h
+    solvers/filters/step_filter.h
     solvers/laplacian/laplacian.h)
 
 function(seamflow_copy_headers)

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/measure/component_limits.h"
+#include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
@@ -142,7 +144,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
     Stopwatch watch;
     if (prepared_->curvature.empty() && options().report.measures)
         curvature_before_ =
-            measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, options().laplacian);
+            measure_largest_curvature(mesh.mesh(), prepared_->topology, mesh.mesh().vertices, laplacian_of(options()));
     describe(*prepared_, mesh, report);
     progress.enter(FlowPhase::Analyse, 0, 0.6 * setup, options().report.reference ? 0.8 * setup : setup);
     stepper_ =
@@ -159,7 +161,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 }
 
 /// Brings everything to where it was after a step.
-void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
+void FlowRun::restore(const FlowState& state, const std::function<void(Points& positions)>& make_result)
 {
     if (state.cut != checksum_of(report_.cut.labels))
         throw InputError("the state to go on from belongs to another cut of the same mesh: another version of the "
@@ -173,8 +175,7 @@ void FlowRun::restore(const FlowState& state, const Rescaling& rescaling)
     if (reference_)
         reference_->restore(*state.reference);
     Points positions = stepper_->positions();
-    if (!goes_on_scaled(options()))
-        rescaling.apply(positions);
+    make_result(positions);
     mesh_.move_to(positions);
     if (prepared_->meter)
         prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
@@ -247,20 +248,36 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     const double extent = extent_of(mesh.vertices);
     const UpdateLimit limit(mesh, options().accuracy.largest_update);
     const Rescaling rescaling(mesh, prepared_->topology, options().motion.rescale);
+    std::optional<LimitedComponents> limited;
+    if (options().motion.limits.exist())
+        limited.emplace(mesh, prepared_->topology, options().motion.limits);
+    std::optional<DisplacementBound> bound;
+    if (options().motion.within)
+        bound.emplace(mesh, prepared_->topology, *options().motion.within);
     // Mean curvature is measured across edges, but for that of Δ_P.
     if (traits_of(options().laplacian).reach != Reach::TwoRings)
         prepared_->topology.twin = std::vector<Index>();
+    const bool is_scaled = goes_on_scaled(options());
+    const bool is_scaled_apart = options().motion.rescale != Rescale::None && !is_scaled;
+    // The flow goes on from its own positions, whatever is made of them.
+    const bool is_result_apart = is_scaled_apart || bound || limited;
+    const auto make_result = [&](Points& positions) {
+        if (is_scaled_apart)
+            rescaling.apply(positions);
+        if (bound)
+            bound->apply(positions);
+        if (limited)
+            limited->apply(positions);
+    };
     if (resume != nullptr)
-        restore(*resume, rescaling);
+        restore(*resume, make_result);
     const auto first = static_cast<int>(report_.steps.size()) + 1;
     if (!report_.steps.empty())
         curvature_before_ = report_.steps.back().max_mean_curvature_after;
     StepFractions fractions(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
-    const bool is_scaled = goes_on_scaled(options());
-    const bool is_scaled_apart = options().motion.rescale != Rescale::None && !is_scaled;
-    Points unscaled = is_scaled_apart ? stepper_->positions() : Points();
-    const Points& before = is_scaled_apart ? unscaled : mesh.vertices;
-    Points rescaled;
+    Points of_flow = is_result_apart ? stepper_->positions() : Points();
+    const Points& before = is_result_apart ? of_flow : mesh.vertices;
+    Points result;
     Points undecomposed;
     for (int step = first; step <= options().steps; ++step) {
         const std::string name = "step " + std::to_string(step);
@@ -274,26 +291,25 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named(name, [&] {
             limit.require(before, stepper_->positions(), report_.cut.labels);
-            if (is_scaled_apart) {
-                unscaled = rescaled = stepper_->positions();
-                rescaling.apply(rescaled);
-            } else if (is_scaled) {
+            if (is_scaled)
                 rescale(*stepper_, rescaling);
+            if (is_result_apart) {
+                of_flow = result = stepper_->positions();
+                make_result(result);
             }
         });
-        const Points& after = is_scaled_apart ? rescaled : stepper_->positions();
+        const Points& after = is_result_apart ? result : stepper_->positions();
         if (prepared_->meter) {
             of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
             of_step.max_mean_curvature_before = curvature_before_;
             of_step.max_mean_curvature_after = curvature_before_ =
-                measure_largest_curvature(mesh, prepared_->topology, after, options().laplacian);
+                measure_largest_curvature(mesh, prepared_->topology, after, laplacian_of(options()));
         }
         const double measuring = watch.lap();
         if (reference_) {
             compare_with_reference(step, rescaling, fractions, of_step);
             undecomposed = reference_->positions();
-            if (is_scaled_apart)
-                named(name + " of the undecomposed flow", [&] { rescaling.apply(undecomposed); });
+            named(name + " of the undecomposed flow", [&] { make_result(undecomposed); });
         }
         fractions.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
@@ -305,6 +321,8 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         if (on_step)
             tell(on_step, step, of_step, reference_ ? &undecomposed : nullptr, resume);
     }
+    if (limited && !limited->remark().empty())
+        report_.remarks.push_back(limited->remark());
     finish(extent, resume);
 }
 

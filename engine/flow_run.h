@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "engine/measure/rescaling.h"
@@ -31,7 +32,7 @@ class FlowRun {
     class StepFractions;
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
-    void restore(const FlowState& state, const Rescaling& rescaling);
+    void restore(const FlowState& state, const std::function<void(Points& positions)>& make_result);
     [[nodiscard]] FlowState capture(const FlowState* resume) const;
     void compare_with_reference(int step, const Rescaling& rescaling, const StepFractions& fractions,
                                 StepReport& of_step);

@@ -46,6 +46,7 @@ FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& asked, cons
     FlowOptions options = asked;
     options.time_step = time_step_of(asked, mesh);
     options.radius.reset();
+    options.uniform_edge = uniform_edge_of(asked, mesh);
     const FlowState* const resume = control.resume.get();
     if (resume != nullptr)
         require_ahead(options, *resume);

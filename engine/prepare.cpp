@@ -84,7 +84,7 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
         const bool is_ordering = options.accuracy.approach == Approach::Sweep;
         const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
         if (is_ordering || is_beside_cut)
-            prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, options.laplacian);
+            prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, laplacian_of(options));
         if (options.report.measures)
             prepared.meter.emplace(mesh, prepared.topology);
     };

@@ -194,6 +194,18 @@ void free_boundary(Topology& topology)
             topology.fixed[v] = 0;
 }
 
+std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v)
+{
+    std::vector<Index> neighbours;
+    for (const Index corner : topology.corners_at(v)) {
+        neighbours.push_back(mesh.face_vertices[topology.next(mesh, corner)]);
+        neighbours.push_back(mesh.face_vertices[topology.previous(mesh, corner)]);
+    }
+    sort_unique(neighbours);
+    std::erase(neighbours, v);
+    return neighbours;
+}
+
 void hold(Topology& topology, std::span<const Index> vertices)
 {
     const auto n_vertices = static_cast<Index>(topology.fixed.size());

@@ -111,6 +111,9 @@ inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Ind
 /// Lets the vertices of kind Boundary move.
 void free_boundary(Topology& topology);
 
+/// The vertices that share an edge with v, ascending.
+std::vector<Index> neighbours_of(const PolygonMesh& mesh, const Topology& topology, Index v);
+
 /// Holds these vertices where they are, whatever their kind.
 /// @param vertices in any order, repetitions are allowed.
 /// @throws InputError naming the first number that is none of a vertex.

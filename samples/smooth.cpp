@@ -204,6 +204,8 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         throw;
     }
     long_run.end();
+    if (!run.remark_on_amount.empty())
+        report.remarks.insert(report.remarks.begin(), run.remark_on_amount);
     // A run that goes on from its last step has nothing to observe.
     if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
         page->add_step(command.options.steps, file.mesh.vertices, nullptr);

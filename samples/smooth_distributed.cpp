@@ -22,6 +22,7 @@
 #include "engine/distributed/rank_checkpoint.h"
 #include "engine/distributed/ranks/mpi_communicator.h"
 #include "engine/distributed/ranks/packing.h"
+#include "engine/setup/presets.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
@@ -143,13 +144,19 @@ class RankRun {
         record_.run.scale = {record_.size.mean_edge, record_.size.diagonal};
         about_file(command_.input, [&] {
             MotionOptions& motion = command_.options.motion;
-            motion.weld = command_.weld ? std::optional(length_of(*command_.weld, record_.run.scale)) : std::nullopt;
+            motion.weld =
+                command_.weld ? std::optional(length_of(*command_.weld, record_.size.diagonal)) : std::nullopt;
+            motion.within =
+                command_.within ? std::optional(length_of(*command_.within, record_.size.diagonal)) : std::nullopt;
             if (command_.attach)
-                motion.attachment = attachment_of(*command_.attach, record_.run.scale);
+                motion.attachment = attachment_of(*command_.attach, record_.size.diagonal);
             if (motion.attachment > 0.0)
                 record_.run.attachment = motion.attachment;
             record_.run.has_attachment_weights = !command_.attach_weights.empty();
-            command_.options.time_step = time_step_of(command_.amount, record_.run.scale, command_.options.steps);
+            if (command_.options.laplacian == Laplacian::Uniform && std::isnormal(record_.size.mean_edge))
+                command_.options.uniform_edge = record_.size.mean_edge;
+            command_.options.time_step =
+                time_step_of(command_.amount, record_.run.scale, command_.options.steps, filter_of(command_.options));
         });
         record_.time_step = command_.options.time_step;
     }

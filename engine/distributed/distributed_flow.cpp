@@ -14,7 +14,8 @@
 #include "engine/distributed/rank_meter.h"
 #include "engine/distributed/rank_setup.h"
 #include "engine/distributed/ranks/conversation.h"
-#include "engine/distributed/ranks/packing.h"
+#include "engine/distributed/rows_of_others.h"
+#include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
@@ -54,13 +55,17 @@ void require_for_ranks(const FlowOptions& options)
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
-    else if (options.motion.rescale != Rescale::None || options.motion.strict)
-        unknown = "rescaled results, nor strict";
+    else if (options.motion.rescale != Rescale::None || options.motion.strict || options.motion.limits.exist())
+        unknown = "rescaled results, limits of components, nor strict";
     else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
              !options.motion.attachment_weights.empty())
         unknown = "options for single faces and vertices: labels, fixed vertices and weights are those of the parts";
     else if (options.report.reference || options.report.record_schedule || options.report.keep_gaps)
         unknown = "an undecomposed flow to compare with, a schedule, nor gaps";
+    if (unknown == nullptr && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
+        throw OptionError(
+            "uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: say what it "
+            "is (measure in engine/distributed/parts/slice_measures.h finds it)");
     if (unknown != nullptr)
         throw OptionError(
             fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));
@@ -143,11 +148,14 @@ class RankFlow {
             meter_.emplace(talk_, mesh);
             report.before = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
         }
+        if (options_.motion.within)
+            bound_.emplace(make_bound(mesh));
         report.setup_seconds = watch.seconds();
+        result_ = mesh.part.mesh.vertices;
         if (resume_ != nullptr)
             go_on(mesh, *stepper);
         if (meter_ && resume_ != nullptr)
-            report.after = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
+            report.after = meter_->measure(result_, result_);
         else
             report.after = report.before;
         for (int step = resume_ != nullptr ? resume_->step + 1 : 1; step <= options_.steps; ++step) {
@@ -157,7 +165,7 @@ class RankFlow {
                 show(step, report.steps.back(), mesh, offset, *stepper);
         }
         describe_convergence(*stepper, report);
-        return positions_of_part(mesh, offset);
+        return positions_of_part(mesh, result_, offset);
     }
 
   private:
@@ -166,12 +174,13 @@ class RankFlow {
     {
         restore_memory(talk_, mesh, *resume_, stepper);
         mesh.part.mesh.vertices = stepper.positions();
+        make_result(mesh);
     }
 
     /// Shows the part as it is now. What it was before the first step comes back, whatever the observer throws.
     void show(int step, const RankStepReport& report, const RankMesh& mesh, const Point& offset, const Stepper& stepper)
     {
-        Points positions = positions_of_part(mesh, offset);
+        Points positions = positions_of_part(mesh, result_, offset);
         part_.mesh.vertices.swap(positions);
         try {
             on_step_({step, report, part_, talk_,
@@ -188,7 +197,8 @@ class RankFlow {
     {
         RankSlice stretch;
         stretch.vertices = vertices;
-        collect_positions(talk_, part_.vertex_numbers, positions_of_part(mesh, Point::Zero()), stretch);
+        collect_positions(talk_, part_.vertex_numbers, positions_of_part(mesh, mesh.part.mesh.vertices, Point::Zero()),
+                          stretch);
         RankFlowState state{.step = step, .vertices = std::move(stretch.vertices)};
         collect_memory(talk_, mesh, stepper, state);
         return state;
@@ -210,13 +220,54 @@ class RankFlow {
                               .bytes = talk_.n_bytes() - bytes,
                               .iterations = of_step.iterations,
                               .residual = of_step.residual};
-        if (meter_) {
-            report.measures = meter_->measure(mesh.part.mesh.vertices, stepper.positions());
-            if (of_step.estimated_v_max && report.measures->mean_edge > 0.0)
-                report.estimated_v_max = *of_step.estimated_v_max / report.measures->mean_edge;
-        }
+        const Points before = meter_ ? result_ : Points();
         mesh.part.mesh.vertices = stepper.positions();
+        make_result(mesh);
+        if (meter_) {
+            report.measures = meter_->measure(before, result_);
+            // In those of the flow.
+            const Points& flowing = mesh.part.mesh.vertices;
+            const double edge = bound_ ? meter_->measure(flowing, flowing).mean_edge : report.measures->mean_edge;
+            if (of_step.estimated_v_max && edge > 0.0)
+                report.estimated_v_max = *of_step.estimated_v_max / edge;
+        }
         return report;
+    }
+
+    /// Makes of the positions of the flow, which goes on from these, those that are its result.
+    void make_result(const RankMesh& mesh)
+    {
+        result_ = mesh.part.mesh.vertices;
+        if (bound_)
+            bound_->apply(result_);
+    }
+
+    /// All ranks call this together.
+    [[nodiscard]] DisplacementBound make_bound(const RankMesh& mesh)
+    {
+        const Index n = mesh.part.mesh.n_vertices();
+        KnownElsewhere elsewhere;
+        elsewhere.is_own.resize(at(n));
+        std::vector<Index> foreign;
+        std::vector<std::int64_t> numbers;
+        for (Index v = 0; v < n; ++v)
+            elsewhere.is_own[v] = mesh.has_own_faces(v) ? 1 : 0;
+        for (Index v = 0; v < n; ++v)
+            if (elsewhere.is_own[v] == 0 && std::ranges::any_of(neighbours_of(mesh.part.mesh, mesh.topology, v),
+                                                                [&](Index w) { return elsewhere.is_own[w] != 0; })) {
+                foreign.push_back(v);
+                numbers.push_back(mesh.part.vertex_numbers[v]);
+            }
+        elsewhere.fetch = [foreign, others = RowsOfOthers(talk_, mesh, numbers)](Points& rows) {
+            const Points fetched = others.fetch(rows);
+            for (std::size_t i = 0; i < foreign.size(); ++i)
+                rows.row(foreign[i]) = fetched.row(static_cast<Index>(i));
+        };
+        elsewhere.any = [&talk = talk_](bool holds) {
+            const auto all = talk.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(holds ? 1 : 0)});
+            return std::ranges::find(all, 1) != all.end();
+        };
+        return {mesh.part.mesh, mesh.topology, *options_.motion.within, std::move(elsewhere)};
     }
 
     void describe(const RankMesh& mesh, const std::vector<Index>& rank_of_all, std::int64_t n_interface_vertices,
@@ -252,7 +303,8 @@ class RankFlow {
     }
 
     /// All ranks call this together.
-    [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Point& offset)
+    /// @param known of the vertices that this rank knows.
+    [[nodiscard]] Points positions_of_part(const RankMesh& mesh, const Points& known, const Point& offset)
     {
         Points positions = part_.mesh.vertices;
         std::vector<std::uint8_t> has_face(part_.vertex_numbers.size(), 0);
@@ -265,15 +317,15 @@ class RankFlow {
                 continue;
             while (found != mesh.part.vertex_numbers.end() && *found < part_.vertex_numbers[v])
                 ++found;
-            const auto known = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
+            const auto row = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
             if (found != mesh.part.vertex_numbers.end() && *found == part_.vertex_numbers[v] &&
-                (mesh.n_repeated == 0 || mesh.has_own_faces(known)))
-                positions.row(v) = mesh.part.mesh.vertices.row(known);
+                (mesh.n_repeated == 0 || mesh.has_own_faces(row)))
+                positions.row(v) = known.row(row);
             else
                 elsewhere.push_back(v);
         }
         if (mesh.n_repeated > 0)
-            ask_for(mesh, elsewhere, positions);
+            ask_for(mesh, known, elsewhere, positions);
         // Not by nothing, which would make 0 of -0.
         if (!offset.isZero(0.0))
             for (Index v = 0; v < part_.mesh.n_vertices(); ++v)
@@ -283,34 +335,15 @@ class RankFlow {
     }
 
     /// Vertices all of whose faces here repeat others: whoever has those knows where they are.
-    void ask_for(const RankMesh& mesh, std::vector<Index> vertices, Points& positions)
+    void ask_for(const RankMesh& mesh, const Points& known, std::vector<Index> vertices, Points& positions)
     {
-        struct Place {
-            std::int64_t vertex;
-            std::array<double, 3> position;
-        };
         sort_unique(vertices);
         std::vector<std::int64_t> numbers;
         for (const Index v : vertices)
             numbers.push_back(part_.vertex_numbers[v]);
-        std::vector<Bytes> answers;
-        for (const Bytes& asked : talk_.gather_to_all(packed(numbers))) {
-            std::vector<Place> places;
-            for (const std::int64_t number : unpacked<std::int64_t>(asked)) {
-                const auto found = std::ranges::lower_bound(mesh.part.vertex_numbers, number);
-                const auto v = static_cast<Index>(found - mesh.part.vertex_numbers.begin());
-                if (found == mesh.part.vertex_numbers.end() || *found != number || !mesh.has_own_faces(v))
-                    continue;
-                const Point position = mesh.part.mesh.vertices.row(v);
-                places.push_back({number, {position[0], position[1], position[2]}});
-            }
-            answers.push_back(packed(places));
-        }
-        for (const Bytes& answer : talk_.exchange(std::move(answers)))
-            for (const auto& [number, position] : unpacked<Place>(answer))
-                positions.row(
-                    vertices[static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) - numbers.begin())]) =
-                    Point(position.data());
+        const Points found = RowsOfOthers(talk_, mesh, numbers).fetch(known);
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            positions.row(vertices[i]) = found.row(static_cast<Index>(i));
     }
 
     Conversation& talk_;
@@ -321,6 +354,9 @@ class RankFlow {
     FlowControl control_;
     Progress progress_;
     std::optional<RankMeter> meter_;
+    std::optional<DisplacementBound> bound_;
+    /// Of the vertices that this rank knows, after the last step.
+    Points result_;
 };
 
 }  // namespace

@@ -245,7 +245,7 @@ std::vector<double> gather_curvatures(Conversation& talk, const RankMesh& mesh, 
     };
     const PolygonMesh& faces = mesh.part.mesh;
     const auto totals =
-        total_curvatures(decomposition, measure_curvature(faces, mesh.topology, faces.vertices, options.laplacian));
+        total_curvatures(decomposition, measure_curvature(faces, mesh.topology, faces.vertices, laplacian_of(options)));
     std::vector<Total> own;
     for (std::size_t s = 0; s < places.size(); ++s)
         if (mesh.is_own[s] != 0)

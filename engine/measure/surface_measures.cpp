@@ -35,8 +35,8 @@ BoundingBox box_of(Index n, Position&& position)
     return box;
 }
 
-double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Points& positions, Laplacian laplacian,
-                    Index v)
+double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
+                    const ScaledLaplacian& laplacian, Index v)
 {
     return topology.moves(v) && topology.kind[v] == VertexKind::Interior
                ? mean_curvature_vector(mesh, topology, positions, laplacian, v).norm()
@@ -67,7 +67,7 @@ double extent_of(const Points& positions)
 }
 
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                      Laplacian laplacian)
+                                      const ScaledLaplacian& laplacian)
 {
     std::vector<double> curvature(mesh.n_vertices());
     for_each(run_in_parallel, mesh.n_vertices(),
@@ -85,7 +85,7 @@ double largest_curvature(const std::vector<double>& curvature)
 }
 
 double measure_largest_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                 Laplacian laplacian)
+                                 const ScaledLaplacian& laplacian)
 {
     std::vector<double> of_block(at(mesh.n_vertices() / block_size) + 1, 0.0);
     for_each_block(run_in_parallel, mesh.n_vertices(), [&](Index block, Index begin, Index end) {

@@ -41,13 +41,13 @@ double extent_of(const Points& positions);
 /// ‖ΔV‖ at every interior vertex that may move, 0 at the others, in 1/length; #V. On a free boundary ΔV is not the mean
 /// curvature. Runs in parallel.
 std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                      Laplacian laplacian);
+                                      const ScaledLaplacian& laplacian);
 
 /// The largest finite one of them.
 double largest_curvature(const std::vector<double>& curvature);
 
 /// The same without a list of them.
 double measure_largest_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                                 Laplacian laplacian);
+                                 const ScaledLaplacian& laplacian);
 
 }  // namespace seamflow

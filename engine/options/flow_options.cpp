@@ -122,8 +122,14 @@ void require_valid_constraints(const FlowOptions& options)
     if (options.motion.weld)
         require(*options.motion.weld >= 0.0 && std::isfinite(*options.motion.weld), "weld", *options.motion.weld,
                 "at least 0 and finite (a length; empty: never)");
-    if (options.motion.rescale != Rescale::None && options.report.keep_gaps)
-        throw OptionError("rescale is for results whose sub-meshes are joined; keep_gaps leaves them separate");
+    if (options.motion.within)
+        require(*options.motion.within > 0.0 && std::isfinite(*options.motion.within), "within", *options.motion.within,
+                "above 0 and finite (a length; empty: no bound)");
+    if (options.report.keep_gaps &&
+        (options.motion.rescale != Rescale::None || options.motion.within || options.motion.limits.exist()))
+        throw OptionError(
+            "rescale, within and limits are for results whose sub-meshes are joined; keep_gaps leaves them "
+            "separate");
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave rescale "
                           "out; Filter::LowPass, with which what is large hardly shrinks, lets them stay");
@@ -152,12 +158,25 @@ std::string further_flow(const FlowOptions& options)
 {
     if (options.flow != FlowEquation::MeanCurvature)
         return fmt::format("flow is {}", option_name(options.flow));
-    return options.filter != Filter::Diffusion ? fmt::format("filter is {}", option_name(options.filter))
-                                               : "vertices are attached";
+    return !filter_of(options).is_plain()
+               ? fmt::format("filter is {}, of order {}", option_name(options.filter), filter_of(options).order)
+               : "vertices are attached";
+}
+
+void require_valid_filter(const FlowOptions& options)
+{
+    const int order = filter_of(options).order;
+    if (options.filter == Filter::Diffusion)
+        require(order >= 1 && order <= 3, "order", order, "1, 2 or 3 with the filter diffusion");
+    else
+        require(order >= 2 && order <= 8, "order", order, "at least 2 and at most 8 with the filter low-pass");
+    require(options.uniform_edge >= 0.0 && std::isfinite(options.uniform_edge), "uniform_edge", options.uniform_edge,
+            "at least 0 and finite (a length; 0: the mean edge length of the mesh)");
 }
 
 void require_valid_flow(const FlowOptions& options)
 {
+    require_valid_filter(options);
     require_valid_attachment(options.motion);
     if (is_plain_flow(options))
         return;
@@ -167,14 +186,13 @@ void require_valid_flow(const FlowOptions& options)
                                       name_of(options.laplacian), names_of_symmetric_laplacians()));
     if (options.scheme == Scheme::ExplicitEuler)
         throw OptionError(asked + ", which is for backward Euler steps: leave out the explicit scheme");
-    const bool is_only_attached = options.flow == FlowEquation::MeanCurvature && options.filter == Filter::Diffusion;
-    if (options.accuracy.approach == Approach::ConjugateGradients && !is_only_attached)
+    if (options.accuracy.approach == Approach::ConjugateGradients && options.flow != FlowEquation::MeanCurvature)
         throw OptionError(asked +
-                          ", but approach is by conjugate gradients, which take mean curvature flow, attached or not, "
-                          "alone: leave the approach automatic");
-    if (options.filter == Filter::LowPass && !predicts(options))
-        throw OptionError("filter is low-pass, which sweeps take with adapted Robin conditions and predicted "
-                          "transmission alone: leave out other conditions, the derivatives, and p");
+                          ", but approach is by conjugate gradients, which take mean curvature flow alone: leave "
+                          "the approach automatic");
+    if (!filter_of(options).is_plain() && !predicts(options))
+        throw OptionError(asked + ", which sweeps take with adapted Robin conditions and predicted transmission alone: "
+                                  "leave out other conditions, the derivatives, and p");
 }
 
 /// Steps that keep edges take the whole mesh.
@@ -222,8 +240,26 @@ bool predicts(const FlowOptions& options)
 
 bool is_plain_flow(const FlowOptions& options)
 {
-    return options.flow == FlowEquation::MeanCurvature && options.filter == Filter::Diffusion &&
-           !attaches(options.motion);
+    return options.flow == FlowEquation::MeanCurvature && filter_of(options).is_plain() && !attaches(options.motion);
+}
+
+ScaledLaplacian laplacian_of(const FlowOptions& options)
+{
+    return {options.laplacian, options.uniform_edge};
+}
+
+StepFilter filter_of(const FlowOptions& options)
+{
+    /// Tolerances that were not asked for are not smaller.
+    constexpr double smallest_by_choice = 1e-4;
+    StepFilter filter{.kind = options.filter,
+                      .order = options.order.value_or(options.filter == Filter::LowPass ? 2 : 1)};
+    constexpr double of_undecomposed = 1e-6;
+    if (options.accuracy.tolerance && *options.accuracy.tolerance < smallest_by_choice)
+        filter.tolerance = std::max(*options.accuracy.tolerance, 1e-12);
+    else if (options.accuracy.approach == Approach::Undecomposed)
+        filter.tolerance = of_undecomposed;
+    return filter;
 }
 
 bool attaches(const MotionOptions& motion)

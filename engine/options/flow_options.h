@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "partition/polygon_mesh.h"
 #include "solvers/conditions/robin_parameter.h"
 #include "solvers/direct/factorisation.h"
+#include "solvers/filters/step_filter.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -54,17 +57,6 @@ enum class FlowEquation {
     /// Non-Singular?, 2012): (M(Vⁿ) + dt K(V⁰)) Vⁿ⁺¹ = M(Vⁿ) Vⁿ. Necks do not pinch; a closed surface
     /// without handles goes to a sphere. K is assembled once. For symmetric Laplacians and backward Euler steps.
     Conformalized,
-};
-
-/// What becomes of the solution of a step.
-enum class Filter {
-    /// Vᵏ⁺¹ = S Vᵏ, S being what a step does to positions. Everything shrinks a little.
-    Diffusion,
-    /// Vᵏ⁺¹ = S Vᵏ + S̃ (Vᵏ - S Vᵏ), with S̃ the same without what pulls back to V⁰, and with 0 where vertices are held:
-    /// of λ, dt times an eigenvalue of Δ, (1 + 2λ) / (1 + λ)² is left instead of 1 / (1 + λ). What is large shrinks to
-    /// second order only. One factorisation, two solutions. For symmetric Laplacians and backward Euler steps; sweeps
-    /// take it with predicted transmission alone, and keep all factors.
-    LowPass,
 };
 
 /// Which η stands in p* = ((k_min² + η)(k_max² + η))^¼ (paper, eq. 26).
@@ -209,6 +201,18 @@ struct LengthOnMesh {
     bool of_diagonal = false;
 };
 
+/// What each connected component of a mesh may lose; one that would lose more has its displacement, and so its loss,
+/// scaled down, to nothing where less than a tenth of it would be left. For flows that choose their amount by
+/// themselves.
+struct ComponentLimits {
+    /// Of the volume that it encloses, in parts of it; of closed components whose faces are oriented alike.
+    double volume = std::numeric_limits<double>::infinity();
+    /// How far vertices may move along the normals, as root mean square over the component, in length.
+    double move = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move); }
+};
+
 /// Which vertices move, and where to.
 struct MotionOptions {
     /// Within which distance, in units of length, vertices on the boundary count as at equal places, where two edges of
@@ -235,6 +239,12 @@ struct MotionOptions {
     /// unscaled, too; the conformalized flow goes on from the scaled result, so that it does not vanish on its way to a
     /// sphere. Every vertex that has faces moves: none of them may be fixed.
     Rescale rescale = Rescale::None;
+    /// How far any vertex may end from where it was at first, above 0, in units of length: of each result, as the
+    /// flow itself goes on as it is. Those that would go further are held at that distance, and the others give way
+    /// smoothly (see DisplacementBound). Empty: they go as far as they do.
+    std::optional<double> within = {};
+    /// Of each result, as `within`. Not in distributed flows.
+    ComponentLimits limits = {};
 };
 
 /// What a flow may use of the machine.
@@ -284,7 +294,12 @@ struct FlowOptions {
     Laplacian laplacian = Laplacian::Fujiwara;
     /// Whether the Laplacian's K follows the surface.
     FlowEquation flow = FlowEquation::MeanCurvature;
+    /// A filter other than Diffusion of order 1 takes several solutions a step, with one factorisation: 8 and 11 for
+    /// Diffusion of order 2 and 3, to a hundredth, m for LowPass of order m. For symmetric Laplacians and backward
+    /// Euler steps, taken in any way; sweeps take it with predicted transmission alone, and keep all factors.
     Filter filter = Filter::Diffusion;
+    /// That of the filter (see Filter). Empty: 1 for Diffusion, 2 for LowPass. Diffusion has 1 to 3, LowPass 2 to 8.
+    std::optional<int> order = {};
     /// dt of one backward Euler step, in length²; √dt is about the distance over which one step smooths. Must be
     /// positive and finite, or 0 where `radius` says how much is smoothed.
     double time_step = 0.0;
@@ -292,6 +307,9 @@ struct FlowOptions {
     /// height or more (see smoothed_radius). Must be positive and finite. FlowReport::time_step is the dt that it
     /// takes.
     std::optional<LengthOnMesh> radius = {};
+    /// With Laplacian::Uniform, its h: the length of edges, in length, that dt and radii are true of. 0: the mean of
+    /// the mesh that is given. Must be finite, and not negative.
+    double uniform_edge = 0.0;
     /// Number of steps, from 0 (which leaves the mesh as it is) to most_steps.
     int steps = 1;
     /// How a step is taken.
@@ -320,9 +338,14 @@ struct FlowOptions {
 /// Whether every sub-mesh keeps a copy of Γ of its own.
 bool is_classical(Conditions conditions);
 
-/// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ. Conjugate
-/// gradients on the whole mesh are for such flows, with an attachment where they are asked for.
+/// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ.
 bool is_plain_flow(const FlowOptions& options);
+
+/// The Laplacian with what it is scaled by.
+ScaledLaplacian laplacian_of(const FlowOptions& options);
+
+/// The filter of each step, as exact as steps are asked to be.
+StepFilter filter_of(const FlowOptions& options);
 
 /// Whether sub-meshes tell each other in a sweep what they would do.
 bool predicts(const FlowOptions& options);

@@ -155,16 +155,17 @@ ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology
         options.scheme == Scheme::ExplicitEuler || options.keep_edges || mesh.n_faces() == 0)
         return in_sub_meshes(tolerance);
     const FlowSize flow{.vertices = size.vertices,
-                        .rows = average_rows(mesh, topology, options.laplacian),
+                        .rows = average_rows(mesh, topology, laplacian_of(options)),
                         .time_step = options.time_step,
-                        .steps = options.steps};
+                        .steps = options.steps,
+                        .solutions = n_solutions(filter_of(options))};
     FlowOptions by_conjugate_gradients = options;
     by_conjugate_gradients.accuracy.approach = Approach::ConjugateGradients;
     const ApproachChoice decomposed = in_sub_meshes(tolerance);
     ApproachChoice choice;
     choice.costs = {predict_cost(Approach::Undecomposed, flow, options.accuracy.tolerance)};
     const double to_reach = choose_tolerance(mesh, size, by_conjugate_gradients).tolerance.value();
-    if (is_plain_flow(options) &&
+    if (options.flow == FlowEquation::MeanCurvature && !attaches(options.motion) &&
         safety_of_prediction * predicted_iterations(flow, to_reach) <= options.accuracy.converge_iterations)
         choice.costs.push_back(predict_cost(Approach::ConjugateGradients, flow, to_reach));
     const SubdomainNeeds& needs = needs_of(options.laplacian, decomposed.tolerance.has_value());

@@ -38,6 +38,9 @@ constexpr PerVertex step_of_undecomposed{0.0, 55.0};
 constexpr double reference_vertices = 10'000.0;
 constexpr double growth_of_factors = 0.35;
 
+/// What a further solution with the same factor costs, in parts of a step.
+constexpr double part_of_solution = 0.3;
+
 /// Iterations have been seen to grow a little more slowly than with the root of the condition number, which bounds them
 /// where the diagonal preconditions.
 constexpr double iterations_of_one = 0.315;
@@ -56,23 +59,26 @@ double predicted_iterations(const FlowSize& size, double tolerance)
 PredictedCost predict_cost(Approach approach, const FlowSize& size, std::optional<double> tolerance)
 {
     PredictedCost cost{.approach = approach, .tolerance = tolerance};
+    const double further_solutions = 1.0 + part_of_solution * (size.solutions - 1);
     const double reduction = tolerance ? -std::log(*tolerance) : 0.0;
     switch (approach) {
     case Approach::ConjugateGradients:
         cost.setup = setup_of_conjugate_gradients.of(size);
-        cost.step = step_of_conjugate_gradients.of(size) +
-                    predicted_iterations(size, tolerance.value_or(1.0)) * (seconds_per_iteration + iteration.of(size));
+        cost.step = step_of_conjugate_gradients.of(size) + size.solutions *
+                                                               predicted_iterations(size, tolerance.value_or(1.0)) *
+                                                               (seconds_per_iteration + iteration.of(size));
         break;
     case Approach::Undecomposed:
         cost.setup = setup_of_undecomposed.of(size);
         cost.step = step_of_undecomposed.of(size) *
-                    std::pow(std::max(size.vertices / reference_vertices, 1.0), growth_of_factors);
+                    std::pow(std::max(size.vertices / reference_vertices, 1.0), growth_of_factors) * further_solutions;
         break;
     default:
         cost.setup = setup_of_sweeps.of(size) * (size.vertices < large_mesh ? 1.0 : part_of_setup_if_large);
         cost.step = tolerance
                         ? step_of_converged.of(size) + interface_iterations * reduction * interface_iteration.of(size)
                         : step_of_sweeps.of(size);
+        cost.step *= further_solutions;
         break;
     }
     return cost;

@@ -19,6 +19,8 @@ struct FlowSize {
     /// dt of a step, in length².
     double time_step = 0.0;
     int steps = 1;
+    /// Of each step (see n_solutions).
+    int solutions = 1;
 };
 
 /// What to expect of a way of taking steps.

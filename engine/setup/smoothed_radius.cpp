@@ -11,28 +11,30 @@ namespace seamflow {
 
 namespace {
 
-/// dt / R²: what (1 + dt π²/(2R²))^steps = 2 leaves.
-double step_per_squared_radius(int steps)
+/// dt / R², with which half is left after all steps.
+double step_per_squared_radius(int steps, const StepFilter& filter)
 {
-    return 2.0 * std::expm1(std::numbers::ln2 / steps) / (std::numbers::pi * std::numbers::pi);
+    const double lambda = filter.is_plain() ? std::expm1(std::numbers::ln2 / steps)
+                                            : lambda_of(filter, std::exp2(-1.0 / static_cast<double>(steps)));
+    return 2.0 * lambda / (std::numbers::pi * std::numbers::pi);
 }
 
 }  // namespace
 
-double smoothed_radius(double time_step, int steps)
+double smoothed_radius(double time_step, int steps, const StepFilter& filter)
 {
-    return std::sqrt(time_step / step_per_squared_radius(steps));
+    return std::sqrt(time_step / step_per_squared_radius(steps, filter));
 }
 
-double time_step_for_radius(double radius, int steps)
+double time_step_for_radius(double radius, int steps, const StepFilter& filter)
 {
-    return radius * radius * step_per_squared_radius(steps);
+    return radius * radius * step_per_squared_radius(steps, filter);
 }
 
-double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal)
+double time_step_for_radius(const LengthOnMesh& radius, int steps, double diagonal, const StepFilter& filter)
 {
     const double length = radius.value * (radius.of_diagonal ? diagonal : 1.0);
-    const double time_step = time_step_for_radius(length, std::max(steps, 1));
+    const double time_step = time_step_for_radius(length, std::max(steps, 1), filter);
     if (std::isinf(time_step))
         throw OptionError("the radius is too large: the time step that it takes is beyond what a double can hold");
     if (!std::isnormal(time_step))
@@ -48,10 +50,20 @@ double time_step_of(const FlowOptions& options, const PolygonMesh& mesh)
     if (!std::isfinite(diagonal))
         require_valid(mesh);
     try {
-        return time_step_for_radius(*options.radius, options.steps, diagonal);
+        return time_step_for_radius(*options.radius, options.steps, diagonal, filter_of(options));
     } catch (const InputError& error) {
         throw InputError(std::string("the mesh ") + error.what());
     }
+}
+
+double uniform_edge_of(const FlowOptions& options, const PolygonMesh& mesh)
+{
+    if (options.laplacian != Laplacian::Uniform || options.uniform_edge > 0.0)
+        return options.uniform_edge;
+    const double edge = mean_edge_length(mesh, mesh.vertices);
+    if (!std::isfinite(edge) && mesh.n_faces() > 0)
+        require_valid(mesh);
+    return std::isnormal(edge) ? edge : 1.0;
 }
 
 }  // namespace seamflow

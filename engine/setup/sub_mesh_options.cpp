@@ -22,7 +22,7 @@ std::unique_ptr<SubMeshSystem> make_equations(const SubMesh& sub_mesh, std::vect
                                               const FlowOptions& options, const FlowTerms& terms,
                                               SolverWorkspace& workspace)
 {
-    SystemParts parts{sub_mesh, std::move(twin), options.laplacian, options.resources.factorisation, terms};
+    SystemParts parts{sub_mesh, std::move(twin), laplacian_of(options), options.resources.factorisation, terms};
     const auto with = [&](std::unique_ptr<TransmissionCondition> condition) {
         return make_system(std::move(parts), std::move(condition), workspace);
     };

@@ -86,16 +86,18 @@ std::string text_of(const PolygonMesh& mesh)
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
     // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, flow, filter, time_step, radius, steps, scheme, keep_edges, cut, interface, accuracy,
-                 motion, resources, report] = options;
+    const auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, steps, scheme, keep_edges, cut,
+                 interface, accuracy, motion, resources, report] = options;
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [weld, boundary, fixed_vertices, strict, attachment, attachment_weights, rescale] = motion;
+    const auto& [weld, boundary, fixed_vertices, strict, attachment, attachment_weights, rescale, within, limits] =
+        motion;
     const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
     // These do not change results, or (steps) only where they end; a radius has become a time step.
     static_cast<void>(radius);
+    static_cast<void>(order);
     static_cast<void>(steps);
     static_cast<void>(strict);
     static_cast<void>(keep_gaps);
@@ -109,6 +111,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"laplacian", text_of(laplacian)},
         {"flow", text_of(flow)},
         {"filter", text_of(filter)},
+        {"order", text_of(filter_of(options).order)},
+        {"uniform_edge", text_of(uniform_edge)},
         {"time_step", text_of(time_step)},
         {"subdomains", text_of(subdomains)},
         {"labels", text_of(labels)},
@@ -129,6 +133,9 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"attachment", text_of(attachment)},
         {"attachment_weights", text_of(attachment_weights)},
         {"rescale", text_of(rescale)},
+        {"within", within ? text_of(*within) : "none"},
+        {"limit_of_volume", text_of(limits.volume)},
+        {"limit_of_move", text_of(limits.move)},
         {"correction", text_of(correction)},
         {"tolerance", text_of(tolerance)},
         {"approach", text_of(approach)},

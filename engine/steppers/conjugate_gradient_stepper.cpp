@@ -8,13 +8,16 @@ ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, cons
                                                    const FlowOptions& options, Progress& progress)
     : ConvergedStepper(mesh, 0, options, 1.0, progress)
     , mesh_(&mesh)
-    , system_(mesh, topology, options.laplacian, terms_of(options, mesh.vertices), progress.loop())
+    , system_(mesh, topology, laplacian_of(options), terms_of(options, mesh.vertices), progress.loop(),
+              !filter_of(options).is_plain())
 {
 }
 
 InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& stop, const Loop& loop)
 {
-    const WholeMeshSystem::Result result = system_.step(*before_, time_step_, stop, positions_, loop);
+    const WholeMeshSystem::Result result = data_ != nullptr
+                                               ? system_.apply(*data_, stop, positions_, loop)
+                                               : system_.step(*before_, time_step_, stop, positions_, loop);
     return {result, result.distance};
 }
 

@@ -14,7 +14,7 @@ namespace seamflow {
 ConvergedStepper::ConvergedStepper(const PolygonMesh& mesh, Index n_sub_meshes, const FlowOptions& options,
                                    double parts_of_equation, Progress& progress)
     : time_step_(options.time_step)
-    , is_low_pass_(options.filter == Filter::LowPass)
+    , filter_(filter_of(options))
     , positions_(mesh.vertices)
     , seconds_(at(n_sub_meshes) + 1)
     , graph_(options.report.record_schedule, progress)
@@ -30,24 +30,38 @@ void ConvergedStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     before_ = &before;
-    is_second_ = false;
     graph_.run(0, loops_.parts());
-    if (is_low_pass_)
-        run_second();
+    if (!filter_.is_plain())
+        complete_filter();
     note();
 }
 
-/// The same graph again: what the step makes of Vᵏ less its solution is added to that.
-void ConvergedStepper::run_second()
+/// The same graph again for each further solution, with the same factors.
+void ConvergedStepper::complete_filter()
 {
-    set_rows(first_, positions_.rows());
-    copy(run_in_parallel, positions_, first_);
-    const InterfaceResult first = reached_.last;
-    is_second_ = true;
-    graph_.run(0, loops_.parts());
-    reached_.last.iterations += first.iterations;
-    reached_.last.residual = std::max(reached_.last.residual, first.residual);
-    reached_.last.stagnated |= first.stagnated;
+    InterfaceResult sum = reached_.last;
+    PointBlocks rest(1);
+    set_rows(rest.front(), positions_.rows());
+    for_each(run_in_parallel, static_cast<Index>(positions_.rows()),
+             [&](Index v) { rest.front().row(v) = before_->row(v) - positions_.row(v); });
+    PointBlocks solution(1);
+    const auto solve_for = [&](const PointBlocks& data) -> const PointBlocks& {
+        solution.front().swap(positions_);
+        copy(run_in_parallel, data.front(), positions_);
+        data_ = &data.front();
+        graph_.run(0, loops_.parts());
+        data_ = nullptr;
+        sum.iterations += reached_.last.iterations;
+        sum.residual = std::max(sum.residual, reached_.last.residual);
+        sum.stagnated |= reached_.last.stagnated;
+        solution.front().swap(positions_);
+        return solution;
+    };
+    set_rows(solution.front(), positions_.rows());
+    complete(filter_, rest, solve_for, run_in_parallel);
+    for_each(run_in_parallel, static_cast<Index>(positions_.rows()),
+             [&](Index v) { positions_.row(v) = before_->row(v) - rest.front().row(v); });
+    reached_.last = sum;
 }
 
 /// How well the step has kept to the tolerance.
@@ -70,8 +84,7 @@ const Points& ConvergedStepper::localised_data(std::span<const Index> local_to_g
 {
     set_rows(workspace.data, static_cast<Eigen::Index>(local_to_global.size()));
     for (std::size_t v = 0; v < local_to_global.size(); ++v)
-        workspace.data.row(static_cast<Eigen::Index>(v)) =
-            before_->row(local_to_global[v]) - first_.row(local_to_global[v]);
+        workspace.data.row(static_cast<Eigen::Index>(v)) = data_->row(local_to_global[v]);
     return workspace.data;
 }
 

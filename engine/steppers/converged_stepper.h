@@ -9,6 +9,7 @@
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/step_graph.h"
+#include "solvers/filters/step_filter.h"
 #include "solvers/interface/interface_result.h"
 
 namespace seamflow {
@@ -57,19 +58,17 @@ class ConvergedStepper : public Stepper {
     /// The same without the parts.
     void describe_steps(const std::string& advice, FlowReport& report) const;
 
-    /// With a low-pass filter, Vᵏ less the first solution of the step, of a sub-mesh, in the workspace.
+    /// `data_` of a sub-mesh, in the workspace.
     const Points& localised_data(std::span<const Index> local_to_global, SolverWorkspace& workspace) const;
 
     Workspaces workspaces_;
     double time_step_;
-    /// Whether a step has two solutions, and whether it is at the second.
-    bool is_low_pass_;
-    bool is_second_ = false;
-    /// #V by 3: the first solution, during the second.
-    Points first_ = Points(0, 3);
+    StepFilter filter_;
     /// #V by 3: Vᵏ, during a step.
     const Points* before_ = nullptr;
-    /// #V by 3: Vᵏ⁺¹, complete at the end of a step.
+    /// #V by 3: while the step is applied to something else with the same factor, that; 0 at what does not move.
+    const Points* data_ = nullptr;
+    /// #V by 3: Vᵏ⁺¹, complete at the end of a step; or what the step makes of data.
     Points positions_;
     /// Per sub-mesh, and of the equation.
     std::vector<PhaseSeconds> seconds_;
@@ -90,7 +89,7 @@ class ConvergedStepper : public Stepper {
     };
 
     void solve();
-    void run_second();
+    void complete_filter();
     void note();
 
     IterationStop stop_;

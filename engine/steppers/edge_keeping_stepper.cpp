@@ -5,9 +5,20 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "solvers/laplacian/geometry.h"
 #include "solvers/normals/vertex_fit.h"
 
 namespace seamflow {
+
+namespace {
+
+/// Normals are smoothed and vertices moved so often, each time by a part of the step (measured: see
+/// engine/accuracy.md).
+constexpr int passes = 3;
+/// Steps of so many face areas move vertices half as far as they would.
+constexpr double short_step = 0.01;
+
+}  // namespace
 
 EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
                                        Progress& progress)
@@ -25,8 +36,22 @@ void EdgeKeepingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     const Loop loop = loops_.begin();
-    const Points normals = diffusion_.smoothed(before, time_step_, angle_, loop);
-    fit_vertices(*mesh_, *topology_, normals, before, positions_, loop);
+    Points from = before;
+    for (int pass = 0; pass < passes; ++pass) {
+        const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, loop);
+        fit_vertices(*mesh_, *topology_, normals, diffusion_.noise(), from, positions_, loop);
+        from.swap(positions_);
+    }
+    // Vertices fit at once, however short the step: they go all the way where it is long against faces.
+    for_each(loop, mesh_->n_vertices(), [&](Index v) {
+        const auto corners = topology_->corners_at(v);
+        double size = 0.0;
+        for (const Index corner : corners)
+            size += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
+        const double part = time_step_ / (time_step_ + short_step * size);
+        positions_.row(v) =
+            part < 1.0 ? Point(before.row(v) + part * (from.row(v) - before.row(v))) : Point(from.row(v));
+    });
     loops_.end();
     if (!positions_.allFinite())
         throw ComputationError("the result is not finite: bring the mesh to a size nearer to 1");

@@ -46,7 +46,7 @@ ErrorEstimate::ErrorEstimate(const Decomposition& decomposition, const PolygonMe
     , time_step_(options.time_step)
     , has_copies_(is_classical(options.interface.conditions))
     , peers_(&peers)
-    , equation_(decomposition, mesh, topology, options.laplacian, peers, run_in_parallel)
+    , equation_(decomposition, mesh, topology, laplacian_of(options), peers, run_in_parallel)
 {
     for (Points* array : {&correction_, &corrected_, &swept_})
         array->setZero(equation_.size(), 3);
@@ -145,7 +145,7 @@ void ErrorEstimate::note_correction(const std::vector<SubMeshState>& states, Ind
     const SubMeshState& state = states[s];
     for (Index i = equation_.first(s); i < equation_.first(s + 1); ++i) {
         const Index v = equation_.local_vertex(i);
-        correction_.row(i) = state.position.row(v) - state.result().row(v);
+        correction_.row(i) = state.position.row(v) - state.solved.row(v);
     }
 }
 

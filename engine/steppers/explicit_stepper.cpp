@@ -61,7 +61,7 @@ ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , topology_(&topology)
     , progress_(&progress)
-    , laplacian_(options.laplacian)
+    , laplacian_(laplacian_of(options))
     , time_step_(options.time_step)
     , positions_(mesh.vertices)
     , first_limit_(infinity)

@@ -41,7 +41,7 @@ class ExplicitStepper final : public Stepper {
     const PolygonMesh* mesh_;
     const Topology* topology_;
     Progress* progress_;
-    Laplacian laplacian_;
+    ScaledLaplacian laplacian_;
     double time_step_;
     Points positions_;
     /// largest_explicit_step of the first step, and the smallest so far.

@@ -103,7 +103,8 @@ void SchurStepper::make_systems(Decomposition& decomposition, const PolygonMesh&
         own.n_vertices = sub_mesh.n_vertices;
         run_for(s, [&] {
             IndexLists faces = std::move(sub_mesh.face_vertices);
-            parts_[s].system = std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), options.laplacian, terms);
+            parts_[s].system =
+                std::make_unique<NeumannSystem>(sub_mesh, std::move(faces), laplacian_of(options), terms);
         });
         own.local_to_global = std::move(sub_mesh.local_to_global);
         own.owned = std::move(sub_mesh.owned);
@@ -205,7 +206,7 @@ NeumannSystem::Assembled SchurStepper::assemble(Index s, SolverWorkspace& worksp
     const OwnVertices& sub_mesh = parts_[s].sub_mesh;
     const Points& positions = localised(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
     const NeumannSystem& system = *parts_[s].system;
-    if (!is_second_)
+    if (data_ == nullptr)
         return system.assemble(positions, workspace.increments, time_step_, workspace);
     const Points& data = localised_data(std::span(sub_mesh.local_to_global).first(sub_mesh.n_vertices), workspace);
     return system.assemble(positions, workspace.increments, data, time_step_, workspace);
@@ -266,7 +267,7 @@ void SchurStepper::condense_in(Index s, Precision precision)
 }
 
 /// With the factor of the first solution of the step, or the same made again.
-void SchurStepper::condense_second(Index s)
+void SchurStepper::condense_again(Index s)
 {
     Part& part = parts_[s];
     SolverWorkspace& workspace = workspaces_.local();
@@ -282,8 +283,8 @@ void SchurStepper::condense_second(Index s)
 
 void SchurStepper::condense(Index s)
 {
-    if (is_second_)
-        return condense_second(s);
+    if (data_ != nullptr)
+        return condense_again(s);
     // Without Γ there is no iteration: one solution is exact.
     const bool is_exact = factors_.precision == Precision::Automatic && parts_[s].system->n_interface() == 0;
     condense_in(s, is_exact ? Precision::Double : factors_.precision);
@@ -374,8 +375,9 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
     return true;
 }
 
-/// Whether Γ moves no more than rounding of positions would: what is left of such residuals says nothing.
-bool SchurStepper::is_at_rest(const Loop& loop) const
+/// Of each coordinate, whether Γ moves no more along it than rounding of positions would: what is left of such
+/// residuals says nothing.
+std::array<bool, 3> SchurStepper::at_rest(const Loop& loop) const
 {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
     std::vector<double> farthest(parts_.size(), 0.0);
@@ -386,10 +388,15 @@ bool SchurStepper::is_at_rest(const Loop& loop) const
     });
     // Without Γ nothing is known.
     constexpr double unknown = -1.0;
-    const double moved = interface_.update.size() > 0 ? interface_.update.cwiseAbs().maxCoeff() : unknown;
+    Point moved = Point::Constant(unknown);
+    if (interface_.update.size() > 0)
+        moved = interface_.update.cwiseAbs().colwise().maxCoeff();
     const double position = parts_.empty() ? 0.0 : std::ranges::max(farthest);
-    const std::vector<double> of_all = peers_->largest({moved, position});
-    return of_all[0] != unknown && of_all[0] <= rounding * of_all[1];
+    const std::vector<double> of_all = peers_->largest({moved[0], moved[1], moved[2], position});
+    std::array<bool, 3> rests{};
+    for (std::size_t c = 0; c < 3; ++c)
+        rests[c] = of_all[c] != unknown && of_all[c] <= rounding * of_all[3];
+    return rests;
 }
 
 /// @returns stagnation also where refinement of the interiors stagnates.
@@ -401,10 +408,17 @@ InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, cons
         interface_.complements, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, loop); },
         interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, loop);
-    if (is_at_rest(loop)) {
-        result.residual = std::min(result.residual, stop.tolerance);
-        result.stagnated = false;
-    } else if (has_single() && !refine_interiors(stop.tolerance, first, loop)) {
+    const std::array<bool, 3> rests = at_rest(loop);
+    if (std::ranges::find(rests, true) != rests.end()) {
+        double moving = 0.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!rests[c])
+                moving = std::max(moving, result.residuals[static_cast<Eigen::Index>(c)]);
+        result.residual = std::min(result.residual, std::max(moving, stop.tolerance));
+        result.stagnated &= moving > stop.tolerance;
+    }
+    if (std::ranges::find(rests, false) != rests.end() && has_single() &&
+        !refine_interiors(stop.tolerance, first, loop)) {
         result.residual = std::max(result.residual, largest_ratio(interior_residual(), first));
         result.stagnated = true;
     }
@@ -430,11 +444,11 @@ void SchurStepper::back_substitute(Index s)
     Stopwatch watch;
     substitute(s, factor, interface_.update, workspace);
     const std::vector<Index>& global = part.sub_mesh.local_to_global;
-    const Points& base = is_second_ ? first_ : *before_;
     for (const Index v : part.system->unknowns())
         if (part.sub_mesh.owned[v] != 0)
-            positions_.row(global[v]) = base.row(global[v]) + workspace.increments.row(v);
-    if (is_low_pass_ && !is_second_ && is_kept(s))
+            positions_.row(global[v]) = data_ != nullptr ? Point(workspace.increments.row(v))
+                                                         : before_->row(global[v]) + workspace.increments.row(v);
+    if (!filter_.is_plain() && is_kept(s))
         part.factor = std::move(factor);
     seconds_[s].solve += watch.lap();
 }

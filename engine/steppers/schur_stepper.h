@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -119,12 +120,12 @@ class SchurStepper final : public ConvergedStepper {
     void substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace);
     void begin_increments(Index s, SolverWorkspace& workspace);
     void condense(Index s);
-    void condense_second(Index s);
+    void condense_again(Index s);
     void condense_in(Index s, Precision precision);
     void refine(Index s, const Points& update);
     [[nodiscard]] bool has_single() const;
     [[nodiscard]] Point interior_residual() const;
-    [[nodiscard]] bool is_at_rest(const Loop& loop) const;
+    [[nodiscard]] std::array<bool, 3> at_rest(const Loop& loop) const;
     bool refine_interiors(double tolerance, const Point& first, const Loop& loop);
     Points& refine_all(const Points& update, const Loop& loop);
     InterfaceResult solve_on_interface(const IterationStop& stop, const Loop& loop);

@@ -61,7 +61,7 @@ void fill_and_factorise(SubMeshState& state, const Points& other_side, std::span
 void solve_and_free(SubMeshState& state, SolverWorkspace& workspace)
 {
     state.system->solve(*state.factor, state.given(), state.solved, workspace);
-    if (state.solution != SubMeshState::Solution::First)
+    if (state.solution == SubMeshState::Solution::Only)
         state.factor.reset();
 }
 
@@ -160,29 +160,18 @@ void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vec
     state.seconds.correct += watch.lap();
 }
 
-void begin_second(SubMeshState& state)
+void begin_with_data(SubMeshState& state)
 {
     Stopwatch watch;
-    set_rows(state.data, state.position.rows());
-    state.data = state.position - state.solved;
     state.system->use_data(state.data);
     state.seconds.solve += watch.lap();
-}
-
-void add_second(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo)
-{
-    receive_solution(states, s, halo);
-    SubMeshState& state = states[s];
-    Stopwatch watch;
-    state.data = (state.position - state.data) + state.solved;
-    state.seconds.correct += watch.lap();
 }
 
 void accept(std::vector<SubMeshState>& states, Index s)
 {
     SubMeshState& state = states[s];
     Stopwatch watch;
-    state.position.topRows(state.sub_mesh->n_vertices) = state.result().topRows(state.sub_mesh->n_vertices);
+    state.position.topRows(state.sub_mesh->n_vertices) = state.solved.topRows(state.sub_mesh->n_vertices);
     state.seconds.correct += watch.lap();
 }
 
@@ -193,7 +182,7 @@ void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vec
     Stopwatch watch;
     if (state.solution == SubMeshState::Solution::Only)
         receive(states, halo, &SubMeshState::solved, state.solved);
-    const Points& result = state.result();
+    const Points& result = state.solved;
     const auto& seam = state.sub_mesh->seam;
     for (Index i = 0; i < static_cast<Index>(seam.vertices.size()); ++i) {
         Point sum = Point::Zero();

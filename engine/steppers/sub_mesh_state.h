@@ -29,17 +29,16 @@ struct SubMeshState {
     /// sub-mesh would do with Γ held at Vᵏ. Sub-meshes that read the prediction lead somewhere on this sub-mesh's Γ, so
     /// that it waits for them before it solves.
     Points solved;
-    /// With a low-pass filter: which solution of the step is in the making.
-    enum class Solution { Only, First, Second } solution = Solution::Only;
-    /// #local by 3: during the second, Vᵏ less the first, in whose place it is; at its end, Vᵏ⁺¹ as solved.
+    /// Which solution of the step is in the making: with a filter that has several, the first, or what the step makes
+    /// of `data`.
+    enum class Solution { Only, First, OfData } solution = Solution::Only;
+    /// #local by 3: what the step is applied to beside Vᵏ.
     Points data = Points(0, 3);
     /// Of its tasks in all steps.
     PhaseSeconds seconds;
 
     /// What the right-hand side is made of.
-    [[nodiscard]] const Points& given() const { return solution == Solution::Second ? data : position; }
-    /// Vᵏ⁺¹ as solved, when all is solved.
-    [[nodiscard]] const Points& result() const { return solution == Solution::Second ? data : solved; }
+    [[nodiscard]] const Points& given() const { return solution == Solution::OfData ? data : position; }
 };
 
 /// The mean of all copies of the i-th vertex of a sub-mesh's Γ.
@@ -70,7 +69,7 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
                      SolverWorkspace& workspace);
 
 /// Fetches Vᵏ⁺¹ where the sub-mesh follows another on its interface, keeps Vᵏ where it follows none, and solves. The
-/// factor is no more, but after the first of two solutions.
+/// factor is no more, where the step has one solution.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
 
 /// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of lower rank and
@@ -81,17 +80,14 @@ void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<
 /// Fetches Vᵏ⁺¹ as it was solved for the halo.
 void receive_solution(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
-/// After the first of two solutions, that in the halo received: the second is made with the same factor.
-void begin_second(SubMeshState& state);
+/// Begins with `data`, the factor being that of the first solution.
+void begin_with_data(SubMeshState& state);
 
-/// Fetches the second solution for the halo and adds it to the first.
-void add_second(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
-
-/// Accepts Vᵏ⁺¹ as it was solved, the second solution added where there are two.
+/// Accepts Vᵏ⁺¹ as it was solved.
 void accept(std::vector<SubMeshState>& states, Index s);
 
-/// Fetches Vᵏ⁺¹ for the halo and accepts Vᵏ⁺¹, the vertices of Γ moved to the centroids of their edge neighbours
-/// (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.
+/// Fetches Vᵏ⁺¹ for the halo, but where all solutions have been there, and accepts Vᵏ⁺¹, the vertices of Γ moved to the
+/// centroids of their edge neighbours (paper, eq. 28). Every sub-mesh at a vertex finds the same bits.
 void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo);
 
 }  // namespace seamflow

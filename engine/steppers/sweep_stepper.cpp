@@ -50,7 +50,8 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
     : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
     , graph_(options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
-    , is_low_pass_(options.filter == Filter::LowPass)
+    , filter_(filter_of(options))
+    , corrects_(corrects(options))
     , factorisation_(options.resources.factorisation)
 {
     const auto rank = rank_sub_meshes(decomposition_, options.interface.colouring, curvature);
@@ -78,7 +79,8 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
     , foreign_(sub_meshes.foreign)
     , graph_(options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
-    , is_low_pass_(options.filter == Filter::LowPass)
+    , filter_(filter_of(options))
+    , corrects_(corrects(options))
     , factorisation_(options.resources.factorisation)
 {
     make_states(mesh, options, progress);
@@ -130,8 +132,8 @@ void SweepStepper::limit_factors(Index least, const FlowOptions& options)
     factors_.emplace(largest);
 
     const auto n = static_cast<Index>(window_.order.size());
-    // The second solution begins when the first is complete.
-    least = is_low_pass_ ? n : std::min(least, n);
+    // A further solution begins when the one before is complete.
+    least = filter_.is_plain() ? std::min(least, n) : n;
     window_.size = std::min(n, least + places_per_thread * workspaces_.size());
     if (!options.resources.memory_limit)
         return;
@@ -193,8 +195,8 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
         });
     } else {
         tasks.assemble_and_factorise = task([this, &plan, time_step, resources](Index s, SolverWorkspace& workspace) {
-            if (states_[s].solution == SubMeshState::Solution::Second)
-                begin_second(states_[s]);
+            if (states_[s].solution == SubMeshState::Solution::OfData)
+                begin_with_data(states_[s]);
             else
                 assemble_and_factorise(states_, s, decomposition_.halo[s], plan.roles[s], time_step,
                                        resources(workspace));
@@ -208,17 +210,14 @@ SweepTasks SweepStepper::tasks_of(const SweepPlan& plan, const FlowOptions& opti
             use_predictions(states_, s, plan.predictions[s], workspace);
         });
     }
-    tasks.accept = task([this, corrected = corrects(options)](Index s, SolverWorkspace& workspace) {
+    tasks.accept = task([this](Index s, SolverWorkspace& workspace) {
         const auto solution = states_[s].solution;
-        if (error_ && solution != SubMeshState::Solution::Second)
+        if (error_ && solution != SubMeshState::Solution::OfData)
             error_->measure(states_, s, workspace);
-        if (solution == SubMeshState::Solution::First)
-            return receive_solution(states_, s, decomposition_.halo[s]);
-        if (solution == SubMeshState::Solution::Second)
-            add_second(states_, s, decomposition_.halo[s]);
-        corrected ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_, s);
-        if (error_)
-            error_->note_correction(states_, s);
+        if (solution == SubMeshState::Solution::Only)
+            accept_solution(s);
+        else
+            receive_solution(states_, s, decomposition_.halo[s]);
     });
     return tasks;
 }
@@ -256,21 +255,59 @@ void SweepStepper::run_sweep(std::size_t sweep, const std::function<void()>& joi
     foreign_->run(graph_, sweep, tell_positions, join);
 }
 
+void SweepStepper::accept_solution(Index s)
+{
+    corrects_ ? accept_corrected(states_, s, decomposition_.halo[s]) : accept(states_, s);
+    if (error_)
+        error_->note_correction(states_, s);
+}
+
 /// The same graph is run once for each solution.
 void SweepStepper::step(const Points& before)
 {
     const std::size_t root = static_cast<std::size_t>(steps_done_) % graph_.n_roots();
-    if (is_low_pass_) {
-        set_solution(SubMeshState::Solution::First);
-        run_sweep(root);
-        set_solution(SubMeshState::Solution::Second);
-    }
-    run_sweep(root, [&] {
+    const auto end = [&] {
         ++steps_done_;
         join();
-    });
+    };
+    if (filter_.is_plain())
+        run_sweep(root, end);
+    else
+        take_filtered(root, end);
     if (error_)
         error_->add_step(states_, before);
+}
+
+/// The filter's arithmetic is that of each sub-mesh with its halo, so that all at a vertex find the same bits.
+void SweepStepper::take_filtered(std::size_t root, const std::function<void()>& end)
+{
+    const auto for_each_own = [&](auto&& action) {
+        for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
+            if (is_own(s))
+                action(s, states_[s]);
+        });
+    };
+    set_solution(SubMeshState::Solution::First);
+    run_sweep(root);
+    PointBlocks rest(states_.size(), Points(0, 3));
+    PointBlocks solution = rest;
+    for_each_own([&](Index s, const SubMeshState& state) { rest[s] = state.position - state.solved; });
+    set_solution(SubMeshState::Solution::OfData);
+    complete(
+        filter_, rest,
+        [&](const PointBlocks& data) -> const PointBlocks& {
+            for_each_own([&](Index s, SubMeshState& state) { state.data = data[s]; });
+            run_sweep(root);
+            for_each_own([&](Index s, const SubMeshState& state) { solution[s] = state.solved; });
+            return solution;
+        },
+        run_in_parallel);
+    for_each_own([&](Index s, SubMeshState& state) {
+        state.solved = state.position - rest[s];
+        state.factor.reset();
+        accept_solution(s);
+    });
+    end();
 }
 
 void SweepStepper::set_solution(SubMeshState::Solution solution)

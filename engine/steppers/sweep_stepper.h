@@ -84,6 +84,8 @@ class SweepStepper final : public Stepper {
     void add_exchange(std::size_t sweep, SweepTasks& tasks);
     void run_sweep(std::size_t sweep, const std::function<void()>& join = {});
     [[nodiscard]] Points SubMeshState::*array_of(News news) const;
+    void accept_solution(Index s);
+    void take_filtered(std::size_t root, const std::function<void()>& end);
     void set_solution(SubMeshState::Solution solution);
     void fetch_positions(SubMeshState& state);
     void join();
@@ -109,7 +111,8 @@ class SweepStepper final : public Stepper {
     StepGraph graph_;
     Points positions_;
     int steps_done_ = 0;
-    bool is_low_pass_;
+    StepFilter filter_;
+    bool corrects_;
     Factorisation factorisation_;
 };
 

@@ -7,13 +7,22 @@
 namespace seamflow {
 
 /// Estimates the noise of a mesh from itself: the standard deviation of what its vertices are off the surface, along
-/// the normals. A quadratic height function is fitted to the two rings around a vertex, without the vertex (least
-/// squares, over the plane that fits them best); how far the vertex is from it, over what the fit's own noise adds, is
-/// its residual. The median residual over some ten thousand interior vertices, spread evenly, over that of a normal
-/// distribution of deviation 1, is the estimate (the median absolute deviation: Rousseeuw and Croux, Alternatives to
-/// the Median Absolute Deviation, 1993). Edges and spikes do not count as long as they are few; bends as narrow as the
-/// rings do.
-/// @returns in units of length; 0 where no vertex has rings to fit to.
+/// the normals. Quadratic height functions are fitted to two and to three rings around a vertex, without the vertex
+/// (least squares, over the plane that fits two rings best); how far the vertex is from them, over what the noise of
+/// the fit adds, are its residuals.
+/// - Noise is as large everywhere, shape is not: what counts are the smoothest of some five hundred neighbourhoods,
+///   spread evenly (Liu, Tanaka, Okutomi, Single-Image Noise Level Estimation, 2013). One half of the vertices of a
+///   neighbourhood says how smooth it is, the other half what its residuals are, so that the choice does not favour
+///   small noise. Edges, corners and spikes do not count as long as smooth neighbourhoods are left.
+/// - Noise is independent from vertex to vertex: its residuals do not grow with the rings, and those of neighbours are
+///   correlated as the fits make them. Shape grows, or bends neighbours alike. What grows is subtracted; where it grows
+///   as for shape alone, or neighbours are bent alike, the noise is 0.
+/// - Noise spares no vertex: where many are on their fits, the noise is 0.
+///
+/// Costs the same for all large meshes, but for the mean edge.
+/// @returns in units of length; 0 where noise is not proved: on meshes of fewer than 200 vertices with rings to fit to,
+/// where the estimate is above a third of the mean edge, which noise of half of the true mean edge makes, and where it
+/// is below a thousandth of it.
 double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -107,13 +107,27 @@ CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<dou
     return add_parsed(app, names, target, parse, "NUMBER", description);
 }
 
+namespace {
+
+auto integer_from(int least)
+{
+    return [least](const std::string& text) {
+        return static_cast<int>(parse_integer(text, least, std::numeric_limits<int>::max()));
+    };
+}
+
+}  // namespace
+
 CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
                          const std::string& description)
 {
-    const auto parse = [least](const std::string& text) {
-        return static_cast<int>(parse_integer(text, least, std::numeric_limits<int>::max()));
-    };
-    return add_parsed(app, names, target, parse, "INTEGER", description);
+    return add_parsed(app, names, target, integer_from(least), "INTEGER", description);
+}
+
+CLI::Option* add_integer(CLI::App& app, const std::string& names, std::optional<int>& target, int least,
+                         const std::string& description)
+{
+    return add_parsed(app, names, target, integer_from(least), "INTEGER", description);
 }
 
 CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,

@@ -67,6 +67,9 @@ CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<dou
 CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
                          const std::string& description);
 
+CLI::Option* add_integer(CLI::App& app, const std::string& names, std::optional<int>& target, int least,
+                         const std::string& description);
+
 /// As above, for a number of bytes (see parse_bytes).
 CLI::Option* add_bytes(CLI::App& app, const std::string& names, std::optional<std::size_t>& target,
                        const std::string& description);

@@ -1,5 +1,6 @@
 #include "samples/common/distributed_command.h"
 
+#include "engine/setup/presets.h"
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
 
@@ -13,7 +14,7 @@ const char* const sweeps_alone = "ranks do not know such steps; smooth does";
 
 std::vector<SmoothProgram::Lack> lacks()
 {
-    return {{"--preset", "presets measure the noise of the whole mesh; say --time-step, --time-step-edges or --radius"},
+    return {{"--noise", "the amount for it takes the whole mesh; say --time-step, --time-step-edges or --radius"},
             {"--strict", whole_mesh},
             {"--rescale", whole_mesh},
             {"--scheme", sweeps_alone},
@@ -55,9 +56,15 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         .checks_files = rank == 0};
     if (const auto end = parse_smooth_command(argc, argv, command.flow, program))
         return end;
-    if (command.flow.amount.slope_of_noise)
-        throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius: smooth alone, which "
-                          "has the whole mesh, can measure its noise");
+    if (command.flow.options.keep_edges)
+        throw OptionError("--preset cad keeps edges, which takes the whole mesh: let smooth do it");
+    if (command.flow.chooses_amount) {
+        const PresetTraits& preset = preset_of(command.flow.preset);
+        if (preset.measures_noise())
+            throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius, or --preset fair: "
+                              "smooth alone, which has the whole mesh, can measure its noise");
+        command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
+    }
     settle_approach(command.flow.options);
     if (whole_up_to)
         command.sharing.whole_up_to = *whole_up_to;

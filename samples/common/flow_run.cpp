@@ -1,52 +1,32 @@
 #include "samples/common/flow_run.h"
 
-#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "partition/metrics/noise.h"
-#include "partition/topology.h"
-#include "partition/weld.h"
-#include "samples/common/noise_removal.h"
+#include "engine/setup/presets.h"
 
 namespace seamflow {
 
 namespace {
 
-/// Turns an amount that depends on the noise of the mesh into one that does not.
-void resolve_noise(SmoothCommand& command, const PolygonMesh& mesh, const Topology& topology, const Loop& loop,
-                   RunRecord& run)
+/// The amount that the preset chooses.
+void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
 {
-    run.noise = run.scale.mean_edge > 0.0 ? estimate_noise(mesh, topology, loop) / run.scale.mean_edge : 0.0;
-    const double edges =
-        time_step_edges_for_noise(*run.noise, *command.amount.slope_of_noise, command.options.filter == Filter::LowPass,
-                                  std::max(command.options.steps, 1));
-    command.amount = {.time_step_edges = edges};
-}
-
-/// No more is taken off the mesh than its noise.
-void stay_within_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, const RunRecord& run)
-{
-    const double within = time_step_within_noise(mesh, *run.noise * run.scale.mean_edge, command.options, loop) /
-                          command.options.time_step;
-    // What is printed of it is to be all of it.
-    const double edges = std::stod(fmt::format("{:.3g}", within * *command.amount.time_step_edges));
-    command.amount.time_step_edges = edges;
-    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
-    command.chosen += fmt::format("--time-step-edges {}", edges);
-}
-
-/// Chooses the amount by the noise of the mesh as it flows.
-void resolve_by_noise(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
-{
-    const Topology topology = make_topology(mesh, loop);
-    const std::optional<double> within = command.options.motion.weld;
-    const std::optional<Weld> welded = within ? weld(mesh, topology, *within, loop) : std::nullopt;
-    const PolygonMesh& flowing = welded ? welded->mesh : mesh;
-    resolve_noise(command, flowing, welded ? welded->topology : topology, loop, run);
-    command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
-    stay_within_noise(command, flowing, loop, run);
+    PresetChoice choice{.options = std::move(command.options)};
+    const PresetTraits& preset = preset_of(command.preset);
+    choose_amount(preset, mesh, command.noise, choice, loop);
+    command.options = std::move(choice.options);
+    run.remark_on_amount = std::move(choice.remark);
+    if (!choice.noise)
+        return;
+    run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
+    if (run.remark_on_amount.empty())
+        command.chosen += fmt::format("--time-step-edges {:.3g}",
+                                      command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+    else
+        command.chosen = "nothing is smoothed";
 }
 
 }  // namespace
@@ -58,7 +38,7 @@ RunRecord begin_record(const SmoothCommand& command)
             .arguments = command.arguments,
             .laplacian = std::string(name_of(command.options.laplacian)),
             .flow = command.options.flow,
-            .filter = command.options.filter,
+            .filter = filter_of(command.options),
             .rescale = command.options.motion.rescale,
             .keep_edges = command.options.keep_edges,
             .preset = command.preset};
@@ -68,13 +48,15 @@ void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop&
 {
     run.scale = measure_scale(mesh, loop);
     MotionOptions& motion = command.options.motion;
-    motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale)) : std::nullopt;
+    motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
+    motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
     if (command.attach)
-        motion.attachment = attachment_of(*command.attach, run.scale);
-    if (command.amount.slope_of_noise)
-        resolve_by_noise(command, mesh, loop, run);
+        motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
+    if (command.chooses_amount)
+        choose_amount(command, mesh, loop, run);
     else
-        command.options.time_step = time_step_of(command.amount, run.scale, command.options.steps);
+        command.options.time_step =
+            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
     if (motion.attachment > 0.0)
         run.attachment = motion.attachment;
     run.has_attachment_weights = !motion.attachment_weights.empty();

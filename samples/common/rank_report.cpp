@@ -139,13 +139,14 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
     json["non_manifold_vertices"] = report.non_manifold_vertices;
     json["laplacian"] = run.laplacian;
     json["flow"] = option_name(run.flow);
-    json["filter"] = option_name(run.filter);
+    json["filter"] = option_name(run.filter.kind);
+    json["order"] = run.filter.order;
     if (run.attachment)
         json["attachment"] = *run.attachment;
     json["attachment_weights"] = run.has_attachment_weights;
     json["time_step"] = record.time_step;
     json["time_step_edges"] = record.time_step / (record.size.mean_edge * record.size.mean_edge);
-    json["radius"] = smoothed_radius(record.time_step, std::max(options.steps, 1));
+    json["radius"] = smoothed_radius(record.time_step, std::max(options.steps, 1), filter_of(options));
     json["approach"] = option_name(options.accuracy.approach);
     if (report.convergence.tolerance) {
         json["tolerance"] = *report.convergence.tolerance;

@@ -156,7 +156,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     json["fixed_vertices"] = report.mesh.fixed_vertices;
     json["laplacian"] = run.laplacian;
     json["flow"] = option_name(run.flow);
-    json["filter"] = option_name(run.filter);
+    json["filter"] = option_name(run.filter.kind);
+    json["order"] = run.filter.order;
     if (!run.preset.empty())
         json["preset"] = run.preset;
     if (run.noise)
@@ -169,8 +170,8 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
         json["keep_edges"] = number(*run.keep_edges);
     json["time_step"] = number(report.time_step);
     json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
-    json["radius"] =
-        number(smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1))));
+    json["radius"] = number(
+        smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
     if (!run.keep_edges)
         json["approach"] = option_name(report.convergence.approach);
     if (report.convergence.tolerance) {

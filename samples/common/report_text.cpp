@@ -119,6 +119,10 @@ void print_preset(std::ostream& out, const RunRecord& run, const std::string& op
 
 void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
 {
+    if (options.steps == 0) {
+        out << "amount     none" << std::endl;
+        return;
+    }
     const std::string steps = fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
                                           counted(options.steps, "step", "steps"),
                                           options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
@@ -126,7 +130,7 @@ void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& 
         out << fmt::format("{}, edges sharper than {:g} degrees kept", steps, *options.keep_edges) << std::endl;
         return;
     }
-    const double radius = options.steps == 0 ? 0.0 : smoothed_radius(options.time_step, options.steps);
+    const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
     out << fmt::format("{}: bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height", steps, radius,
                        100.0 * radius / scale.diagonal)
         << std::endl;
@@ -160,8 +164,8 @@ void print_details(std::ostream& out, const RunRecord& run, const FlowReport& re
         << (run.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *run.keep_edges) : run.laplacian);
     if (run.flow != FlowEquation::MeanCurvature)
         out << ", " << option_name(run.flow);
-    if (run.filter != Filter::Diffusion)
-        out << ", " << option_name(run.filter);
+    if (!run.filter.is_plain())
+        out << ", " << option_name(run.filter.kind) << " of order " << run.filter.order;
     if (run.attachment)
         out << ", attached with " << digits(*run.attachment, 4) << " / length²";
     if (run.has_attachment_weights)

@@ -18,9 +18,9 @@ struct RunRecord {
     std::vector<std::string> arguments;
     /// Name of the Laplacian.
     std::string laplacian;
-    /// The flow beside it: FlowOptions::flow, filter, and MotionOptions::attachment.
+    /// The flow beside it: FlowOptions::flow, its filter, and MotionOptions::attachment.
     FlowEquation flow = FlowEquation::MeanCurvature;
-    Filter filter = Filter::Diffusion;
+    StepFilter filter = {};
     /// In 1/length²; empty where there is none.
     std::optional<double> attachment = {};
     /// Whether each vertex has one of its own.
@@ -34,6 +34,8 @@ struct RunRecord {
     MeshScale scale = {};
     /// Its noise in mean edge lengths, if the amount follows from it.
     std::optional<double> noise = {};
+    /// Why nothing is smoothed, if a preset has found so.
+    std::string remark_on_amount = {};
     /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;

@@ -114,12 +114,30 @@ std::string given_against_presets(const CLI::App& app)
                              "--q", "--overlap", "--no-correction", "--keep-gaps"});
 }
 
+/// Whether what a preset says by an option is said otherwise, or has no place beside what is.
+bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
+{
+    if (app.count(std::string(option)) > 0)
+        return true;
+    const bool is_further = option == "--flow" || option == "--filter" || option == "--order" || option == "--attach";
+    if (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian))
+        return is_further;
+    if (option == "--flow")
+        return command.options.accuracy.approach == Approach::ConjugateGradients;
+    return (option == "--attach" && app.count("--attach-weights") > 0) ||
+           (option == "--order" && app.count("--filter") > 0);
+}
+
 /// Takes from the preset that is asked for, or that an amount which is not given asks for, what no option says.
 void apply_preset(const CLI::App& app, SmoothCommand& command)
 {
     const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
     if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
         throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");
+    if (has_amount && command.noise)
+        throw OptionError("--noise says how much a preset is to smooth, and " +
+                          first_given(app, {"--time-step", "--time-step-edges", "--radius"}) +
+                          " does so, too: give one of them");
     if (command.preset.empty() && has_amount)
         return;
     if (const std::string other = given_against_presets(app); !other.empty())
@@ -128,25 +146,20 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                         command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
                         command.preset.empty() ? "" : ", and leave the preset out"));
     if (command.preset.empty())
-        command.preset = app.count("--keep-edges") > 0 ? "cad" : presets().front().name;
-    const Preset& preset = *std::ranges::find(presets(), std::string_view(command.preset), &Preset::name);
-    // Of the flows of presets these two know nothing.
-    const bool is_plain = (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian)) ||
-                          command.options.accuracy.approach == Approach::ConjugateGradients;
+        command.preset = app.count("--keep-edges") > 0 ? "cad" : all_presets().front().name;
+    const PresetTraits& preset = preset_of(command.preset);
+    if (command.noise && !preset.measures_noise())
+        throw OptionError("--noise is for --preset scan and terrain; the amount of " + command.preset +
+                          " does not depend on it");
     for (const PresetOption& option : options_of(preset)) {
-        const bool is_further = option.name == "--flow" || option.name == "--filter" || option.name == "--attach";
-        const bool is_said = app.count(std::string(option.name)) > 0 ||
-                             (option.name == "--attach" && app.count("--attach-weights") > 0) ||
-                             (is_further && is_plain);
-        if (is_said)
+        if (is_said(app, command, option.name))
             continue;
         option.set(command.options, command.attach);
         command.chosen += fmt::format("{} {} ", option.name, option.value);
     }
-    if (has_amount)
-        return;
-    command.amount = preset.amount;
-    command.chosen += amount_of(preset);
+    command.chooses_amount = !has_amount;
+    if (command.chooses_amount)
+        command.chosen += amount_of(preset);
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)

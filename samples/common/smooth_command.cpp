@@ -59,14 +59,11 @@ void add_amount(CLI::App& app, SmoothingRequest& amount)
 std::string describe_presets()
 {
     std::string text;
-    for (const Preset& preset : presets()) {
+    for (const PresetTraits& preset : all_presets()) {
         text += fmt::format("{}{}: {} (", text.empty() ? "" : "; ", preset.name, preset.purpose);
         for (const PresetOption& option : options_of(preset))
             text += fmt::format("{} {} ", option.name, option.value);
-        text += preset.amount.slope_of_noise
-                    ? fmt::format("and an amount that leaves slopes of {} degrees of the noise",
-                                  *preset.amount.slope_of_noise)
-                    : amount_of(preset);
+        text += preset.measures_noise() ? "and what the noise asks for" : amount_of(preset);
         text += ")";
     }
     return text;
@@ -95,19 +92,26 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "--plain", [&options] { options = FlowOptions::plain(); },
         "the paper's method for any number of sub-meshes: a fixed sweep, derivatives at the old positions");
     std::vector<std::string> names;
-    for (const Preset& preset : presets())
+    for (const PresetTraits& preset : all_presets())
         names.emplace_back(preset.name);
     app.add_option("--preset", command.preset,
                    "options that suit a kind of mesh; those that are given go before them. " + describe_presets() +
                        " [scan if no amount is given; cad with --keep-edges]")
         ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
+    add_length(app, "--noise", command.noise,
+               "how far vertices are off the surface, as standard deviation along its normals, where that is known; in "
+               "units of length, or in % of the bounding box's diagonal [measured]");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_choice(app, "--flow", options.flow,
                "conformalized: the weights of the Laplacian stay those of the input; necks do not pinch, and closed "
                "surfaces without handles go to a sphere [mean-curvature]");
     add_choice(app, "--filter", options.filter,
-               "low-pass: what is large hardly shrinks; takes two solutions a step [diffusion]");
+               "diffusion leaves 1/(1 + λᵏ) of what has λ, dt times its eigenvalue, low-pass 1 - (λ/(1 + λ))ᵐ: what is "
+               "large hardly shrinks [diffusion]");
+    add_integer(app, "--order", options.order, 1,
+                "k of the filter diffusion, 1 to 3, or m of low-pass, 2 to 8: the higher, the less is taken of what is "
+                "large; takes 8 solutions a step for k = 2, 11 for k = 3, m for m [1, low-pass 2]");
     add_amount(app, command.amount);
     add_choice(app, "--boundary", options.motion.boundary,
                "whether the rims of an open surface stay where they are or draw in freely [fixed]");
@@ -129,6 +133,10 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     app.add_option("--attach-property", command.attach_property, "the name of that property [weight]")
         ->needs(weights)
         ->type_name("NAME");
+    add_length(
+        app, "--within", command.within,
+        "no vertex ends further than this from where it was: those that would are held there, and the others give "
+        "way smoothly; in units of length, or in % of the bounding box's diagonal");
     add_weld(app, command);
     app.add_flag("--strict", options.motion.strict,
                  "refuse meshes that are not manifold, or have edges or faces of size 0 where the Laplacian divides, "

@@ -26,6 +26,11 @@ struct SmoothCommand {
     /// All of it but `labels`, `fixed_vertices`, what attaches vertices, and `time_step`, which need the mesh.
     FlowOptions options;
     SmoothingRequest amount;
+    /// Whether the preset says how much, and the noise that it is to go by, if that is known.
+    bool chooses_amount = false;
+    std::optional<LengthOnMesh> noise;
+    /// How far any vertex may end from where it was.
+    std::optional<LengthOnMesh> within;
     /// Options that a preset has chosen, as they would be typed, without the amount: "--steps 3". Empty: there is none.
     std::string chosen;
     /// The name of that preset.

@@ -24,6 +24,8 @@ FlowReport run(SmoothCommand& command, PolygonMesh& mesh, const FlowControl& con
     resolve_amount(command, mesh, loop, record);
     const SurfaceChangeMeter change(mesh, loop);
     FlowReport report = mean_curvature_flow(mesh, command.options, {}, control);
+    if (!record.remark_on_amount.empty())
+        report.remarks.insert(report.remarks.begin(), record.remark_on_amount);
     record.surface = change.measure(mesh, report.mesh.moved_with, loop);
     remark_on_loss(command.options, record.surface, report.remarks);
     record.seconds = whole.seconds();

@@ -29,9 +29,11 @@ Reach reach_of(Laplacian laplacian)
 
 class PredictedSide final : public TransmissionCondition {
   public:
-    PredictedSide(const SubMesh& sub_mesh, Laplacian laplacian, const Points* stiffness_at)
+    PredictedSide(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)
         : sub_mesh_(&sub_mesh)
-        , star_(sub_mesh, reach_of(laplacian) == Reach::TwoRings ? Laplacian::AlexaWardetzky : laplacian, stiffness_at)
+        , star_(sub_mesh,
+                reach_of(laplacian) == Reach::TwoRings ? ScaledLaplacian(Laplacian::AlexaWardetzky) : laplacian,
+                stiffness_at)
         , robin_(sub_mesh)
         , kinds_(sub_mesh.interface.vertices.size(), RowKind::Robin)
         , responds_(sub_mesh.interface.vertices.size())
@@ -185,7 +187,7 @@ class PredictedSide final : public TransmissionCondition {
 
 }  // namespace
 
-std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian,
+std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
                                                            const Points* stiffness_at)
 {
     return std::make_unique<PredictedSide>(sub_mesh, laplacian, stiffness_at);

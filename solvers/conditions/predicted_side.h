@@ -19,7 +19,7 @@ namespace seamflow {
 /// step with Ŵ as it is (with the rows of Δ_A for Δ_P).
 /// @param sub_mesh must outlive the condition.
 /// @param stiffness_at see StarLaplacian; needed only during the call.
-std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, Laplacian laplacian,
+std::unique_ptr<TransmissionCondition> make_predicted_side(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian,
                                                            const Points* stiffness_at = nullptr);
 
 }  // namespace seamflow

@@ -26,7 +26,7 @@ PolygonMesh faces_around_interface(const SubMesh& sub_mesh)
 
 }  // namespace
 
-StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, Laplacian laplacian, const Points* stiffness_at)
+StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at)
     : faces_(faces_around_interface(sub_mesh))
     , topology_(make_topology(faces_))
     , assembler_(

@@ -17,7 +17,7 @@ class StarLaplacian {
     /// @param sub_mesh needed only during construction.
     /// @param laplacian one that reaches no further than the faces of a vertex (see Reach).
     /// @param stiffness_at #local by 3, the halo included: positions that K is kept of; nullptr: it follows the mesh.
-    StarLaplacian(const SubMesh& sub_mesh, Laplacian laplacian, const Points* stiffness_at = nullptr);
+    StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, const Points* stiffness_at = nullptr);
 
     /// The vertices (local, the halo included) on which each row depends, ascending; one list per vertex of Γ.
     [[nodiscard]] const IndexLists& columns() const { return columns_; }

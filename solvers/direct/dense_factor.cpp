@@ -12,9 +12,9 @@ namespace seamflow {
 namespace {
 
 /// Columns in a block, rows that are used at once, and how much of L that makes.
-constexpr Index group = 4;
+constexpr Index block_width = 4;
 constexpr Index n_lanes = DenseFactor::lanes;
-constexpr Index tile_size = group * n_lanes;
+constexpr Index tile_size = block_width * n_lanes;
 /// So many tiles before they are used, they are asked for: most factors come from outside the caches.
 constexpr Index tiles_ahead = 96;
 
@@ -30,15 +30,15 @@ using Lanes = SimdVector<float, n_lanes>;
 }
 
 /// One number for each column of a block.
-struct Four {
-    float of[group];
+struct FourSums {
+    float of[block_width];
 };
 
 /// The same for each of three vectors.
 struct Fours {
-    Four x;
-    Four y;
-    Four z;
+    FourSums x;
+    FourSums y;
+    FourSums z;
 };
 
 /// Some rows of three vectors. All three are used with a tile at once: a third of the loops, whose ends processors do
@@ -75,7 +75,7 @@ struct Rows {
 };
 
 /// The sums of four registers each.
-inline Four sums_of(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d)
+inline FourSums sums_of(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d)
 {
     const Lanes ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11) +
                      __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
@@ -100,19 +100,19 @@ struct Block {
     [[nodiscard]] float own(Index row, Index column) const { return tiles[column * n_lanes + begin - top() + row]; }
 };
 
-inline Four own_rows(const Block& block, const float* v)
+inline FourSums own_rows(const Block& block, const float* v)
 {
-    Four rows;
+    FourSums rows;
     std::memcpy(&rows, v + block.begin, sizeof rows);
     return rows;
 }
 
-inline void store_own_rows(const Block& block, const Four& rows, float* v)
+inline void store_own_rows(const Block& block, const FourSums& rows, float* v)
 {
     std::memcpy(v + block.begin, &rows, sizeof rows);
 }
 
-inline Four negative(Four rows)
+inline FourSums negative(FourSums rows)
 {
     for (float& row : rows.of)
         row = -row;
@@ -175,25 +175,25 @@ struct Lower {
     [[nodiscard]] Index tiles_before(Index begin) const
     {
         const Index whole = begin / n_lanes;
-        const Index in_whole = n_lanes / group * (whole * n_groups() - whole * (whole - 1) / 2);
-        return in_whole + (begin % n_lanes) / group * (n_groups() - whole);
+        const Index in_whole = n_lanes / block_width * (whole * n_groups() - whole * (whole - 1) / 2);
+        return in_whole + (begin % n_lanes) / block_width * (n_groups() - whole);
     }
     [[nodiscard]] Block block(Index begin) const
     {
         return {tiles + at(tiles_before(begin)) * at(tile_size), n_groups() - begin / n_lanes, begin};
     }
     /// Below 0 where there is none.
-    [[nodiscard]] Index last_block() const { return (n + group - 1) / group * group - group; }
+    [[nodiscard]] Index last_block() const { return (n + block_width - 1) / block_width * block_width - block_width; }
 };
 
 /// result += R Rᵀ v and v = Rᵀ v, where R is L with columns scaled. A block is used for both while it is in the caches.
 SEAMFLOW_WIDE void multiply_twice(Lower lower, const float* scales, FloatColumns v, FloatColumns result)
 {
-    for (Index begin = 0; begin < lower.n; begin += group) {
+    for (Index begin = 0; begin < lower.n; begin += block_width) {
         const Block block = lower.block(begin);
         Fours factors = multiply_transposed(block, v);
-        const auto scale = [&](float* from, Four& products, float* to) {
-            for (Index c = 0; c < group; ++c) {
+        const auto scale = [&](float* from, FourSums& products, float* to) {
+            for (Index c = 0; c < block_width; ++c) {
                 from[begin + c] = scales[begin + c] * (from[begin + c] + products.of[c]);
                 products.of[c] = scales[begin + c] * from[begin + c];
                 to[begin + c] += products.of[c];
@@ -209,11 +209,11 @@ SEAMFLOW_WIDE void multiply_twice(Lower lower, const float* scales, FloatColumns
 /// result = L⁻¹ v; of v nothing of use remains.
 SEAMFLOW_WIDE void forward_substitute(Lower lower, FloatColumns v, FloatColumns result)
 {
-    for (Index begin = 0; begin < lower.n; begin += group) {
+    for (Index begin = 0; begin < lower.n; begin += block_width) {
         const Block block = lower.block(begin);
         const auto solve = [&](const float* from, float* to) {
-            Four rows = own_rows(block, from);
-            for (Index row = 1; row < group; ++row)
+            FourSums rows = own_rows(block, from);
+            for (Index row = 1; row < block_width; ++row)
                 for (Index c = 0; c < row; ++c)
                     rows.of[row] -= block.own(row, c) * rows.of[c];
             store_own_rows(block, rows, to);
@@ -227,13 +227,13 @@ SEAMFLOW_WIDE void forward_substitute(Lower lower, FloatColumns v, FloatColumns 
 /// result = L⁻ᵀ v, where it is 0 before.
 SEAMFLOW_WIDE void back_substitute(Lower lower, FloatColumns v, FloatColumns result)
 {
-    for (Index begin = lower.last_block(); begin >= 0; begin -= group) {
+    for (Index begin = lower.last_block(); begin >= 0; begin -= block_width) {
         const Block block = lower.block(begin);
-        const auto solve = [&](const float* from, const Four& products, float* to) {
-            Four rows = own_rows(block, from);
-            for (Index c = group - 1; c >= 0; --c) {
+        const auto solve = [&](const float* from, const FourSums& products, float* to) {
+            FourSums rows = own_rows(block, from);
+            for (Index c = block_width - 1; c >= 0; --c) {
                 rows.of[c] -= products.of[c];
-                for (Index row = c + 1; row < group; ++row)
+                for (Index row = c + 1; row < block_width; ++row)
                     rows.of[c] -= block.own(row, c) * rows.of[row];
             }
             store_own_rows(block, rows, to);
@@ -282,13 +282,13 @@ void DenseFactor::take(const DenseLdl<Number>& factor, double scale)
     Lower lower{nullptr, n_};
     lower_.assign(at(lower.tiles_before(static_cast<Index>(room(n_)))) * at(tile_size));
     lower.tiles = lower_.data();
-    for (Index begin = 0; begin < n_; begin += group) {
+    for (Index begin = 0; begin < n_; begin += block_width) {
         const Block block = lower.block(begin);
         float* const entries = lower_.data() + (block.tiles - lower.tiles);
         for (Index row = begin + 1; row < n_; ++row) {
             const Index below = row - block.top();
             float* const first = entries + below / n_lanes * tile_size + below % n_lanes;
-            for (Index c = 0; c < std::min(group, row - begin); ++c)
+            for (Index c = 0; c < std::min(block_width, row - begin); ++c)
                 first[c * n_lanes] = static_cast<float>(factor(row, begin + c));
         }
     }

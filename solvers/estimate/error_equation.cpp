@@ -13,7 +13,7 @@
 namespace seamflow {
 
 ErrorEquation::ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             Laplacian laplacian, InterfacePeers& peers, const Loop& loop)
+                             const ScaledLaplacian& laplacian, InterfacePeers& peers, const Loop& loop)
     : decomposition_(&decomposition)
     , peers_(&peers)
     , laplacian_(laplacian)

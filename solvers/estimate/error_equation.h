@@ -25,7 +25,7 @@ class ErrorEquation {
     /// (see
     ///        decompose_part), and then not for Δ_P.
     ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  Laplacian laplacian, InterfacePeers& peers, const Loop& loop = run_serially);
+                  const ScaledLaplacian& laplacian, InterfacePeers& peers, const Loop& loop = run_serially);
 
     /// Number of this peer's vertices on Γ, numbered sub-mesh by sub-mesh, each by the lowest that has it.
     [[nodiscard]] Index size() const { return static_cast<Index>(rows_.diagonal.size()); }
@@ -116,7 +116,7 @@ class ErrorEquation {
     };
     const Decomposition* decomposition_;
     InterfacePeers* peers_;
-    Laplacian laplacian_;
+    ScaledLaplacian laplacian_;
     Numbering numbering_;
     Rows rows_;
     std::optional<SharedRows> shared_;

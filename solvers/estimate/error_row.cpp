@@ -38,21 +38,21 @@ struct Draft {
 
 /// What the rows of the edges at the vertex add to the residual, to the couplings and to M.
 template <EdgeKernel Kernel>
-void add_edges(double time_step, Draft& draft)
+void add_edges(Kernel kernel, double time_step, Draft& draft)
 {
     double sum = 0.0;
     for (std::size_t j = 0; j < draft.neighbours.size(); ++j) {
-        const typename Kernel::Edge edge(draft.to(draft.neighbours[j]));
+        const auto edge = kernel.edge(draft.to(draft.neighbours[j]));
         sum += edge.mass();
         draft.couplings[j] = edge.weight(time_step);
         if (draft.keeps_stiffness())
-            draft.couplings[j] = typename Kernel::Edge(draft.stiffness_at.row(draft.neighbours[j]) -
-                                                       draft.stiffness_at.row(draft.vertex))
-                                     .weight(time_step);
+            draft.couplings[j] =
+                kernel.edge(draft.stiffness_at.row(draft.neighbours[j]) - draft.stiffness_at.row(draft.vertex))
+                    .weight(time_step);
         draft.row.residual -=
             draft.couplings[j] * (draft.after.row(draft.neighbours[j]) - draft.after.row(draft.vertex));
     }
-    draft.row.mass = sum / static_cast<double>(draft.neighbours.size());
+    draft.row.mass = Kernel::averages_mass ? sum / static_cast<double>(draft.neighbours.size()) : sum;
 }
 
 /// The coupling of the vertex to another corner of one of its faces.
@@ -142,7 +142,7 @@ using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings
 
 }  // namespace
 
-ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
+ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
                    const Points& before, const Points& after, const Points& stiffness_at, double time_step,
                    std::span<double> couplings)
 {
@@ -151,7 +151,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::s
     std::fill(couplings.begin(), couplings.end(), 0.0);
     Draft draft{before, after, stiffness_at, v, sub_mesh.seam.neighbours[i], couplings, {}};
     draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
-    with_kernel(laplacian, [&]<class Given>(Given) {
+    with_kernel(laplacian, [&]<class Given>(Given given) {
         using Kernel = WithinOneRing<Given>;
         const auto visit = [&](std::span<const Index> corners, std::size_t k) {
             if constexpr (FaceKernel<Kernel>)
@@ -165,7 +165,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::s
         if constexpr (FaceKernel<Kernel>)
             for_each_face(interface.complement_faces[i], interface.halo_faces, v, visit);
         else
-            add_edges<Kernel>(time_step, draft);
+            add_edges(given, time_step, draft);
     });
     draft.row.normal = unit(draft.row.normal);
     draft.row.residual += draft.row.mass * (after.row(v) - before.row(v));

@@ -35,7 +35,7 @@ struct ErrorRow {
 /// @param stiffness_at #local by 3: the positions whose K the step has; Vᵏ, where it is not kept.
 /// @param time_step dt, in length².
 /// @param couplings one per edge neighbour: receives -T_vw where it is on Γ, and else 0.
-ErrorRow error_row(const SubMesh& sub_mesh, Laplacian laplacian, Index i, std::span<const Index> kinds,
+ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
                    const Points& before, const Points& after, const Points& stiffness_at, double time_step,
                    std::span<double> couplings);
 

@@ -52,6 +52,7 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
         start(multiply, guess, unit, x, loop);
     InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, loop)};
     require_finite_result(std::isfinite(result.residual));
+    result.residuals = quotients(vectors_.norms(vectors_.r, loop), vectors_.b_norms);
     precondition(vectors_.r, vectors_.z);
     result.estimated_distance = estimate_distance(unit);
     x.array().rowwise() *= unit.array();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "partition/vector_area.h"
 #include "solvers/krylov/stopping_criterion.h"
 
 namespace seamflow {
@@ -8,6 +9,8 @@ namespace seamflow {
 struct InterfaceResult : IterationResult {
     /// Estimate of the largest distance to the solution, in units of length.
     double estimated_distance = 0.0;
+    /// That of each coordinate, in the unit of the tolerance; `residual` is the largest.
+    Point residuals = Point::Zero();
 };
 
 }  // namespace seamflow

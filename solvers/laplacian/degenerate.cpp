@@ -68,6 +68,8 @@ bool divides_by_lengths(Laplacian laplacian)
 std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
                                     const Loop& loop)
 {
+    if (traits_of(laplacian).divisor == Divisor::Nothing)
+        return {};
     return select(loop, mesh.n_faces(), [&](Index f) {
         return divides_by_lengths(laplacian) ? edge_without_length(mesh, topology, f) >= 0
                                              : !has_area(mesh, topology, laplacian, f);

@@ -12,6 +12,8 @@ struct Fujiwara {
     static constexpr LaplacianTraits traits{Laplacian::Fujiwara, "fujiwara",           "Δ_F",
                                             Reach::Edges,        Divisor::EdgeLengths, true};
 
+    static constexpr bool averages_mass = true;
+
     /// What one edge contributes: see kernels.h.
     class Edge {
       public:
@@ -29,6 +31,8 @@ struct Fujiwara {
       private:
         double length_;
     };
+
+    [[nodiscard]] static Edge edge(const Point& difference) { return Edge(difference); }
 };
 
 }  // namespace seamflow

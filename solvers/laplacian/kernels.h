@@ -7,13 +7,15 @@
 #include "solvers/laplacian/alexa_wardetzky.h"
 #include "solvers/laplacian/fujiwara.h"
 #include "solvers/laplacian/ptackova_velho.h"
+#include "solvers/laplacian/uniform.h"
 #include "solvers/laplacian/virtual_refinement.h"
 
 namespace seamflow {
 
-/// A Laplacian M⁻¹ K that is a sum over edges. It has a class `Edge`, made from the difference of an edge's ends:
+/// A Laplacian M⁻¹ K that is a sum over edges. It has a class `Edge`, which `edge(difference)` makes from the
+/// difference of an edge's ends:
 /// - `weight(factor)`: -factor · K of the two ends; the rows of K sum to zero;
-/// - `mass()`: its mean over the edges at v is M_v.
+/// - `mass()`: its mean over the edges at v is M_v, or without `averages_mass` its sum.
 template <class Kernel>
 concept EdgeKernel = requires
 {
@@ -63,9 +65,9 @@ void measure_face(std::span<const Index> corners, const Points& positions, typen
 /// Calls action with the formula of a Laplacian.
 /// @throws OptionError for what is no Laplacian.
 template <class Action>
-auto with_kernel(Laplacian laplacian, Action&& action)
+auto with_kernel(const ScaledLaplacian& laplacian, Action&& action)
 {
-    switch (laplacian) {
+    switch (laplacian.kind) {
     case Laplacian::Fujiwara:
         return action(Fujiwara{});
     case Laplacian::AlexaWardetzky:
@@ -74,6 +76,8 @@ auto with_kernel(Laplacian laplacian, Action&& action)
         return action(VirtualRefinement{});
     case Laplacian::PtackovaVelho:
         return action(PtackovaVelho{});
+    case Laplacian::Uniform:
+        return action(Uniform{laplacian.edge_length});
     }
     throw OptionError("no such Laplacian");
 }

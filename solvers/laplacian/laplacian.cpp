@@ -10,7 +10,7 @@ namespace seamflow {
 namespace {
 
 constexpr std::array all_traits{Fujiwara::traits, AlexaWardetzky::traits, VirtualRefinement::traits,
-                                PtackovaVelho::traits};
+                                PtackovaVelho::traits, Uniform::traits};
 
 }  // namespace
 

@@ -35,6 +35,30 @@ enum class Laplacian {
     ///
     /// Two-ring stencil, not symmetric.
     PtackovaVelho,
+    /// Δ_U, with uniform weights: the mean over the edges at v of v - v_j, times 4/h² with one length h for all
+    /// vertices
+    /// (see ScaledLaplacian), the mean edge length of the mesh:
+    ///
+    /// \f[ (\Delta_U V)_v = \frac{4}{h^2 n_v} \sum_j (v - v_j) . \f]
+    ///
+    /// Positive diagonal times symmetric positive semi-definite, and the same for any positions. On regular grids of
+    /// edges of length h it is the Laplacian of the surface. It does not see the size of triangles, as noise does not:
+    /// what is as narrow as the edges is smoothed alike everywhere. Drags vertices along the surface.
+    Uniform,
+};
+
+/// A Laplacian with what it needs beside positions.
+struct ScaledLaplacian {
+    ScaledLaplacian(Laplacian laplacian, double edge = 1.0)
+        : kind(laplacian)
+        , edge_length(edge)
+    {
+    }
+    operator Laplacian() const { return kind; }
+
+    Laplacian kind;
+    /// h of Δ_U, in length, above 0; the others do not look at it.
+    double edge_length;
 };
 
 /// How far the row of a vertex reaches.
@@ -51,6 +75,8 @@ enum class Reach {
 enum class Divisor {
     EdgeLengths,
     FaceAreas,
+    /// The coefficients do not depend on positions.
+    Nothing,
 };
 
 /// What the rest of the library has to know of a Laplacian.
@@ -72,10 +98,10 @@ std::span<const LaplacianTraits> all_laplacian_traits();
 /// @throws OptionError for what is no Laplacian.
 const LaplacianTraits& traits_of(Laplacian laplacian);
 
-/// "fujiwara", "alexa-wardetzky", "virtual-refinement" or "ptackova-velho".
+/// "fujiwara", "alexa-wardetzky", "virtual-refinement", "ptackova-velho" or "uniform".
 std::string_view name_of(Laplacian laplacian);
 
-/// Those that are M⁻¹ K, for messages: "fujiwara, alexa-wardetzky or virtual-refinement".
+/// Those that are M⁻¹ K, for messages: "fujiwara, alexa-wardetzky, virtual-refinement or uniform".
 std::string names_of_symmetric_laplacians();
 
 /// Whether a Laplacian is M⁻¹ K.

@@ -14,8 +14,9 @@ namespace {
 template <EdgeKernel Kernel>
 class EdgeAssembler final : public LaplacianAssembler {
   public:
-    explicit EdgeAssembler(const FaceView& faces)
-        : degree_(faces.n_vertices, 0.0)
+    EdgeAssembler(Kernel kernel, const FaceView& faces)
+        : kernel_(kernel)
+        , degree_(faces.n_vertices, 0.0)
         , sum_(faces.n_vertices)
     {
         for (Index f = 0; f < faces.n_faces(); ++f) {
@@ -24,6 +25,8 @@ class EdgeAssembler final : public LaplacianAssembler {
                 list_edge(faces, at(faces.offsets[f]) + k, corners[k], corners[(k + 1) % corners.size()]);
         }
         weights_.resize(edges_.size());
+        if (!Kernel::averages_mass)
+            std::fill(degree_.begin(), degree_.end(), 1.0);
     }
 
     [[nodiscard]] std::vector<MatrixEntry> entries() const override
@@ -80,15 +83,16 @@ class EdgeAssembler final : public LaplacianAssembler {
         std::fill(sum_.begin(), sum_.end(), 0.0);
         for (std::size_t i = 0; i < edges_.size(); ++i) {
             const Edge& e = edges_[i];
-            const typename Kernel::Edge edge(positions.row(e.end) - positions.row(e.start));
+            const auto edge = kernel_.edge(positions.row(e.end) - positions.row(e.start));
             weights_[i] = edge.weight(1.0);
             sum_[e.start] += e.share * edge.mass();
             sum_[e.end] += e.share * edge.mass();
         }
     }
 
+    Kernel kernel_;
     std::vector<Edge> edges_;
-    /// Per vertex: number of edges, those on the boundary counted half, and the sum whose mean is M_v.
+    /// Per vertex: number of edges, those on the boundary counted half, or 1 where M_v is a sum; and the sum.
     std::vector<double> degree_;
     std::vector<double> sum_;
     /// Per edge.
@@ -196,11 +200,11 @@ std::unique_ptr<LaplacianAssembler> keep_stiffness(std::unique_ptr<LaplacianAsse
     return std::make_unique<KeptAssembler>(std::move(assembler), positions);
 }
 
-std::unique_ptr<LaplacianAssembler> make_assembler(Laplacian laplacian, const FaceView& faces)
+std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FaceView& faces)
 {
-    return with_kernel(laplacian, [&]<class Kernel>(Kernel) -> std::unique_ptr<LaplacianAssembler> {
+    return with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) -> std::unique_ptr<LaplacianAssembler> {
         if constexpr (EdgeKernel<Kernel>)
-            return std::make_unique<EdgeAssembler<Kernel>>(faces);
+            return std::make_unique<EdgeAssembler<Kernel>>(kernel, faces);
         else if constexpr (FaceKernel<Kernel>)
             return std::make_unique<FaceAssembler<Kernel>>(faces);
         else

@@ -59,7 +59,7 @@ class LaplacianAssembler {
 };
 
 /// The assembler of one Laplacian on the given faces, which must outlive it.
-std::unique_ptr<LaplacianAssembler> make_assembler(Laplacian laplacian, const FaceView& faces);
+std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FaceView& faces);
 
 /// An assembler of M⁻¹ K with the K of certain positions whatever the mesh does, which is assembled once; M follows the
 /// mesh.

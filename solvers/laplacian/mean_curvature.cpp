@@ -16,7 +16,7 @@ struct Surface {
 };
 
 template <EdgeKernel Kernel>
-Point curvature_by(const Surface& s, Index v)
+Point curvature_by(Kernel kernel, const Surface& s, Index v)
 {
     Point product = Point::Zero();
     double degree = 0.0;
@@ -27,7 +27,7 @@ Point curvature_by(const Surface& s, Index v)
     const bool once = s.topology.oriented && s.topology.kind[v] == VertexKind::Interior;
     const auto add = [&](Index end) {
         const Point difference = here - s.positions.row(s.mesh.face_vertices[end]);
-        const typename Kernel::Edge edge(difference);
+        const auto edge = kernel.edge(difference);
         product += edge.weight(1.0) * difference;
         mass += edge.mass();
         degree += 1.0;
@@ -37,11 +37,11 @@ Point curvature_by(const Surface& s, Index v)
         if (!once)
             add(s.topology.previous(s.mesh, corner));
     }
-    return (degree / mass) * (once ? 1.0 : 0.5) * product;
+    return Kernel::averages_mass ? Point((degree / mass) * (once ? 1.0 : 0.5) * product) : Point(product / mass);
 }
 
 template <FaceKernel Kernel>
-Point curvature_by(const Surface& s, Index v)
+Point curvature_by(Kernel, const Surface& s, Index v)
 {
     Point product = Point::Zero();
     double mass = 0.0;
@@ -62,7 +62,7 @@ Point curvature_by(const Surface& s, Index v)
 
 /// For Δ_P.
 template <class Kernel>
-Point curvature_by(const Surface& s, Index v)
+Point curvature_by(Kernel, const Surface& s, Index v)
 {
     const auto area_of = [&](Index f) { return area(s.mesh.face(f), s.positions); };
     const auto flux_map_of = [&](Index f) -> Eigen::Matrix3d {
@@ -81,10 +81,10 @@ Point curvature_by(const Surface& s, Index v)
 }  // namespace
 
 Point mean_curvature_vector(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                            Laplacian laplacian, Index v)
+                            const ScaledLaplacian& laplacian, Index v)
 {
-    return with_kernel(laplacian, [&]<class Kernel>(Kernel) {
-        return curvature_by<Kernel>(Surface{mesh, topology, positions}, v);
+    return with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
+        return curvature_by(kernel, Surface{mesh, topology, positions}, v);
     });
 }
 

@@ -12,6 +12,6 @@ namespace seamflow {
 /// @param positions #V by 3.
 /// @param v a vertex that moves; on a free boundary the row is no mean curvature.
 Point mean_curvature_vector(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
-                            Laplacian laplacian, Index v);
+                            const ScaledLaplacian& laplacian, Index v);
 
 }  // namespace seamflow

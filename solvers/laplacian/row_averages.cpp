@@ -13,7 +13,7 @@ constexpr Index sample_size = 8192;
 
 /// A row of M⁻¹ K at an interior vertex.
 template <EdgeKernel Kernel>
-RowAverages row_at(const PolygonMesh& mesh, const Topology& topology, Index v)
+RowAverages row_at(Kernel kernel, const PolygonMesh& mesh, const Topology& topology, Index v)
 {
     double stiffness = 0.0;
     double mass = 0.0;
@@ -21,16 +21,16 @@ RowAverages row_at(const PolygonMesh& mesh, const Topology& topology, Index v)
     // Each edge is met twice, which is half of each of stiffness and mass.
     for (const Index corner : corners)
         for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)}) {
-            const typename Kernel::Edge edge(mesh.vertices.row(v) - mesh.vertices.row(mesh.face_vertices[end]));
+            const auto edge = kernel.edge(mesh.vertices.row(v) - mesh.vertices.row(mesh.face_vertices[end]));
             stiffness += 0.5 * edge.weight(1.0);
             mass += 0.5 * edge.mass();
         }
     const auto degree = static_cast<double>(corners.size());
-    return {degree, degree * stiffness / mass};
+    return {degree, (Kernel::averages_mass ? degree : 1.0) * stiffness / mass};
 }
 
 template <FaceKernel Kernel>
-RowAverages row_at(const PolygonMesh& mesh, const Topology& topology, Index v)
+RowAverages row_at(Kernel, const PolygonMesh& mesh, const Topology& topology, Index v)
 {
     double length = 0.0;
     double stiffness = 0.0;
@@ -50,16 +50,16 @@ RowAverages row_at(const PolygonMesh& mesh, const Topology& topology, Index v)
 
 }  // namespace
 
-RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian)
+RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian)
 {
     RowAverages sum;
     double n = 0.0;
-    with_kernel(laplacian, [&]<class Kernel>(Kernel) {
+    with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>) {
             for (Index v = 0; v < mesh.n_vertices(); v += std::max(mesh.n_vertices() / sample_size, Index{1})) {
                 if (!topology.moves(v) || topology.kind[v] != VertexKind::Interior)
                     continue;
-                const RowAverages row = row_at<Kernel>(mesh, topology, v);
+                const RowAverages row = row_at(kernel, mesh, topology, v);
                 if (!std::isfinite(row.stiffness))
                     continue;
                 sum.length += row.length;

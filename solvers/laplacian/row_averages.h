@@ -17,6 +17,6 @@ struct RowAverages {
 
 /// Of some thousand interior vertices that move, spread evenly; all 0 if there are none.
 /// @throws OptionError for a Laplacian without symmetry.
-RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian);
+RowAverages average_rows(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian);
 
 }  // namespace seamflow

@@ -40,8 +40,9 @@ void with_product(const StiffnessProduct* product, AssembleWith&& assemble_with)
 template <EdgeKernel Kernel>
 class SymmetricEdges final : public SymmetricLaplacian {
   public:
-    explicit SymmetricEdges(const FacesOnBothSides& faces)
-        : inverse_degree_(faces.n_vertices, 0.0)
+    SymmetricEdges(Kernel kernel, const FacesOnBothSides& faces)
+        : kernel_(kernel)
+        , inverse_degree_(faces.n_vertices, 0.0)
     {
         edges_.reserve(faces.own.values.size() / 2 + faces.beyond.values.size());
         append_own_edges(faces, false, edges_);
@@ -50,7 +51,7 @@ class SymmetricEdges final : public SymmetricLaplacian {
         count_edges(outer.inner, 1.0);
         count_edges(outer.rim, 0.5);
         for (double& degree : inverse_degree_)
-            degree = degree > 0.0 ? 1.0 / degree : 0.0;
+            degree = degree > 0.0 ? (Kernel::averages_mass ? 1.0 / degree : 1.0) : 0.0;
         if (faces.contributions == Contributions::BothSides)
             edges_.insert(edges_.end(), outer.inner.begin(), outer.inner.end());
         n_whole_ = edges_.size();
@@ -75,7 +76,7 @@ class SymmetricEdges final : public SymmetricLaplacian {
                 for (std::size_t i = begin; i < end; ++i) {
                     const VertexPair& e = edges_[i];
                     const Point difference = positions.row(e.second) - positions.row(e.first);
-                    const typename Kernel::Edge edge(difference);
+                    const auto edge = kernel_.edge(difference);
                     const double weight = edge.weight(share * factor);
                     add_to_product(e.first, e.second, -weight, difference);
                     values[slots[i]] -= weight;
@@ -97,7 +98,7 @@ class SymmetricEdges final : public SymmetricLaplacian {
         std::fill(mass.begin(), mass.end(), 0.0);
         for (std::size_t i = 0; i < edges_.size(); ++i) {
             const VertexPair& e = edges_[i];
-            const typename Kernel::Edge edge(positions.row(e.second) - positions.row(e.first));
+            const auto edge = kernel_.edge(positions.row(e.second) - positions.row(e.first));
             const double share = (i < n_whole_ ? 1.0 : 0.5) * edge.mass();
             mass[e.first] += share;
             mass[e.second] += share;
@@ -115,10 +116,11 @@ class SymmetricEdges final : public SymmetricLaplacian {
         }
     }
 
+    Kernel kernel_;
     /// First those that count whole, then those of which half counts.
     std::vector<VertexPair> edges_;
     std::size_t n_whole_ = 0;
-    /// Per vertex: 1 / number of edges, those on the boundary counted half.
+    /// Per vertex: 1 / number of edges, those on the boundary counted half; 1 where M_v is a sum.
     std::vector<double> inverse_degree_;
 };
 
@@ -248,11 +250,12 @@ std::unique_ptr<SymmetricLaplacian> keep_stiffness(std::unique_ptr<SymmetricLapl
     return std::make_unique<KeptStiffness>(std::move(laplacian), n_vertices, positions);
 }
 
-std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces)
+std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
+                                                             const FacesOnBothSides& faces)
 {
-    return with_kernel(laplacian, [&]<class Kernel>(Kernel) -> std::unique_ptr<SymmetricLaplacian> {
+    return with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) -> std::unique_ptr<SymmetricLaplacian> {
         if constexpr (EdgeKernel<Kernel>)
-            return std::make_unique<SymmetricEdges<Kernel>>(faces);
+            return std::make_unique<SymmetricEdges<Kernel>>(kernel, faces);
         else if constexpr (FaceKernel<Kernel>)
             return std::make_unique<SymmetricFaces<Kernel>>(faces);
         else

@@ -29,7 +29,8 @@ struct StiffnessProduct {
 };
 
 /// A Laplacian that is M⁻¹ K with M diagonal and positive and K symmetric and positive semi-definite: Δ_F with M = Σ‖e‖
-/// / val, Δ_A and Δ_B with M the areas of the vertices. Assembled from faces, again and again as the mesh moves.
+/// / val, Δ_A and Δ_B with M the areas of the vertices, Δ_U with M their degrees. Assembled from faces, again and again
+/// as the mesh moves.
 class SymmetricLaplacian {
   public:
     virtual ~SymmetricLaplacian() = default;
@@ -75,7 +76,8 @@ struct FacesOnBothSides {
 
 /// @param laplacian one that is symmetric.
 /// @param faces their lists must outlive the result if it uses them, the twins need not.
-std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(Laplacian laplacian, const FacesOnBothSides& faces);
+std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
+                                                             const FacesOnBothSides& faces);
 
 /// The same with the K of certain positions whatever the mesh does, which is assembled once; M follows the mesh.
 /// @param n_vertices of all.

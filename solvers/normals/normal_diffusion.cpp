@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solvers/krylov/sums.h"
@@ -12,11 +13,20 @@ namespace seamflow {
 namespace {
 
 /// The weights follow the normals so often (measured, as what follows: see engine/accuracy.md).
-constexpr int diffusion_rounds = 8;
-/// The chord of the angle in σ: at the angle the diffusivity is exp(-3.5²/2) = .002.
-constexpr double sigmas_at_edges = 3.5;
+constexpr int diffusion_rounds = 4;
+/// Chords longer than so many σ stop diffusion.
+constexpr double sigmas_at_edges = 3.0;
+/// σ, and the width of what guides are means of, in chords of noise.
+constexpr double sigma_by_noise = 8.0;
+constexpr double width_by_noise = 7.0;
+/// More noise than that makes means of whole patches better guides than those of alike normals, where the patch
+/// disagrees by no more than so many times the square of the noise.
+constexpr double much_noise = 0.03;
+constexpr double most_disagreement = 8.0;
 /// The mean around another face is a better guide only where normals disagree so many times less.
 constexpr double clearly_less = 0.5;
+/// Chords below are rounding.
+constexpr double least_sigma = 1e-6;
 /// Of the residual of a round, relative to that at its beginning; and most iterations.
 constexpr double diffusion_tolerance = 1e-2;
 constexpr int most_diffusion_iterations = 500;
@@ -43,34 +53,41 @@ NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const Topology& topolo
     : mesh_(&mesh)
     , neighbours_(make_face_neighbours(mesh, topology, loop))
     , signs_(face_signs(mesh, topology))
+    , across_(mesh.face_vertices.size())
     , areas_(at(mesh.n_faces()))
     , centroids_(mesh.n_faces(), 3)
     , reach_(areas_.size())
     , scale_(areas_.size())
+    , guides_(mesh.n_faces(), 3)
     , means_(mesh.n_faces(), 3)
     , disagreement_(areas_.size())
-    , guide_(areas_.size())
     , weights_(neighbours_.faces.size())
     , diagonal_(areas_.size())
     , residual_(mesh.n_faces(), 3)
     , direction_(mesh.n_faces(), 3)
     , product_(mesh.n_faces(), 3)
 {
+    for_each(loop, static_cast<Index>(across_.size()),
+             [&](Index h) { across_[h] = topology.twin[h] >= 0 ? topology.face_of[topology.twin[h]] : Index{-1}; });
 }
 
 Points NormalDiffusion::smoothed(const Points& positions, double time_step, double angle, const Loop& loop)
 {
     const Index n = mesh_->n_faces();
     measure(positions, time_step / diffusion_rounds, loop);
-    const double sigma = 2.0 * std::sin(angle * std::numbers::pi / 360.0) / sigmas_at_edges;
+    const double edge_chord = 2.0 * std::sin(angle * std::numbers::pi / 360.0);
     Points normals(n, 3);
     for_each(loop, n, [&](Index f) {
         normals.row(f) = vector_area(mesh_->face(f), positions) * (signs_.empty() ? 1.0 : signs_[f]);
         normalise_row(normals, f);
     });
+    noise_ = measure_noise(normals, edge_chord, loop);
+    const double longest = std::min(sigmas_at_edges * std::max(sigma_by_noise * noise_, least_sigma), edge_chord);
     for (int round = 0; round < diffusion_rounds; ++round) {
         find_guides(normals, loop);
-        find_weights(normals, 2.0 * sigma * sigma, loop);
+        if (noise_ > much_noise)
+            find_patches(normals, loop);
+        find_weights(normals, longest, loop);
         diffuse(normals, loop);
         for_each(loop, n, [&](Index f) { normalise_row(normals, f); });
     }
@@ -104,8 +121,51 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const L
     });
 }
 
-/// The guide is the mean with the least disagreement: 0 where all normals are the same, 1 where they cancel out.
+/// The median of the chords between each face and the neighbour across an edge that it is most alike, or the mean of
+/// these, which round parts are more alike. Those of sharper edges do not count.
+double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Loop& loop) const
+{
+    const Index n = mesh_->n_faces();
+    std::vector<double> chords(at(n));
+    for_each(loop, n, [&](Index f) {
+        chords[f] = std::numeric_limits<double>::infinity();
+        Point mean = Point::Zero();
+        for (Index h = mesh_->face_offsets[f]; h < mesh_->face_offsets[f + 1]; ++h) {
+            if (across_[h] < 0)
+                continue;
+            const double chord = (normals.row(f) - normals.row(across_[h])).norm();
+            chords[f] = std::min(chords[f], chord);
+            if (chord < edge_chord)
+                mean += normals.row(across_[h]);
+        }
+        if (const double length = mean.norm(); length > 0.0)
+            chords[f] = std::min(chords[f], (normals.row(f) - mean / length).norm());
+    });
+    std::erase_if(chords, [&](double chord) { return !(chord < edge_chord); });
+    if (chords.empty())
+        return 0.0;
+    const auto middle = chords.begin() + (std::ssize(chords) - 1) / 2;
+    std::nth_element(chords.begin(), middle, chords.end());
+    return *middle;
+}
+
 void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
+{
+    const double width = std::max(width_by_noise * noise_, least_sigma);
+    for_each(loop, mesh_->n_faces(), [&](Index f) {
+        Point total = areas_[f] * normals.row(f);
+        for (const Index g : neighbours_[f]) {
+            const double chord = (normals.row(f) - normals.row(g)).norm() / width;
+            total += areas_[g] * std::exp(-0.5 * chord * chord) * normals.row(g);
+        }
+        guides_.row(f) = total;
+        normalise_row(guides_, f);
+    });
+}
+
+/// Takes the mean normal of a face and its neighbours, around the face or one of its neighbours, where that is of one
+/// side of edges.
+void NormalDiffusion::find_patches(const Points& normals, const Loop& loop)
 {
     const Index n = mesh_->n_faces();
     for_each(loop, n, [&](Index f) {
@@ -120,29 +180,31 @@ void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
         normalise_row(means_, f);
     });
     for_each(loop, n, [&](Index f) {
-        guide_[f] = f;
+        Index patch = f;
         double least = clearly_less * disagreement_[f];
         for (const Index g : neighbours_[f])
             if (disagreement_[g] < least) {
                 least = disagreement_[g];
-                guide_[f] = g;
+                patch = g;
             }
+        if (disagreement_[patch] < most_disagreement * noise_ * noise_)
+            guides_.row(f) = means_.row(patch);
     });
 }
 
-void NormalDiffusion::find_weights(const Points& normals, double two_sigma_squared, const Loop& loop)
+void NormalDiffusion::find_weights(const Points& normals, double longest, const Loop& loop)
 {
     for_each(loop, mesh_->n_faces(), [&](Index f) {
-        const Point guide = means_.row(guide_[f]);
         double total = 0.0;
         for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
             const Index g = neighbours_.faces[k];
             const double chords = std::sqrt((normals.row(f) - normals.row(g)).squaredNorm() *
-                                            (guide - means_.row(guide_[g])).squaredNorm());
+                                            (guides_.row(f) - guides_.row(g)).squaredNorm());
+            const double diffusivity = std::max(1.0 - chords / (longest * longest), 0.0);
             const double squared = (centroids_.row(f) - centroids_.row(g)).squaredNorm();
             const double scale = scale_[f] * scale_[g];
             const double weight =
-                scale > 0.0 ? scale * std::exp(-2.0 * squared / (reach_[f] * reach_[g]) - chords / two_sigma_squared)
+                scale > 0.0 ? scale * std::exp(-2.0 * squared / (reach_[f] * reach_[g])) * diffusivity * diffusivity
                             : 0.0;
             weights_[k] = static_cast<float>(std::min(weight, largest_diffusion_weight));
             total += static_cast<double>(weights_[k]);

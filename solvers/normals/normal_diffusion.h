@@ -12,17 +12,20 @@ namespace seamflow {
 /// Smooths face normals by diffusion along the surface that stops at edges: (A + τ L) N ← A N, normalised, several
 /// times. A has the face areas, and L is the Laplacian of the graph of faces that share a vertex, with the weights
 ///
-///     w_ij = 4 √(a_i a_j / (m_i m_j)) γ_ij exp(-|n_i - n_j| |g_i - g_j| / 2σ²)
+///     w_ij = 4 √(a_i a_j / (m_i m_j)) γ_ij (1 - |n_i - n_j| |g_i - g_j| / 9σ²)², 0 where that is below 0
 ///
 /// m_i = Σ_j γ_ij |c_i - c_j|², γ_ij = exp(-2 |c_i - c_j|² / r_i r_j), with c the centroids and r_i the root mean
 /// square distance of the neighbours: where nothing stops it, normals diffuse as by the Laplacian of the surface, so
-/// that τ is in length². The factor at the end is the diffusivity of Perona and Malik, and σ is far below the chord of
-/// the angle that counts as an edge. It takes the geometric mean of two chords, that of the normals n themselves, which
-/// noise makes as long as true edges, and that of the guides g (Zhang et al., Guided mesh normal filtering, 2015),
-/// which are more certain but blunt at corners: g_i is the mean normal of that face and its neighbours, around i or
-/// around a neighbour of i, whose normals agree best. The system is symmetric and positive definite; conjugate
-/// gradients take all three columns together, so that results turn with the surface. Bits do not depend on how loops
-/// are run.
+/// that τ is in length². The factor at the end, Tukey's diffusivity (Black et al., Robust anisotropic diffusion, 1998),
+/// stops it at edges. It takes the geometric mean of two chords, that of the normals n themselves and that of guides g,
+/// which noise moves less (Zhang et al., Guided mesh normal filtering, 2015): g_i is the mean normal of the face and
+/// its neighbours, those counting less that differ from it by more than noise does; where there is much noise, that of
+/// the face and all its neighbours, around i or a neighbour of i, which agrees best, if it agrees as far as noise lets
+/// it. σ is eight times the noise, and at most a third of the chord of the angle that counts as an edge: sharper edges
+/// stop all, and where there is no noise, planar faces alone have weights. The noise is measured: the median chord
+/// between a face and the one across an edge that it is most alike, or the mean of these. The system is symmetric and
+/// positive definite; conjugate gradients take all three columns together, so that results turn with the surface. Bits
+/// do not depend on how loops are run.
 class NormalDiffusion {
   public:
     /// @param mesh must outlive this; its vertices are not looked at. @param topology with twins; not needed
@@ -35,15 +38,22 @@ class NormalDiffusion {
     [[nodiscard]] Points smoothed(const Points& positions, double time_step, double angle,
                                   const Loop& loop = run_serially);
 
+    /// Of the normals smoothed last, before that: a chord of unit normals. 0 on planar faces.
+    [[nodiscard]] double noise() const { return noise_; }
+
   private:
     void measure(const Points& positions, double time_step, const Loop& loop);
+    [[nodiscard]] double measure_noise(const Points& normals, double edge_chord, const Loop& loop) const;
     void find_guides(const Points& normals, const Loop& loop);
-    void find_weights(const Points& normals, double two_sigma_squared, const Loop& loop);
+    void find_patches(const Points& normals, const Loop& loop);
+    void find_weights(const Points& normals, double longest, const Loop& loop);
     void diffuse(Points& normals, const Loop& loop);
 
     const PolygonMesh* mesh_;
     FaceNeighbours neighbours_;
     std::vector<std::int8_t> signs_;
+    /// Per half-edge: the face across, -1 where there is none.
+    std::vector<Index> across_;
     /// #F: in mean face areas.
     std::vector<double> areas_;
     /// #F by 3.
@@ -51,10 +61,12 @@ class NormalDiffusion {
     /// #F: r_i, in length, and 2 √(τ a_i / m_i) with the area in mean face areas.
     std::vector<double> reach_;
     std::vector<double> scale_;
-    /// #F by 3: mean normals of each face and its neighbours; and the face whose mean is the guide.
+    /// #F by 3: guides; and the mean normals of each face and its neighbours, and how little these agree: 0 where all
+    /// are the same, 1 where they cancel out.
+    Points guides_;
     Points means_;
     std::vector<double> disagreement_;
-    std::vector<Index> guide_;
+    double noise_ = 0.0;
     /// τ w_ij as in neighbours_, and their sums for each face.
     std::vector<float> weights_;
     std::vector<double> diagonal_;

@@ -1,5 +1,7 @@
 #include "solvers/normals/vertex_fit.h"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
 #include "solvers/laplacian/geometry.h"
@@ -10,9 +12,9 @@ namespace {
 
 /// Iterations with and without relaxation along the surface, and how far that goes at once (measured: see
 /// engine/accuracy.md).
-constexpr int relaxing_fits = 20;
-constexpr int plain_fits = 40;
-constexpr double fit_relaxation = 0.1;
+constexpr int relaxing_fits = 10;
+constexpr int plain_fits = 20;
+constexpr double most_relaxation = 0.1;
 /// Of the step before, which makes the iterations worth several times as many (Polyak's heavy ball).
 constexpr double fit_momentum = 0.5;
 /// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is so much.
@@ -20,7 +22,7 @@ constexpr double half_free = 1e-3;
 
 /// The step of one vertex.
 Point fitting_step(const PolygonMesh& mesh, const Topology& topology, const Points& normals, const Points& centroids,
-                   const Points& positions, Index v, bool relaxes)
+                   const Points& positions, Index v, double relaxation)
 {
     const Point here = positions.row(v);
     Point fit = Point::Zero();
@@ -31,24 +33,26 @@ Point fitting_step(const PolygonMesh& mesh, const Topology& topology, const Poin
         const Index f = topology.face_of[corner];
         const Point normal = normals.row(f);
         fit += normal * normal.dot(centroids.row(f) - here);
-        if (!relaxes)
+        if (relaxation == 0.0)
             continue;
         squared_cosines += normal.transpose() * normal;
         for (const Index end : {topology.next(mesh, corner), topology.previous(mesh, corner)})
             towards_neighbours += 0.5 * (positions.row(mesh.face_vertices[end]) - here);
     }
     const auto n = static_cast<double>(corners.size());
-    if (!relaxes)
+    if (relaxation == 0.0)
         return fit / n;
     const Eigen::Matrix3d resistance = Eigen::Matrix3d::Identity() + squared_cosines / (n * half_free);
-    return (fit + fit_relaxation * towards_neighbours * resistance.inverse()) / n;
+    return (fit + relaxation * towards_neighbours * resistance.inverse()) / n;
 }
 
 }  // namespace
 
-void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& normals, const Points& from,
-                  Points& to, const Loop& loop)
+void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& normals, double noise,
+                  const Points& from, Points& to, const Loop& loop)
 {
+    // Chords of noise up to here, which folds hardly any face, are as long as relaxation is to go.
+    const double relaxation = std::min(noise, most_relaxation);
     Points centroids(mesh.n_faces(), 3);
     Points before = from;
     copy(loop, from, to);
@@ -61,7 +65,7 @@ void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Point
             const bool relaxes = i < relaxing_fits && topology.kind[v] == VertexKind::Interior;
             // `to` has the positions of the iteration before the last.
             to.row(v) = before.row(v) + fit_momentum * (before.row(v) - to.row(v)) +
-                        fitting_step(mesh, topology, normals, centroids, before, v, relaxes);
+                        fitting_step(mesh, topology, normals, centroids, before, v, relaxes ? relaxation : 0.0);
         });
     }
 }

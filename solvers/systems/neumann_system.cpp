@@ -19,7 +19,8 @@ constexpr float least_pivot_of_single = 1e-3F;
 
 }  // namespace
 
-NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian, const FlowTerms& terms)
+NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
+                             const FlowTerms& terms)
     : n_interface_(sub_mesh.interface.size())
     , faces_(std::move(faces))
     , matrix_{make_symmetric_laplacian(laplacian, {faces_, sub_mesh.interface.halo_faces, sub_mesh.twin,

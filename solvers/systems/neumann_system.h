@@ -27,7 +27,8 @@ class NeumannSystem {
     /// @param sub_mesh without overlap; needed only during the call.
     /// @param faces its face_vertices: most of what Δ_A and Δ_B keep of it, while Δ_F has its edges.
     /// @throws ComputationError if the analysis fails.
-    NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, Laplacian laplacian, const FlowTerms& terms = {});
+    NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const ScaledLaplacian& laplacian,
+                  const FlowTerms& terms = {});
     NeumannSystem(const NeumannSystem&) = delete;
     NeumannSystem& operator=(const NeumannSystem&) = delete;
 

@@ -89,7 +89,7 @@ struct SystemParts {
     const SubMesh& sub_mesh;
     /// SubMesh::twin. Only equations that are not symmetric keep it: a twentieth of a flow's memory.
     std::vector<Index> twin;
-    Laplacian laplacian;
+    ScaledLaplacian laplacian;
     Factorisation factorisation = Factorisation::Automatic;
     FlowTerms terms = {};
 };

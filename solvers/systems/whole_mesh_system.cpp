@@ -33,7 +33,7 @@ struct RowGeometry {
 /// rows of K add up to zero.
 /// @returns M_i.
 template <EdgeKernel Kernel, class Entry>
-double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
+double visit_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
     const Index v = g.blocks.values[place.row];
     const Point here = g.of_rows.row(place.row);
@@ -41,27 +41,27 @@ double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry
     if (g.topology.kind[v] != VertexKind::Boundary) {
         int n_edges = 0;
         g.matrix.for_each_entry(place, [&](Index j, float& value) {
-            const typename Kernel::Edge edge(here - g.of_rows.row(j));
+            const auto edge = kernel.edge(here - g.of_rows.row(j));
             entry([&]() -> float& { return value; }, j, -edge.weight(1.0));
             mass += edge.mass();
             ++n_edges;
         });
-        return mass / n_edges;
+        return Kernel::averages_mass ? mass / n_edges : mass;
     }
     // Each half-edge is half of its edge.
     const std::span<const Index> corners = g.topology.corners_at(v);
     for (const Index corner : corners)
         for (const Index end : {g.topology.next(g.mesh, corner), g.topology.previous(g.mesh, corner)}) {
             const Index j = g.row_of[g.mesh.face_vertices[end]];
-            const typename Kernel::Edge edge(here - g.of_rows.row(j));
+            const auto edge = kernel.edge(here - g.of_rows.row(j));
             entry([&]() -> float& { return g.matrix.entry(place, j); }, j, -edge.weight(0.5));
             mass += edge.mass();
         }
-    return mass / static_cast<double>(2 * corners.size());
+    return 0.5 * (Kernel::averages_mass ? mass / static_cast<double>(corners.size()) : mass);
 }
 
 template <FaceKernel Kernel, class Entry>
-double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
+double visit_row(Kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
     double mass = 0.0;
     for (const Index corner : g.topology.corners_at(g.blocks.values[place.row])) {
@@ -82,12 +82,12 @@ double visit_row(const RowGeometry& g, const BlockRowMatrix::Place& place, Entry
 
 /// Calls action(visit), where visit(place, entry) is visit_row of the Laplacian.
 template <class Action>
-void with_rows(Laplacian laplacian, const RowGeometry& geometry, Action&& action)
+void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Action&& action)
 {
-    with_kernel(laplacian, [&]<class Kernel>(Kernel) {
+    with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>)
             action([&](const BlockRowMatrix::Place& place, auto&& entry) {
-                return visit_row<Kernel>(geometry, place, entry);
+                return visit_row(kernel, geometry, place, entry);
             });
         else
             throw OptionError("the Laplacian is not symmetric");
@@ -237,8 +237,8 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
 
 }  // namespace
 
-WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                                 const FlowTerms& terms, const Loop& loop)
+WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
+                                 const FlowTerms& terms, const Loop& loop, bool is_applied_again)
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
@@ -247,6 +247,7 @@ WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topolo
     , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, loop))
     , moves_(at(mesh.n_vertices()))
     , before_(mesh.n_vertices(), 3)
+    , masses_(is_applied_again ? at(mesh.n_vertices()) : 0)
 {
     for_each(loop, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
     if (!terms.attaches())
@@ -285,6 +286,8 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
                 residual -= share;
                 size.head<3>() += share.array().abs().transpose();
             });
+            if (!masses_.empty())
+                masses_[i] = units_.mass * mass;
             diagonal += units_.mass * mass * (1.0 + attachment(i));
             if (attachment(i) > 0.0) {
                 const Point pull = units_.mass * mass * attachment(i) * (first_.row(i) - here);
@@ -303,12 +306,14 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
     return {.rounding = unit * unit * sums.head<4>(), .residual = sums.tail<4>()};
 }
 
-/// residual = -dt K V' - M (V' - V), and dt M w (V⁰ - V') if it is attached, of the positions V' after the step so far,
-/// the weights being those of V.
+/// residual = -dt K V' - M (V' - D), and dt M w (V⁰ - V') if it is attached, of the solution V' so far, the weights
+/// being those of V.
+/// @param data D, by rows: V, or what else the step is applied to; then nothing pulls to V⁰, but to 0.
 /// @returns the sum of its squares, each over the diagonal.
-double WholeMeshSystem::measure(const Points& before, const Loop& loop)
+double WholeMeshSystem::measure(const Points& before, const Points& data, const Loop& loop)
 {
     const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
+    const bool is_first = &data == &before_;
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
@@ -320,9 +325,10 @@ double WholeMeshSystem::measure(const Points& before, const Loop& loop)
             Point residual = Point::Zero();
             const double mass = visit(
                 place, [&](auto&&, Index j, double k) { residual -= units_.stiffness * k * (after_.row(j) - there); });
-            residual -= units_.mass * mass * (there - before_.row(i));
+            residual -= units_.mass * mass * (there - data.row(i));
             if (attachment(i) > 0.0)
-                residual += units_.mass * mass * attachment(i) * (first_.row(i) - there);
+                residual +=
+                    units_.mass * mass * attachment(i) * ((is_first ? Point(first_.row(i)) : Point::Zero()) - there);
             residual *= units_.length;
             matrix_.residual(i) = to_row(residual);
             return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
@@ -364,13 +370,54 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
         return {};
     }
     matrix_.factorise(loop);
-    PassStart start = start_pass(sizes.residual.sum(), loop);
+    before_step_ = &before;
+    return solve(sizes.residual.sum(), before_, stop, after, loop);
+}
+
+WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const IterationStop& stop, Points& result,
+                                               const Loop& loop)
+{
+    using Sum = Eigen::Array<double, 1, 1>;
+    data_.resize(matrix_.n_rows(), 3);
+    const Sum squared = matrix_.sum_of_rows<Sum>(loop, [&](const BlockRowMatrix::Place& place) -> Sum {
+        const Index i = place.row;
+        data_.row(i) = data.row(blocks_.values[i]);
+        if (moves_[i] == 0)
+            return Sum::Zero();
+        const Point residual = units_.length * masses_[i] * data_.row(i);
+        matrix_.residual(i) = to_row(residual);
+        return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
+    });
+    if (!(squared.value() > 0.0)) {
+        for_each(loop, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
+        return {};
+    }
+    return solve(squared.value(), data_, stop, result, loop);
+}
+
+/// Solves for what the step makes of V, or of data, from V or from 0 on.
+/// @param squared of the residual, each over the diagonal. @param data by rows: V, or what is there instead.
+WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const IterationStop& stop,
+                                               Points& after, const Loop& loop)
+{
+    const double root = std::sqrt(time_step_);
+    PassStart start = start_pass(squared, loop);
     const double first = start.norm;
     StoppingCriterion criterion(stop, most_left, 1.0);
     double left = 1.0;
     double distance = 0.0;
-    // By rows, where the vertices are; nullptr where the result has been written.
+    // By rows, where the solution is; nullptr where the result has been written.
     const Points* reached = &before_;
+    if (&data != &before_) {
+        after_.resize(matrix_.n_rows(), 3);
+        for_each(loop, matrix_.n_rows(), [&](Index i) {
+            if (moves_[i] == 0)
+                after_.row(i) = data.row(i);
+            else
+                after_.row(i).setZero();
+        });
+        reached = &after_;
+    }
     while (!criterion.is_met()) {
         const BlockRowMatrix::Result pass = matrix_.iterate(
             start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), loop);
@@ -385,16 +432,16 @@ WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_
             });
         };
         if (is_last) {
-            move(before_, [&](Index i) { return after.row(blocks_.values[i]); });
+            move(*reached, [&](Index i) { return after.row(blocks_.values[i]); });
             reached = nullptr;
         } else {
             after_.resize(matrix_.n_rows(), 3);
             move(*reached, [&](Index i) { return after_.row(i); });
             reached = &after_;
-            const double squared = measure(before, loop);
-            if (squared > 0.0)
-                start = start_pass(squared, loop);
-            left = squared > 0.0 ? start.norm / first : 0.0;
+            const double renewed = measure(*before_step_, data, loop);
+            if (renewed > 0.0)
+                start = start_pass(renewed, loop);
+            left = renewed > 0.0 ? start.norm / first : 0.0;
         }
         distance = pass.residual > shortest_pass && distance > 0.0
                        ? distance * left / before_pass

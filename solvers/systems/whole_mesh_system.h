@@ -25,9 +25,10 @@ class WholeMeshSystem {
   public:
     /// @param mesh, topology must outlive the system. Vertices that do not move have no row.
     /// @param terms of which K must follow the surface.
+    /// @param is_applied_again whether `apply` will be called.
     /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for a Laplacian without symmetry.
-    WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const FlowTerms& terms,
-                    const Loop& loop);
+    WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
+                    const FlowTerms& terms, const Loop& loop, bool is_applied_again = false);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
     WholeMeshSystem& operator=(const WholeMeshSystem&) = delete;
 
@@ -42,6 +43,12 @@ class WholeMeshSystem {
     /// @param stop relative to the residual of Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
     /// @param after #V by 3: receives Vᵏ⁺¹; what does not move stays.
     Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Loop& loop);
+
+    /// What the step taken last makes of other data, with the same matrix; nothing pulls to V⁰. Only of systems made
+    /// for that, and while what the step was given is there.
+    /// @param data #V by 3: D, which is 0 where vertices do not move.
+    /// @param stop relative to the residual of 0. @param result #V by 3.
+    Result apply(const Points& data, const IterationStop& stop, Points& result, const Loop& loop);
 
   private:
     /// Factors that make numbers without dimension, near 1, which single precision can hold: √dt is the unit of length.
@@ -67,7 +74,8 @@ class WholeMeshSystem {
     };
 
     Sizes assemble(const Points& before, const Loop& loop);
-    double measure(const Points& before, const Loop& loop);
+    double measure(const Points& before, const Points& data, const Loop& loop);
+    Result solve(double squared, const Points& data, const IterationStop& stop, Points& after, const Loop& loop);
     /// dt w of a row.
     [[nodiscard]] double attachment(Index i) const { return attachments_.empty() ? 0.0 : time_step_ * attachments_[i]; }
     PassStart start_pass(double squared, const Loop& loop);
@@ -75,7 +83,7 @@ class WholeMeshSystem {
 
     const PolygonMesh* mesh_;
     const Topology* topology_;
-    Laplacian laplacian_;
+    ScaledLaplacian laplacian_;
     /// Those of this step.
     Units units_;
     double time_step_ = 0.0;
@@ -90,6 +98,10 @@ class WholeMeshSystem {
     Points first_ = Points(0, 3);
     Points before_;
     Points after_;
+    /// Where `apply` is wanted: by rows, M in the unit of the matrix, and D; and V as the last step was given it.
+    std::vector<double> masses_;
+    Points data_ = Points(0, 3);
+    const Points* before_step_ = nullptr;
 };
 
 }  // namespace seamflow

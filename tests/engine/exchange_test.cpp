@@ -192,7 +192,7 @@ std::vector<PolygonMesh> exchange_meshes()
 TEST_CASE("transfers carry all that crosses an interface: sub-meshes that know nothing else get the same bits")
 {
     for (const PolygonMesh& mesh : exchange_meshes())
-        for (const Laplacian laplacian : test::all_laplacians) {
+        for (const Laplacian laplacian : test::geometric_laplacians) {
             CAPTURE(name_of(laplacian));
             compare_machines(mesh, fixed_sweep_options(laplacian));
         }
@@ -201,7 +201,7 @@ TEST_CASE("transfers carry all that crosses an interface: sub-meshes that know n
 TEST_CASE("the same holds for sub-meshes that overlap, corrected and not")
 {
     for (const PolygonMesh& mesh : exchange_meshes())
-        for (const Laplacian laplacian : test::all_laplacians)
+        for (const Laplacian laplacian : test::geometric_laplacians)
             for (const Correction correction : {Correction::None, Correction::Centroid}) {
                 CAPTURE(name_of(laplacian));
                 FlowOptions options = fixed_sweep_options(laplacian);
@@ -215,7 +215,7 @@ TEST_CASE("the same holds for sub-meshes that overlap, corrected and not")
 TEST_CASE("the same holds where every sub-mesh keeps a copy of the interface of its own")
 {
     for (PolygonMesh mesh : exchange_meshes())
-        for (const Laplacian laplacian : test::all_laplacians)
+        for (const Laplacian laplacian : test::geometric_laplacians)
             for (const Conditions conditions : {Conditions::Robin, Conditions::Ventcell}) {
                 CAPTURE(name_of(laplacian));
                 FlowOptions options = fixed_sweep_options(laplacian);

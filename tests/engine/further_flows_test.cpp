@@ -330,12 +330,12 @@ TEST_CASE("options that further flows exclude are refused with what to do")
               o.motion.attachment_weights.assign(121, -2.0);
           }).starts_with("the attachment weight of vertex 0 is -2"));
     CHECK(with([](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; }) ==
-          "flow is conformalized, but the Laplacian ptackova-velho is not symmetric: use fujiwara, alexa-wardetzky or "
-          "virtual-refinement");
+          "flow is conformalized, but the Laplacian ptackova-velho is not symmetric: use fujiwara, "
+          "alexa-wardetzky, virtual-refinement or uniform");
     const auto filtered = [](FlowOptions& o) { o.flow = FlowEquation::MeanCurvature, o.filter = Filter::LowPass; };
     CHECK(with([&](FlowOptions& o) {
               filtered(o), o.laplacian = Laplacian::PtackovaVelho;
-          }).starts_with("filter is low-pass, but the Laplacian"));
+          }).starts_with("filter is low-pass, of order 2, but the Laplacian"));
     CHECK(with([&](FlowOptions& o) { filtered(o), o.interface.p = 1.0; }).find("predicted") != std::string::npos);
     CHECK(with([](FlowOptions& o) { o.scheme = Scheme::ExplicitEuler; }).find("backward Euler") != std::string::npos);
     CHECK(with([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; }).find("leave the approach") !=

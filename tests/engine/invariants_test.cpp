@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
 #include "samples/common/meshes.h"
 #include "solvers/laplacian/geometry.h"
@@ -157,8 +158,10 @@ TEST_CASE("components that nothing joins flow as they do alone")
         const Points offset_first = both.vertices.topRows(first.n_vertices());
         PolygonMesh alone = first;
         alone.vertices = offset_first;
-        CHECK(largest_difference(result.topRows(first.n_vertices()), flowed(alone, sweep_options(laplacian, 1))) <=
-              1e-12);
+        FlowOptions options = sweep_options(laplacian, 1);
+        // That of both.
+        options.uniform_edge = mean_edge_length(both, both.vertices);
+        CHECK(largest_difference(result.topRows(first.n_vertices()), flowed(alone, options)) <= 1e-12);
     }
 }
 

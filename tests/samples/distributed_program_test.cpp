@@ -229,7 +229,7 @@ TEST_CASE("options of smooth that ranks do not know are refused by name")
 {
     const Workshop w;
     for (const std::string option : {"--html p.html", "--keep-edges 30", "--reference", "--rescale area", "--strict",
-                                     "--scheme explicit", "--trace t.json", "--preset fair"}) {
+                                     "--scheme explicit", "--trace t.json", "--noise 1%"}) {
         CAPTURE(option);
         // MPI takes a program that is started alone as one rank.
         CHECK(w.run(SMOOTH_DISTRIBUTED " mesh.obj n.obj --radius 1% " + option) == 2);

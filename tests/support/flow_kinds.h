@@ -66,6 +66,10 @@ inline std::vector<FlowKind> flow_kinds(double edge)
             o.laplacian = Laplacian::VirtualRefinement, o.flow = FlowEquation::Conformalized;
         });
         add_further("low-pass", [](FlowOptions& o) { o.filter = Filter::LowPass; });
+        add_further("k-harmonic", [](FlowOptions& o) { o.laplacian = Laplacian::Uniform, o.order = 3; });
+        add_further("low-pass of order 4, attached", [&](FlowOptions& o) {
+            o.filter = Filter::LowPass, o.order = 4, o.motion.attachment = 0.1 / (edge * edge);
+        });
         add_further("attached", [&](FlowOptions& o) {
             o.laplacian = Laplacian::AlexaWardetzky, o.motion.attachment = 0.1 / (edge * edge);
         });
@@ -82,6 +86,8 @@ inline std::vector<FlowKind> flow_kinds(double edge)
         o.flow = FlowEquation::Conformalized, o.accuracy.tolerance = 1e-3, o.report.reference = true;
         o.motion.boundary = Boundary::Free, o.motion.rescale = Rescale::Area;
     });
+    add("bounded", [&](FlowOptions& o) { o.motion.within = 0.2 * edge; });
+    add("limited", [&](FlowOptions& o) { o.motion.limits = {.volume = 0.01, .move = 0.2 * edge}; });
     add("held", [](FlowOptions& o) { o.motion.fixed_vertices = {3, 100, 101, 102, 250}; });
     add("edges kept",
         [](FlowOptions& o) { o.keep_edges = 40.0, o.cut.subdomains = 0, o.accuracy.approach = Approach::Automatic; });

@@ -10,9 +10,15 @@
 namespace seamflow::test {
 
 inline constexpr std::array all_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement,
-                                           Laplacian::PtackovaVelho};
+                                           Laplacian::PtackovaVelho, Laplacian::Uniform};
 inline constexpr std::array symmetric_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky,
-                                                 Laplacian::VirtualRefinement};
+                                                 Laplacian::VirtualRefinement, Laplacian::Uniform};
+
+/// Those that measure the surface, and those of them that are symmetric.
+inline constexpr std::array geometric_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky,
+                                                 Laplacian::VirtualRefinement, Laplacian::PtackovaVelho};
+inline constexpr std::array symmetric_geometric_laplacians{Laplacian::Fujiwara, Laplacian::AlexaWardetzky,
+                                                           Laplacian::VirtualRefinement};
 
 /// The positions after a flow.
 inline Points flowed(PolygonMesh mesh, const FlowOptions& options)

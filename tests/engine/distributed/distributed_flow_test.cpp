@@ -62,6 +62,23 @@ TEST_CASE("ranks find the bits of one machine: open surfaces of any polygons, ev
             check_bits({std::string(name_of(laplacian)), mesh, by_sweeps(laplacian, 2e-3)}, 12, {1, 3, 8});
 }
 
+TEST_CASE("ranks find the bits of one machine: filters, and displacements that are bounded")
+{
+    for (const PolygonMesh& mesh : {make_triangles(900), make_mixed_polygons(900), make_noisy_sphere(1500)}) {
+        FlowOptions options = by_sweeps(Laplacian::Uniform, 1e-3);
+        options.order = 3;
+        check_bits({"order 3", mesh, options}, 12, {1, 3, 8});
+        options.motion.within = 0.01;
+        check_bits({"bounded", mesh, options}, 12, {1, 3, 8});
+        FlowOptions low_pass = converged(Laplacian::Fujiwara, 2e-3);
+        low_pass.filter = Filter::LowPass;
+        low_pass.order = 3;
+        low_pass.motion.within = 0.005;
+        check_bits({"low-pass, bounded", mesh, low_pass}, 12, {1, 3, 8});
+        CHECK(test::largest_difference(test::flowed(mesh, low_pass), mesh.vertices) <= 0.005 * (1.0 + 1e-12));
+    }
+}
+
 TEST_CASE("ranks find the bits of one machine: closed, not orientable, of several components, with any number of ranks")
 {
     const FlowOptions options = by_sweeps(Laplacian::Fujiwara, 3e-2);

@@ -99,6 +99,9 @@ inline FlowOptions by_sweeps(Laplacian laplacian, double time_step, int steps = 
     FlowOptions options;
     options.laplacian = laplacian;
     options.time_step = time_step;
+    // Ranks have to be told; meshes here are some ten edges across.
+    if (laplacian == Laplacian::Uniform)
+        options.uniform_edge = 0.04;
     options.steps = steps;
     options.accuracy.approach = Approach::Sweep;
     options.resources.threads = 1;

@@ -5,6 +5,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/automatic_choices.h"
+#include "engine/setup/smoothed_radius.h"
 #include "engine/state/flow_state.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/meshes.h"
@@ -173,10 +174,11 @@ TEST_CASE("the number of iterations of conjugate gradients is foreseen within a 
                 for (const double tolerance : {1e-2, 1e-4}) {
                     FlowOptions options = step_options(mesh, laplacian, step);
                     options.accuracy = {.tolerance = tolerance, .approach = Approach::ConjugateGradients};
+                    options.uniform_edge = uniform_edge_of(options, mesh);
                     PolygonMesh moved = mesh;
                     const int taken = mean_curvature_flow(moved, options).steps[0].iterations.value();
                     const FlowSize size{.vertices = mesh.n_vertices(),
-                                        .rows = average_rows(mesh, make_topology(mesh), laplacian),
+                                        .rows = average_rows(mesh, make_topology(mesh), laplacian_of(options)),
                                         .time_step = options.time_step};
                     const double foreseen = predicted_iterations(size, tolerance);
                     CHECK(foreseen < 2.0 * taken + 1.0);

@@ -197,7 +197,12 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
     const std::pair<const char*, Change> changes[] = {
         {"laplacian", [](FlowOptions& o) { o.laplacian = Laplacian::PtackovaVelho; }},
         {"flow", [](FlowOptions& o) { o.flow = FlowEquation::Conformalized; }},
-        {"filter", [](FlowOptions& o) { o.filter = Filter::LowPass; }},
+        {"filter", [](FlowOptions& o) { o.filter = Filter::LowPass, o.order = 1; }},
+        {"order", [](FlowOptions& o) { o.order = 3; }},
+        {"uniform_edge", [](FlowOptions& o) { o.uniform_edge = 0.5; }},
+        {"within", [](FlowOptions& o) { o.motion.within = 0.5; }},
+        {"limit_of_volume", [](FlowOptions& o) { o.motion.limits.volume = 0.5; }},
+        {"limit_of_move", [](FlowOptions& o) { o.motion.limits.move = 0.5; }},
         {"attachment", [](FlowOptions& o) { o.motion.attachment = 2.0; }},
         {"attachment_weights", [](FlowOptions& o) { o.motion.attachment_weights = {2.0}; }},
         {"time_step", [](FlowOptions& o) { o.time_step = 0.5; }},

@@ -151,7 +151,9 @@ TEST_CASE("the solution is the update by the undecomposed step on Γ")
             CAPTURE(name_of(laplacian));
             const Points update = undecomposed_step(cut, laplacian, time_step) - cut.mesh.vertices;
             // Of a flat mesh that stays where it is there may be rounding alone to solve for.
-            const bool moves = update.cwiseAbs().maxCoeff() > 1e-13 || laplacian != Laplacian::VirtualRefinement;
+            // With uniform weights that may be so of single coordinates.
+            const bool moves = (update.cwiseAbs().maxCoeff() > 1e-13 || laplacian != Laplacian::VirtualRefinement) &&
+                               laplacian != Laplacian::Uniform;
             for (const Balancing balancing : {Balancing::None, Balancing::Coarse}) {
                 Equation problem(cut, laplacian, time_step, balancing);
                 Points x;
@@ -263,7 +265,7 @@ TEST_CASE("and within a factor of 10, or 40 with virtual refinement, where steps
           "much too large")
 {
     const CutMesh cut = chessboard();
-    for (const Laplacian laplacian : symmetric_laplacians)
+    for (const Laplacian laplacian : symmetric_geometric_laplacians)
         for (const double tolerance : {1e-3, 1e-8}) {
             CAPTURE(name_of(laplacian));
             CAPTURE(tolerance);

@@ -17,7 +17,7 @@ TEST_CASE("every Laplacian has a name of its own")
     CHECK(names.size() == test::all_laplacians.size());
     CHECK(names.count("") == 0);
     CHECK(name_of(Laplacian::AlexaWardetzky) == "alexa-wardetzky");
-    CHECK(names_of_symmetric_laplacians() == "fujiwara, alexa-wardetzky or virtual-refinement");
+    CHECK(names_of_symmetric_laplacians() == "fujiwara, alexa-wardetzky, virtual-refinement or uniform");
 }
 
 TEST_CASE("every Laplacian has traits of its own, and is tested")

@@ -49,7 +49,7 @@ TEST_CASE("positions other than the mesh's own count, and orientation does not")
     const Topology topology = make_topology(mesh);
     const Topology flipped_topology = make_topology(flipped);
     const Points doubled = 2.0 * mesh.vertices;
-    for (const Laplacian laplacian : all_laplacians)
+    for (const Laplacian laplacian : geometric_laplacians)
         for (Index v = 0; v < mesh.n_vertices(); ++v) {
             const Point once = mean_curvature_vector(mesh, topology, mesh.vertices, laplacian, v);
             const Point twice = mean_curvature_vector(mesh, topology, doubled, laplacian, v);
@@ -66,7 +66,7 @@ TEST_CASE("the mean curvature of a round tube is one over its radius, outward")
     shape.amplitude = 0.0;
     const PolygonMesh mesh = make_cylinder(4000, shape);
     const Topology topology = make_topology(mesh);
-    for (const Laplacian laplacian : all_laplacians)
+    for (const Laplacian laplacian : geometric_laplacians)
         for (Index v = 0; v < mesh.n_vertices(); ++v)
             if (topology.kind[v] == VertexKind::Interior) {
                 const Point outward = mesh.vertices.row(v).cwiseProduct(Point(1, 1, 0)).normalized();

@@ -76,9 +76,12 @@ TEST_CASE("normals diffuse as by the Laplacian of the surface where nothing stop
     for (const bool quads : {false, true}) {
         const HeightFieldShape waves{.amplitude = 1e-4, .waves = 2};
         const PolygonMesh mesh = quads ? make_quads(6400, waves) : make_triangles(6400, waves);
+        // Without noise all that bends is shape, and stops them.
+        PolygonMesh noisy = mesh;
+        noisy.vertices.col(2) += 0.02 * (test::with_gaussian_noise(mesh, 0.05, 1).vertices - mesh.vertices).col(2);
         const double squared_wave_number = 2.0 * std::pow(2.0 * std::numbers::pi * waves.waves, 2);
         const double time_step = 0.5 / squared_wave_number;
-        const Points normals = smoothed(mesh, time_step, 90.0);
+        const Points normals = smoothed(noisy, time_step, 90.0);
         double before = 0.0;
         double after = 0.0;
         for (Index f = 0; f < mesh.n_faces(); ++f) {
@@ -87,10 +90,10 @@ TEST_CASE("normals diffuse as by the Laplacian of the surface where nothing stop
             if (offset.head<2>().cwiseAbs().maxCoeff() > 0.25)
                 continue;
             before += normal.head<2>().squaredNorm();
-            after += normals.row(f).head<2>().squaredNorm();
+            after += normals.row(f).head<2>().dot(normal.head<2>());
         }
-        // Eight backward Euler steps.
-        CHECK(std::sqrt(after / before) == doctest::Approx(std::pow(1.0 + 0.5 / 8.0, -8.0)).epsilon(0.05));
+        // Four backward Euler steps.
+        CHECK(after / before == doctest::Approx(std::pow(1.0 + 0.5 / 4.0, -4.0)).epsilon(0.05));
     }
 }
 
@@ -112,7 +115,7 @@ TEST_CASE("true normals come back from noise, sharp edges and corners included")
     }
 }
 
-TEST_CASE("edges sharper than the angle stay as they are, others do not")
+TEST_CASE("edges sharper than the angle stay as they are, others do not where there is as much noise")
 {
     // Two planes that meet at x = 0.5 with 45° between them.
     PolygonMesh roof = make_quads(900, {.amplitude = 0.0});
@@ -127,7 +130,9 @@ TEST_CASE("edges sharper than the angle stay as they are, others do not")
         return most * 180.0 / std::numbers::pi;
     };
     CHECK(turned(30.0) < 0.5);
-    CHECK(turned(120.0) > 5.0);
+    CHECK(turned(120.0) < 1e-9);
+    roof = test::with_gaussian_noise(roof, 0.3, 1);
+    CHECK(turned(30.0) > 5.0);
 }
 
 TEST_CASE("faces without area get no normal, and the others finite ones")
@@ -154,11 +159,11 @@ TEST_CASE("vertices that fit their normals stay, others go to where they fit")
         normals.row(f) = vector_area(truth.face(f), truth.vertices).normalized();
     const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 1);
     PolygonMesh result = truth;
-    fit_vertices(truth, moving, normals, truth.vertices, result.vertices);
+    fit_vertices(truth, moving, normals, 0.1, truth.vertices, result.vertices);
     CHECK(test::compare_with_truth(truth, result).distance < 1e-3);
-    fit_vertices(truth, moving, normals, noisy.vertices, result.vertices);
+    fit_vertices(truth, moving, normals, 0.1, noisy.vertices, result.vertices);
     CHECK(test::angle_to_truth(truth, result) < 0.2);
     moving.fixed.assign(moving.fixed.size(), 1);
-    fit_vertices(truth, moving, normals, noisy.vertices, result.vertices);
+    fit_vertices(truth, moving, normals, 0.1, noisy.vertices, result.vertices);
     CHECK(result.vertices == noisy.vertices);
 }

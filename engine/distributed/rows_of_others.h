@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/distributed/rank_setup.h"
+#include "engine/distributed/ranks/conversation.h"
+
+namespace seamflow {
+
+/// Brings a rank what others know of vertices none of whose faces it has.
+class RowsOfOthers {
+  public:
+    /// All ranks call this together.
+    /// @param talk, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, of each of
+    ///        which a rank has faces.
+    RowsOfOthers(Conversation& talk, const RankMesh& mesh, const std::vector<std::int64_t>& wanted);
+
+    /// All ranks call this together.
+    /// @param rows #V by 3: of the vertices that this rank knows. @returns #wanted by 3.
+    [[nodiscard]] Points fetch(const Points& rows) const;
+
+  private:
+    Conversation* talk_;
+    Index n_wanted_;
+    /// Per rank: which rows it wants, and which of the wanted ones it has.
+    std::vector<std::vector<Index>> theirs_;
+    std::vector<std::vector<Index>> ours_;
+};
+
+}  // namespace seamflow

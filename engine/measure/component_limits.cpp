@@ -1,0 +1,149 @@
+#include "engine/measure/component_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/tasks/parallel_loop.h"
+#include "partition/vector_area.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Less than that of a displacement is nothing.
+constexpr double smallest_factor = 0.1;
+/// How exactly factors are found.
+constexpr int bisections = 20;
+
+}  // namespace
+
+LimitedComponents::LimitedComponents(const PolygonMesh& mesh, const Topology& topology, const ComponentLimits& limits)
+    : mesh_(&mesh)
+    , limits_(limits)
+    , normals_(mesh, topology)
+    , components_(face_components(mesh, topology))
+    , is_closed_(at(components_.count()), topology.oriented ? 1 : 0)
+    , first_(mesh.vertices)
+    , factors_(at(components_.count()), 1.0)
+{
+    for (Index c = 0; c < components_.count(); ++c) {
+        std::vector<Index> vertices;
+        for (const Index f : components_.nodes[c]) {
+            const auto corners = mesh.face(f);
+            vertices.insert(vertices.end(), corners.begin(), corners.end());
+            for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h)
+                if (topology.twin[h] < 0)
+                    is_closed_[c] = 0;
+        }
+        sort_unique(vertices);
+        vertices_.values.insert(vertices_.values.end(), vertices.begin(), vertices.end());
+        vertices_.close();
+    }
+}
+
+/// With that part of the displacements, from the component's first vertex.
+double LimitedComponents::volume_of(Index component, const Points& positions, double factor) const
+{
+    const auto where = [&](Index v) -> Point { return first_.row(v) + factor * (positions.row(v) - first_.row(v)); };
+    const Point origin = where(vertices_[component].front());
+    const std::span<const Index> faces = components_.nodes[component];
+    return sum(run_in_parallel, static_cast<Index>(faces.size()), [&](Index i) {
+        const auto corners = mesh_->face(faces[i]);
+        Point mean = Point::Zero();
+        for (const Index v : corners)
+            mean += where(v) - origin;
+        mean /= static_cast<double>(corners.size());
+        double volume = 0.0;
+        Point from = where(corners.back()) - origin;
+        for (const Index v : corners) {
+            const Point to = where(v) - origin;
+            volume += mean.dot(from.cross(to)) / 6.0;
+            from = to;
+        }
+        return volume;
+    });
+}
+
+double LimitedComponents::factor_by_volume(Index component, const Points& positions) const
+{
+    if (is_closed_[component] == 0)
+        return 1.0;
+    const double first = volume_of(component, positions, 0.0);
+    const auto is_within = [&](double factor) {
+        return std::abs(volume_of(component, positions, factor) - first) <= limits_.volume * std::abs(first);
+    };
+    if (is_within(1.0))
+        return 1.0;
+    double within = 0.0;
+    double beyond = 1.0;
+    for (int i = 0; i < bisections; ++i) {
+        const double middle = 0.5 * (within + beyond);
+        (is_within(middle) ? within : beyond) = middle;
+    }
+    return within;
+}
+
+double LimitedComponents::factor_by_move(Index component, const Points& positions) const
+{
+    const std::span<const Index> vertices = vertices_[component];
+    const double squares = sum(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
+        const Index v = vertices[i];
+        const double move = (positions.row(v) - first_.row(v)).dot(normals_(v, positions));
+        return move * move;
+    });
+    const double move = std::sqrt(squares / static_cast<double>(vertices.size()));
+    return move > limits_.move ? limits_.move / move : 1.0;
+}
+
+double LimitedComponents::factor_of(Index component, const Points& positions) const
+{
+    double factor = 1.0;
+    if (std::isfinite(limits_.move))
+        factor = factor_by_move(component, positions);
+    if (std::isfinite(limits_.volume))
+        factor = std::min(factor, factor_by_volume(component, positions));
+    return factor >= smallest_factor ? factor : 0.0;
+}
+
+void LimitedComponents::apply(Points& positions)
+{
+    for (Index c = 0; c < components_.count(); ++c) {
+        factors_[c] = factor_of(c, positions);
+        if (factors_[c] == 1.0)
+            continue;
+        const std::span<const Index> vertices = vertices_[c];
+        for_each(run_in_parallel, static_cast<Index>(vertices.size()), [&](Index i) {
+            const Index v = vertices[i];
+            positions.row(v) = factors_[c] == 0.0 ? Point(first_.row(v))
+                                                  : first_.row(v) + factors_[c] * (positions.row(v) - first_.row(v));
+        });
+    }
+}
+
+std::string LimitedComponents::remark() const
+{
+    const auto n_held = std::ranges::count(factors_, 0.0);
+    const auto n_less = std::ranges::count_if(factors_, [](double factor) { return factor > 0.0 && factor < 1.0; });
+    if (n_held + n_less == 0)
+        return {};
+    const auto components = [&](auto n) {
+        return components_.count() == 1 ? std::string("The surface")
+                                        : fmt::format("{} of {} components", n, components_.count());
+    };
+    std::string text;
+    const std::string why =
+        std::isfinite(limits_.move) ? "more than its noise, or of its volume more than" : "of its volume more than";
+    if (n_less > 0)
+        text = fmt::format("{} would have lost {} {:g} %: less was taken off there.", components(n_less), why,
+                           100.0 * limits_.volume);
+    if (n_held > 0)
+        text +=
+            fmt::format("{}{} would have lost {} {:g} %, however little was taken off, and stayed as it was: say how "
+                        "much to smooth with --radius.",
+                        text.empty() ? "" : " ", components(n_held), why, 100.0 * limits_.volume);
+    return text;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "partition/connected_components.h"
+#include "partition/metrics/vertex_normals.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// Keeps the components of a surface within what they may lose (see ComponentLimits): the displacements of one that
+/// would lose more are multiplied by the largest factor with which it does not. A blend of the surface as it was and as
+/// it would be is that of a filter that takes less of everything.
+class LimitedComponents {
+  public:
+    /// Measures the surface as it is. The mesh and topology must outlive the object.
+    /// @param topology with twins, which are not needed later.
+    LimitedComponents(const PolygonMesh& mesh, const Topology& topology, const ComponentLimits& limits);
+
+    /// Moves the vertices of components that have lost too much back, along a straight line to where they were at first.
+    /// @param positions #V by 3.
+    void apply(Points& positions);
+
+    /// A sentence about the last result; empty where no component had lost too much.
+    [[nodiscard]] std::string remark() const;
+
+  private:
+    [[nodiscard]] double volume_of(Index component, const Points& positions, double factor) const;
+    [[nodiscard]] double factor_by_volume(Index component, const Points& positions) const;
+    [[nodiscard]] double factor_by_move(Index component, const Points& positions) const;
+    [[nodiscard]] double factor_of(Index component, const Points& positions) const;
+
+    const PolygonMesh* mesh_;
+    ComponentLimits limits_;
+    VertexNormals normals_;
+    Components components_;
+    /// Per component: its vertices, ascending; whether it encloses a volume.
+    IndexLists vertices_;
+    std::vector<std::uint8_t> is_closed_;
+    /// #V by 3: at first.
+    Points first_;
+    /// Per component, in the last result.
+    std::vector<double> factors_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,88 @@
+#include "engine/measure/displacement_bound.h"
+
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "engine/tasks/parallel_loop.h"
+
+namespace seamflow {
+
+namespace {
+
+/// t: corrections are smooth over some √t edges.
+constexpr double smoothness = 25.0;
+/// Of D + t K over D, whose eigenvalues begin with 1.
+constexpr double largest_eigenvalue = 1.0 + 2.0 * smoothness;
+/// Of what there is to correct.
+constexpr double accuracy = 1e-4;
+
+}  // namespace
+
+DisplacementBound::DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound,
+                                     KnownElsewhere elsewhere)
+    : bound_(bound)
+    , elsewhere_(std::move(elsewhere))
+    , first_(mesh.vertices)
+{
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        if (is_own(v)) {
+            const std::vector<Index> around = neighbours_of(mesh, topology, v);
+            neighbours_.values.insert(neighbours_.values.end(), around.begin(), around.end());
+        }
+        neighbours_.close();
+    }
+}
+
+Point DisplacementBound::bounded(const Point& displacement) const
+{
+    const double length = displacement.stableNorm();
+    return length > bound_ ? Point(displacement * (bound_ / length)) : displacement;
+}
+
+void DisplacementBound::apply(Points& positions) const
+{
+    const auto n = static_cast<Index>(first_.rows());
+    const Points displacements = positions - first_;
+    const auto moves = [&](Index v) { return is_own(v) && !displacements.row(v).isZero(0.0); };
+    std::atomic<bool> is_beyond = false;
+    for_each(run_in_parallel, n, [&](Index v) {
+        if (moves(v) && displacements.row(v).stableNorm() > bound_)
+            is_beyond = true;
+    });
+    if (!(elsewhere_.any ? elsewhere_.any(is_beyond) : is_beyond.load()))
+        return;
+
+    const double root = std::sqrt(largest_eigenvalue);
+    const double momentum = (root - 1.0) / (root + 1.0);
+    const int n_steps = static_cast<int>(std::ceil(-root * std::log(accuracy)));
+    Points correction = Points::Zero(n, 3);
+    Points before = correction;
+    Points ahead = correction;
+    for (int step = 0; step < n_steps; ++step) {
+        for_each(run_in_parallel, n, [&](Index v) {
+            ahead.row(v) = correction.row(v) + momentum * (correction.row(v) - before.row(v));
+            before.row(v) = correction.row(v);
+        });
+        for_each(run_in_parallel, n, [&](Index v) {
+            if (!moves(v))
+                return;
+            Point mean = Point::Zero();
+            for (const Index w : neighbours_[v])
+                mean += ahead.row(w);
+            mean /= static_cast<double>(neighbours_[v].size());
+            const Point here = ahead.row(v);
+            const Point gradient = here + smoothness * (here - mean);
+            const Point displacement = displacements.row(v);
+            correction.row(v) = bounded(displacement + here - gradient / largest_eigenvalue) - displacement;
+        });
+        if (elsewhere_.fetch)
+            elsewhere_.fetch(correction);
+    }
+    for_each(run_in_parallel, n, [&](Index v) {
+        if (moves(v))
+            positions.row(v) = Point(first_.row(v)) + bounded(displacements.row(v) + correction.row(v));
+    });
+}
+
+}  // namespace seamflow

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// What a mesh that is known in part needs of those who know the rest. All of them call both together.
+struct KnownElsewhere {
+    /// #V: whether a vertex and all its neighbours are known.
+    std::vector<std::uint8_t> is_own = {};
+    /// Sets the rows of those neighbours of own vertices that are not own.
+    std::function<void(Points& rows)> fetch = {};
+    /// Whether it holds for any of them.
+    std::function<bool(bool holds)> any = {};
+};
+
+/// Keeps every vertex within a distance r of where it was: the nearest surface that does so takes the place of the one
+/// that does not, so that vertices are held on the boundaries of their spheres and all others give way smoothly.
+///
+/// Nearest is meant in the metric of a diffusion step with uniform weights: the correction U minimises
+/// tr Uᵀ (D + t K) U under |V - V⁰ + U| ≤ r at each vertex, K the Laplacian of the graph with weights of one, D its
+/// diagonal; vertices that have not moved have none. A fixed number of accelerated projected gradient steps (Nesterov,
+/// Lectures on Convex Optimization, 2018, 2.2) brings U within a ten-thousandth of the minimum; each projects every
+/// vertex onto its sphere, so that the bound holds whatever is left.
+class DisplacementBound {
+  public:
+    /// Takes the positions of the mesh as those to stay near to.
+    /// @param bound r, above 0, in units of length. @param elsewhere empty where the mesh is known as a whole.
+    DisplacementBound(const PolygonMesh& mesh, const Topology& topology, double bound, KnownElsewhere elsewhere = {});
+
+    /// @param positions #V by 3, as a flow has them; receives those within the bound.
+    void apply(Points& positions) const;
+
+  private:
+    [[nodiscard]] bool is_own(Index v) const { return elsewhere_.is_own.empty() || elsewhere_.is_own[v] != 0; }
+    [[nodiscard]] Point bounded(const Point& displacement) const;
+
+    double bound_;
+    KnownElsewhere elsewhere_;
+    /// #V by 3.
+    Points first_;
+    IndexLists neighbours_;
+};
+
+}  // namespace seamflow

@@ -1,0 +1,172 @@
+#include "engine/setup/presets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/measure/surface_measures.h"
+#include "engine/setup/smoothed_radius.h"
+#include "partition/errors.h"
+#include "partition/metrics/noise.h"
+#include "partition/metrics/vertex_distance.h"
+#include "partition/topology.h"
+#include "partition/weld.h"
+#include "solvers/denoising/denoising_amount.h"
+
+namespace seamflow {
+
+namespace {
+
+/// That of the filter that noise is measured for (see denoising_amount).
+constexpr int denoising_order = 3;
+
+constexpr std::array table{
+    PresetTraits{.preset = Preset::Scan,
+                 .name = "scan",
+                 .purpose = "removes the noise that the mesh is found to have, and hardly touches what is larger",
+                 .order = denoising_order},
+    PresetTraits{.preset = Preset::Cad,
+                 .name = "cad",
+                 .purpose = "removes noise between edges of more than 30 degrees, and keeps these",
+                 .laplacian = Laplacian::VirtualRefinement,
+                 .keep_edges = 30.0,
+                 .time_step_edges = 32.0},
+    PresetTraits{.preset = Preset::Terrain,
+                 .name = "terrain",
+                 .purpose = "removes noise, and keeps landforms larger than 5 % of the diagonal where they are",
+                 .order = denoising_order,
+                 .attach = LengthOnMesh{0.05, true}},
+    PresetTraits{.preset = Preset::Fair,
+                 .name = "fair",
+                 .purpose = "makes a calm surface: bumps of up to 3 % of the diagonal lose half their height or more",
+                 .laplacian = Laplacian::VirtualRefinement,
+                 .flow = FlowEquation::Conformalized,
+                 .steps = 5,
+                 .radius = LengthOnMesh{0.03, true}},
+};
+
+/// What each component of the mesh keeps of its volume at least, in parts of it.
+constexpr double most_volume_change = 0.02;
+/// Bumps are not noise beyond that part of the diagonal.
+constexpr double largest_radius = 0.1;
+
+/// Three digits: what is printed of an amount is to be all of it.
+double rounded(double value)
+{
+    return std::stod(fmt::format("{:.3g}", value));
+}
+
+double require_step(double time_step)
+{
+    if (std::isnormal(time_step))
+        return time_step;
+    throw InputError("has no size to measure --time-step-edges by; use --time-step");
+}
+
+void smooth_nothing(PresetChoice& choice, double mean_edge, std::string remark)
+{
+    choice.options.steps = 0;
+    choice.options.time_step = std::isnormal(mean_edge * mean_edge) ? mean_edge * mean_edge : 1.0;
+    choice.remark = std::move(remark);
+}
+
+/// Chooses by the noise of the mesh as it flows.
+void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>& known, PresetChoice& choice,
+                     const Loop& loop)
+{
+    const Topology topology = make_topology(mesh, loop);
+    const std::optional<double> within = choice.options.motion.weld;
+    const std::optional<Weld> welded = within ? weld(mesh, topology, *within, loop) : std::nullopt;
+    const PolygonMesh& flowing = welded ? welded->mesh : mesh;
+    const Topology& joined = welded ? welded->topology : topology;
+    const double mean_edge = mean_edge_length(mesh, mesh.vertices, loop);
+    const double diagonal = extent_of(mesh.vertices);
+    choice.noise = known ? length_of(*known, diagonal) : estimate_noise(flowing, joined, loop);
+    if (*choice.noise == 0.0)
+        return smooth_nothing(choice, mean_edge,
+                              "No noise can be told from the shape of the mesh: nothing is smoothed. --radius says how "
+                              "much to smooth all the same, and --preset cad keeps edges.");
+    const double t = denoising_amount(flowing, joined, *choice.noise, loop).amount;
+    // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
+    const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
+    if (!(radius > 0.0) || !(radius <= largest_radius * diagonal))
+        return smooth_nothing(choice, mean_edge,
+                              "The noise of the mesh cannot be told from its shape well enough for smoothing to bring "
+                              "it nearer to the true surface: nothing is smoothed. --radius says how much to smooth all "
+                              "the same, and --preset cad keeps edges.");
+    const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
+                         (mean_edge * mean_edge);
+    choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
+    choice.options.motion.limits.move = *choice.noise;
+}
+
+}  // namespace
+
+std::span<const PresetTraits> all_presets()
+{
+    return table;
+}
+
+const PresetTraits& preset_of(std::string_view name)
+{
+    const auto found = std::ranges::find(table, name, &PresetTraits::name);
+    if (found == table.end())
+        throw OptionError(fmt::format("there is no preset \"{}\"", name));
+    return *found;
+}
+
+double length_of(const LengthOnMesh& length, double diagonal)
+{
+    return length.value * (length.of_diagonal ? diagonal : 1.0);
+}
+
+double attachment_of(const LengthOnMesh& length, double diagonal)
+{
+    if (length.of_diagonal && !std::isnormal(diagonal))
+        throw InputError("has no size to measure --attach by; use a length");
+    const double radius = length_of(length, diagonal);
+    const double weight = 1.0 / (radius * radius);
+    if (!std::isnormal(weight))
+        throw OptionError("--attach is too small or too large: 1/R² is beyond what a double can hold");
+    return weight;
+}
+
+void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
+                   PresetChoice& choice, const Loop& loop)
+{
+    FlowOptions& options = choice.options;
+    options.motion.limits = {.volume = most_volume_change};
+    if (preset.time_step_edges) {
+        const double mean_edge = mean_edge_length(mesh, mesh.vertices, loop);
+        options.time_step = require_step(*preset.time_step_edges * mean_edge * mean_edge);
+    } else if (preset.radius) {
+        options.time_step =
+            time_step_for_radius(*preset.radius, options.steps, extent_of(mesh.vertices), filter_of(options));
+    } else {
+        choose_by_noise(mesh, noise, choice, loop);
+    }
+}
+
+PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptions& further,
+                         const std::optional<LengthOnMesh>& noise, const Loop& loop)
+{
+    require_valid(mesh, loop);
+    const PresetTraits& traits = *std::ranges::find(table, preset, &PresetTraits::preset);
+    PresetChoice choice{.options = further};
+    FlowOptions& options = choice.options;
+    options.laplacian = traits.laplacian;
+    options.flow = traits.flow;
+    options.filter = traits.filter;
+    options.order = traits.order;
+    options.keep_edges = traits.keep_edges;
+    options.steps = traits.steps;
+    options.radius.reset();
+    if (traits.attach)
+        options.motion.attachment = attachment_of(*traits.attach, extent_of(mesh.vertices));
+    choose_amount(traits, mesh, noise, choice, loop);
+    return choice;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "partition/loop.h"
+#include "solvers/denoising/filter_sample.h"
+
+namespace seamflow {
+
+/// One row per vertex of a sample, one column per signal.
+using Signals = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+/// The coefficients cⱼ with f(λ) = Σ cⱼ Tⱼ(λ - 1) on [0, 2], by interpolation at the zeros of a polynomial of four
+/// times the degree (Trefethen, Approximation Theory and Approximation Practice, 2013, chapter 4).
+class ChebyshevExpansion {
+  public:
+    explicit ChebyshevExpansion(Index n_terms);
+
+    [[nodiscard]] Eigen::VectorXd coefficients(const std::function<double(double)>& f) const;
+
+  private:
+    /// Where f is evaluated, in [0, 2].
+    Eigen::VectorXd nodes_;
+    /// Number of terms by number of nodes.
+    Eigen::MatrixXd weights_;
+};
+
+/// Takes the terms of a Chebyshev basis, j = 0 … n_terms - 1 one after the other.
+using VisitTerm = std::function<void(Index j, const Signals& term)>;
+
+/// Makes the signals Tⱼ(L - 1) X: any filter f(L) X is a linear combination of them. L = D⁻¹ K is the Laplacian of the
+/// graph, D its degrees and K of ones, whose spectrum is in [0, 2]; rows of vertices that stay are 0.
+void visit_chebyshev_basis(const FilterSample& sample, const Signals& signals, Index n_terms, const VisitTerm& visit,
+                           const Loop& loop = run_serially);
+
+}  // namespace seamflow

@@ -1,0 +1,262 @@
+#include "solvers/denoising/denoising_amount.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "partition/metrics/vertex_normals.h"
+#include "solvers/denoising/chebyshev.h"
+#include "solvers/denoising/filter_sample.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Of the Chebyshev basis: exact to 1e-4 for the largest amount.
+constexpr Index n_terms = 48;
+constexpr double smallest_amount = 0.25;
+constexpr double largest_amount = 12.0;
+constexpr Index n_amounts = 52;
+/// The normals are first those of this filter, then those of the one found with these.
+constexpr double first_amount = 1.5;
+constexpr int n_rounds = 2;
+/// The noise is within these factors of what is said.
+constexpr double least_noise = 0.9;
+constexpr double most_noise = 1.15;
+/// Factor on the amount that comes nearest, for the normals.
+constexpr double for_normals = 1.15;
+/// Something is gained where the risk is below this part of that of the mesh as it is, σ².
+constexpr double clear_gain = 0.9;
+
+constexpr int probe_column = 3;
+
+double filter_of_order_three(double amount, double eigenvalue)
+{
+    const double scaled = amount * eigenvalue;
+    return 1.0 / (1.0 + scaled * scaled * scaled);
+}
+
+double amount_at(double place)
+{
+    return smallest_amount * std::pow(largest_amount / smallest_amount, place / (n_amounts - 1));
+}
+
+/// 1 or -1, by the number of a vertex alone (the mixing of splitmix64: Steele, Lea, Flood 2014).
+double random_sign(Index v)
+{
+    std::uint64_t bits = (static_cast<std::uint64_t>(v) + 1) * 0x9e3779b97f4a7c15ULL;
+    bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9ULL;
+    bits = (bits ^ bits >> 27) * 0x94d049bb133111ebULL;
+    return (bits >> 63) == 0 ? 1.0 : -1.0;
+}
+
+/// The positions around their mean, and the random vector.
+Signals signals_of(const PolygonMesh& mesh, const FilterSample& sample)
+{
+    Signals signals(static_cast<Eigen::Index>(sample.vertices.size()), Signals::ColsAtCompileTime);
+    for (Index i = 0; i < signals.rows(); ++i) {
+        signals.row(i).head<3>() = mesh.vertices.row(sample.vertices[i]);
+        signals(i, probe_column) = random_sign(sample.vertices[i]);
+    }
+    const Eigen::RowVector3d centre = signals.leftCols<3>().colwise().mean();
+    signals.leftCols<3>().rowwise() -= centre;
+    return signals;
+}
+
+/// Risks of all amounts, by what the basis is along given normals.
+class Risks {
+  public:
+    /// @param products n_terms by n_terms: of the changes Tⱼ X - (-1)ʲ X along the normals, mean over the measured
+    /// vertices. @param traces n_terms: tr(Tⱼ - (-1)ʲ) / #V. @param filters n_terms by n_amounts: the coefficients.
+    Risks(const Eigen::MatrixXd& products, const Eigen::VectorXd& traces, const Eigen::MatrixXd& filters)
+    {
+        squared_moves_ = filters.cwiseProduct(products * filters).colwise().sum().cwiseMax(0.0);
+        traces_ = (traces.transpose() * filters).array() + 1.0;
+    }
+
+    /// Along the normals, mean over the vertices: length².
+    [[nodiscard]] double squared_move(double place) const { return interpolate(squared_moves_, place); }
+
+    /// length².
+    [[nodiscard]] double risk(double place, double noise) const
+    {
+        return squared_move(place) + noise * noise * (2.0 * interpolate(traces_, place) - 1.0);
+    }
+
+    /// Where the risk is least.
+    [[nodiscard]] double best_place(double noise) const
+    {
+        return minimum(squared_moves_ + 2.0 * noise * noise * traces_, 0, n_amounts - 1);
+    }
+
+    /// Where the generalised cross-validation is least, within a range of places.
+    [[nodiscard]] double best_place_between(double first, double last) const
+    {
+        const auto begin = static_cast<Index>(std::floor(first));
+        const auto end = static_cast<Index>(std::ceil(last));
+        return std::clamp(minimum(squared_moves_.cwiseQuotient((1.0 - traces_.array()).square().matrix()), begin, end),
+                          first, last);
+    }
+
+    /// The last place up to the given one where vertices move by no more than the noise.
+    [[nodiscard]] double within(double noise, double place) const
+    {
+        constexpr int n_halvings = 40;
+        double allowed = 0.0;
+        if (squared_move(place) <= noise * noise)
+            return place;
+        for (int i = 0; i < n_halvings; ++i) {
+            const double middle = (allowed + place) / 2.0;
+            (squared_move(middle) <= noise * noise ? allowed : place) = middle;
+        }
+        return allowed;
+    }
+
+  private:
+    static double interpolate(const Eigen::RowVectorXd& values, double place)
+    {
+        const auto i = std::min(static_cast<Index>(place), n_amounts - 2);
+        return values[i] + (place - i) * (values[i + 1] - values[i]);
+    }
+
+    /// The place of the least of some values, by the parabola through it and both beside it.
+    static double minimum(const Eigen::RowVectorXd& values, Index first, Index last)
+    {
+        Eigen::Index offset = 0;
+        values.segment(first, last - first + 1).minCoeff(&offset);
+        const auto i = static_cast<Index>(first + offset);
+        if (i == 0 || i == n_amounts - 1)
+            return i;
+        const double slope = (values[i + 1] - values[i - 1]) / 2.0;
+        const double curvature = values[i + 1] - 2.0 * values[i] + values[i - 1];
+        return curvature > 0.0 ? i - std::clamp(slope / curvature, -0.5, 0.5) : i;
+    }
+
+    Eigen::RowVectorXd squared_moves_;
+    Eigen::RowVectorXd traces_;
+};
+
+/// A sample of a mesh, and what filters make of it.
+class FilteredSample {
+  public:
+    FilteredSample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+        : normals_(mesh, topology)
+        , sample_(take_filter_sample(mesh, topology, loop))
+        , signals_(signals_of(mesh, sample_))
+        , positions_(mesh.n_vertices(), 3)
+        , filters_(n_terms, n_amounts)
+        , loop_(loop)
+    {
+        for (Index k = 0; k < n_amounts; ++k)
+            filters_.col(k) = coefficients(amount_at(k));
+    }
+
+    [[nodiscard]] bool empty() const { return sample_.measured.empty(); }
+
+    /// Along the normals that the mesh has when it is filtered.
+    [[nodiscard]] Risks risks(double amount)
+    {
+        filter_positions(coefficients(amount));
+        const auto n = static_cast<Index>(sample_.measured.size());
+        std::vector<Point> normals(at(n));
+        for_each(loop_, n, [&](Index m) { normals[m] = normals_(sample_.vertices[sample_.measured[m]], positions_); });
+        Eigen::MatrixXd along_normals(n, n_terms);
+        Eigen::VectorXd traces(n_terms);
+        visit_chebyshev_basis(
+            sample_, signals_, n_terms,
+            [&](Index j, const Signals& term) {
+                for_each(loop_, n, [&](Index m) {
+                    along_normals(m, j) = normals[m].dot(change(j, term, sample_.measured[m]).head<3>());
+                });
+                traces[j] = sum(loop_, n, [&](Index m) {
+                    const Index place = sample_.measured[m];
+                    return signals_(place, probe_column) * change(j, term, place)[probe_column];
+                });
+            },
+            loop_);
+        return {products(along_normals) / n, traces / n, filters_};
+    }
+
+  private:
+    [[nodiscard]] Eigen::VectorXd coefficients(double amount) const
+    {
+        return expansion_.coefficients(
+            [amount](double eigenvalue) { return filter_of_order_three(amount, eigenvalue); });
+    }
+
+    /// Tⱼ X - (-1)ʲ X, which is 0 for what is constant: filters leave that as it is, however large it is and however
+    /// few terms they have.
+    [[nodiscard]] Eigen::RowVector4d change(Index j, const Signals& term, Index place) const
+    {
+        return term.row(place) + (j % 2 == 0 ? -1.0 : 1.0) * signals_.row(place);
+    }
+
+    void filter_positions(const Eigen::VectorXd& coefficients)
+    {
+        Signals filtered = signals_;
+        const auto n = static_cast<Index>(filtered.rows());
+        visit_chebyshev_basis(
+            sample_, signals_, n_terms,
+            [&](Index j, const Signals& term) {
+                for_each(loop_, n, [&](Index i) { filtered.row(i) += coefficients[j] * change(j, term, i); });
+            },
+            loop_);
+        for_each(loop_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });
+    }
+
+    /// Of all columns with all columns.
+    [[nodiscard]] Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const
+    {
+        const auto n = static_cast<Index>(columns.rows());
+        std::vector<Eigen::MatrixXd> of_blocks(at(n / block_size) + 1, Eigen::MatrixXd::Zero(n_terms, n_terms));
+        for_each_block(loop_, n, [&](Index block, Index begin, Index end) {
+            const auto rows = columns.middleRows(begin, end - begin);
+            of_blocks[block].noalias() = rows.transpose() * rows;
+        });
+        Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n_terms, n_terms);
+        for (const Eigen::MatrixXd& of_block : of_blocks)
+            total += of_block;
+        return total;
+    }
+
+    VertexNormals normals_;
+    FilterSample sample_;
+    Signals signals_;
+    /// #V by 3: the filtered ones of the sample, no others.
+    Points positions_;
+    ChebyshevExpansion expansion_{n_terms};
+    /// n_terms by n_amounts.
+    Eigen::MatrixXd filters_;
+    const Loop& loop_;
+};
+
+DenoisingAmount choose(const Risks& risks, double noise)
+{
+    const double nearest =
+        risks.best_place_between(risks.best_place(least_noise * noise), risks.best_place(most_noise * noise));
+    const double ratio = largest_amount / smallest_amount;
+    const double more = std::log(for_normals) / std::log(ratio) * (n_amounts - 1);
+    const double place = risks.within(noise, std::min<double>(nearest + more, n_amounts - 1));
+    return {amount_at(place), std::max(risks.risk(place, noise), 0.0), std::sqrt(risks.squared_move(place))};
+}
+
+}  // namespace
+
+DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topology, double noise, const Loop& loop)
+{
+    const DenoisingAmount none{0.0, noise * noise, 0.0};
+    if (!(noise > 0.0))
+        return {};
+    FilteredSample sample(mesh, topology, loop);
+    if (sample.empty())
+        return none;
+    DenoisingAmount found{first_amount, 0.0, 0.0};
+    for (int round = 0; round < n_rounds; ++round)
+        found = choose(sample.risks(found.amount), noise);
+    return found.risk < clear_gain * noise * noise && found.move <= noise ? found : none;
+}
+
+}  // namespace seamflow

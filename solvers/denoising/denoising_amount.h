@@ -1,0 +1,38 @@
+#pragma once
+
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// How much to smooth, and what is expected of it.
+struct DenoisingAmount {
+    /// t of the filter H = (1 + (t L)³)⁻¹, without a unit; 0: nothing is gained.
+    double amount = 0.0;
+    /// The mean squared distance from the true surface, along the normals, that is expected after the filter: length².
+    double risk = 0.0;
+    /// By how much the filter moves vertices along the normals, root mean square, in units of length. Not more than the
+    /// noise.
+    double move = 0.0;
+};
+
+/// The amount of the filter X′ = (1 + (t L)³)⁻¹ X that comes nearest to the true surface, L = D⁻¹ K with uniform
+/// weights; vertices that do not move have rows of the identity.
+///
+/// Noise that is independent and of variance σ² in each coordinate has the risk
+///     mean (n·(H X - X))² - σ² + 2 σ² tr(H) / #V
+/// along the normals n of H X, whatever the true surface is (Stein, Estimation of the Mean of a Multivariate Normal
+/// Distribution, 1981), the trace by a random vector of ±1 (Hutchinson, 1990). With σ known to some 15 % its minimum is
+/// known to lie in a range; in there t minimises mean (n·(H X - X))² / (1 - tr(H) / #V)², which needs no σ (generalised
+/// cross-validation: Craven and Wahba, Smoothing Noisy Data with Spline Functions, 1979). A little more is better for
+/// normals and hardly worse for distances. No t is taken that moves vertices by more than σ (Morozov, On the Solution
+/// of Functional Equations by the Method of Regularization, 1966).
+///
+/// All t are found from one Chebyshev basis of L on a sample of the mesh (see take_filter_sample); nothing is
+/// factorised, and the result does not depend on how the loop is divided.
+/// @param noise σ: the standard deviation along the normals, in units of length, as estimate_noise gives it.
+DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topology, double noise,
+                                 const Loop& loop = run_serially);
+
+}  // namespace seamflow

@@ -1,0 +1,70 @@
+#include "solvers/denoising/filter_sample.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace seamflow {
+
+namespace {
+
+constexpr Index most_vertices = 30'000;
+constexpr Index n_patches = 32;
+constexpr int patch_rings = 18;
+constexpr int measured_rings = 8;
+constexpr int outside_patches = patch_rings + 1;
+
+/// #V: how many rings of faces away the nearest middle of a patch is; `outside_patches` further out.
+std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Topology& topology)
+{
+    const Index n = mesh.n_vertices();
+    std::vector<std::int8_t> rings(at(n), outside_patches);
+    std::vector<Index> front;
+    for (Index i = 0; i < n_patches; ++i) {
+        const auto v = static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * n_patches));
+        rings[v] = 0;
+        front.push_back(v);
+    }
+    for (std::int8_t ring = 1; ring <= patch_rings; ++ring) {
+        std::vector<Index> next;
+        for (const Index v : front)
+            for (const Index corner : topology.corners_at(v))
+                for (const Index w : mesh.face(topology.face_of[corner]))
+                    if (rings[w] == outside_patches) {
+                        rings[w] = ring;
+                        next.push_back(w);
+                    }
+        front = std::move(next);
+    }
+    return rings;
+}
+
+}  // namespace
+
+FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+{
+    const Index n = mesh.n_vertices();
+    const std::vector<std::int8_t> rings =
+        n <= most_vertices ? std::vector<std::int8_t>(at(n), 0) : rings_around_middles(mesh, topology);
+    FilterSample sample;
+    sample.vertices = select(loop, n, [&](Index v) { return rings[v] < outside_patches; });
+    const auto n_places = static_cast<Index>(sample.vertices.size());
+    std::vector<std::vector<Index>> neighbours(at(n_places));
+    for_each(loop, n_places, [&](Index i) {
+        const Index v = sample.vertices[i];
+        if (!topology.moves(v) || rings[v] >= patch_rings)
+            return;
+        neighbours[i] = neighbours_of(mesh, topology, v);
+        for (Index& w : neighbours[i])
+            w = static_cast<Index>(std::ranges::lower_bound(sample.vertices, w) - sample.vertices.begin());
+    });
+    for (Index i = 0; i < n_places; ++i) {
+        sample.neighbours.values.insert(sample.neighbours.values.end(), neighbours[i].begin(), neighbours[i].end());
+        sample.neighbours.close();
+        if (!neighbours[i].empty() && rings[sample.vertices[i]] <= measured_rings)
+            sample.measured.push_back(i);
+    }
+    return sample;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// What becomes of the solution of a step. S is what a step makes of positions, and of a mode of the surface with λ, dt
+/// times its eigenvalue of Δ, it leaves 1 / (1 + λ).
+enum class Filter {
+    /// The k-harmonic step of order k, (M + dtᵏ K (M⁻¹ K)ᵏ⁻¹) Vⁿ⁺¹ = M Vⁿ, which leaves 1 / (1 + λᵏ). Order 1 is S;
+    /// 2 is implicit surface diffusion (Desbrun et al., Implicit Fairing of Irregular Meshes, 1999). The higher the
+    /// order, the less is taken of what is large, and the more of what is small.
+    Diffusion,
+    /// V ← V + Σ of S applied to what is left of V, m times in all, which leaves 1 - (λ / (1 + λ))ᵐ. What is large
+    /// shrinks to order m only; what is small stays longer than with Diffusion.
+    LowPass,
+};
+
+/// A filter of some order: a polynomial of S, so that a step has one factorisation and several solutions.
+struct StepFilter {
+    Filter kind = Filter::Diffusion;
+    /// 1 to 3 with Filter::Diffusion, at least 2 with Filter::LowPass.
+    int order = 1;
+    /// How far 1 / (1 + λᵏ) may be missed, in parts of 1: it is a polynomial of S in effect. At least 1e-12.
+    double tolerance = 1e-2;
+
+    /// Whether it is S itself.
+    [[nodiscard]] bool is_plain() const { return kind == Filter::Diffusion && order == 1; }
+
+    friend bool operator==(const StepFilter&, const StepFilter&) = default;
+};
+
+/// What a step leaves of a mode with λ ≥ 0, without dimension.
+double transfer(const StepFilter& filter, double lambda);
+
+/// The λ of which a step leaves that: the inverse of `transfer`.
+/// @param left above 0 and below 1.
+double lambda_of(const StepFilter& filter, double left);
+
+/// How many solutions a step has, that of S V among them.
+int n_solutions(const StepFilter& filter);
+
+/// Rows of arrays that belong together, #rows by 3 each.
+using PointBlocks = std::vector<Points>;
+
+/// Completes a filter that is not plain. With u = 1 - S, the low-pass filter takes uᵐ V off V, and the k-harmonic step
+/// uᵏ / (1 - k u S) V for k = 2 and 3, of which the denominator is a polynomial of u S, exact at u S = 0: nothing is
+/// taken of what is large, and all of what is small.
+/// @param rest in: u V, that is V - S V; out: what is to be taken off V.
+/// @param solve gives S D; what it returns may change with the next call.
+void complete(const StepFilter& filter, PointBlocks& rest,
+              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Loop& loop);
+
+}  // namespace seamflow

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+
+#include "engine/tasks/parallel_loop.h"
+#include "partition/metrics/noise.h"
+#include "partition/metrics/vertex_distance.h"
+#include "partition/metrics/vertex_normals.h"
+#include "samples/common/meshes.h"
+#include "solvers/denoising/chebyshev.h"
+#include "solvers/denoising/denoising_amount.h"
+#include "tests/support/denoising.h"
+#include "tests/support/test_meshes.h"
+
+using namespace seamflow;
+
+namespace {
+
+constexpr Index n_terms_of_filters = 60;
+
+/// The mesh after the filter, whole: it has fewer than thirty thousand vertices.
+PolygonMesh filtered(PolygonMesh mesh, double amount)
+{
+    const FilterSample sample = take_filter_sample(mesh, make_topology(mesh));
+    Signals signals = Signals::Zero(mesh.n_vertices(), 4);
+    signals.leftCols<3>() = mesh.vertices;
+    const Eigen::VectorXd coefficients = ChebyshevExpansion(n_terms_of_filters).coefficients([&](double eigenvalue) {
+        return 1.0 / (1.0 + std::pow(amount * eigenvalue, 3));
+    });
+    mesh.vertices.setZero();
+    visit_chebyshev_basis(sample, signals, n_terms_of_filters,
+                          [&](Index j, const Signals& term) { mesh.vertices += coefficients[j] * term.leftCols<3>(); });
+    return mesh;
+}
+
+/// Root mean square along the normals of the first.
+double distance(const PolygonMesh& from, const PolygonMesh& to)
+{
+    const Topology topology = make_topology(from);
+    const VertexNormals normals(from, topology);
+    double sum = 0.0;
+    Index n = 0;
+    for (Index v = 0; v < from.n_vertices(); ++v)
+        if (topology.moves(v)) {
+            const Point move = to.vertices.row(v) - from.vertices.row(v);
+            sum += std::pow(move.dot(normals(v, from.vertices)), 2);
+            ++n;
+        }
+    return std::sqrt(sum / n);
+}
+
+double noise_along_normals(double sigma, const PolygonMesh& mesh)
+{
+    return sigma / std::sqrt(3.0) * mean_edge_length(mesh);
+}
+
+DenoisingAmount amount_for(const PolygonMesh& mesh, double noise)
+{
+    return denoising_amount(mesh, make_topology(mesh), noise);
+}
+
+bool is_same(const DenoisingAmount& one, const DenoisingAmount& other)
+{
+    return one.amount == other.amount && one.risk == other.risk && one.move == other.move;
+}
+
+}  // namespace
+
+TEST_CASE("the amount comes nearest to the true surface, and the distance left is known")
+{
+    for (const PolygonMesh& truth :
+         {make_triangles(8000), make_quads(8000), make_hexagons(8000), make_mixed_polygons(8000), make_cylinder(6000),
+          make_noisy_sphere(6000, {.noise = 0.0}), make_noisy_sphere(3000, {.waves = 9, .noise = 0.0}),
+          make_box(3000)}) {
+        for (const double sigma : {0.1, 0.3}) {
+            CAPTURE(truth.n_vertices());
+            CAPTURE(sigma);
+            const PolygonMesh noisy = test::with_gaussian_noise(truth, sigma, 1);
+            const double noise = noise_along_normals(sigma, truth);
+            const DenoisingAmount found = amount_for(noisy, noise);
+            REQUIRE(found.amount > 0.0);
+            const double left = distance(truth, filtered(noisy, found.amount));
+            double least = left;
+            for (double amount = 0.3; amount < 12.0; amount *= 1.2)
+                least = std::min(least, distance(truth, filtered(noisy, amount)));
+            CHECK(left < 1.08 * least);
+            CHECK(left < 0.9 * distance(truth, noisy));
+            // In squares, over that of the noise.
+            CHECK(std::abs(found.risk - left * left) < 0.1 * noise * noise);
+            CHECK(found.move <= noise);
+            CHECK(found.move > 0.3 * noise);
+            // Where only the estimate is known, the result is hardly worse; what is not proved to be noise stays.
+            const double estimated = estimate_noise(noisy, make_topology(noisy));
+            if (estimated > 0.0)
+                CHECK(distance(truth, filtered(noisy, amount_for(noisy, estimated).amount)) < 1.2 * least);
+        }
+    }
+}
+
+TEST_CASE("nothing is smoothed without noise, nor where smoothing takes more off the shape than noise")
+{
+    const PolygonMesh part = make_gear(3000);
+    CHECK(amount_for(part, 0.0).amount == 0.0);
+    CHECK(amount_for(part, -1.0).amount == 0.0);
+    const double noise = 1e-3 * mean_edge_length(part);
+    const DenoisingAmount none = amount_for(part, noise);
+    CHECK(none.amount == 0.0);
+    CHECK(none.move == 0.0);
+    CHECK(none.risk == noise * noise);
+}
+
+TEST_CASE("meshes in which nothing moves have no amount")
+{
+    CHECK(amount_for(PolygonMesh{}, 1.0).amount == 0.0);
+    CHECK(amount_for(test::triangle_grid(1, 5), 0.1).amount == 0.0);
+    PolygonMesh sheet = make_triangles(900);
+    Topology topology = make_topology(sheet);
+    std::vector<Index> all(at(sheet.n_vertices()));
+    std::iota(all.begin(), all.end(), Index{0});
+    hold(topology, all);
+    CHECK(denoising_amount(sheet, topology, 0.1).amount == 0.0);
+}
+
+TEST_CASE("the amount does not depend on threads, scale, place or direction")
+{
+    const PolygonMesh noisy = test::with_gaussian_noise(make_mixed_polygons(9000), 0.2, 2);
+    const double noise = noise_along_normals(0.2, noisy);
+    const DenoisingAmount found = amount_for(noisy, noise);
+    REQUIRE(found.amount > 0.0);
+    CHECK(is_same(denoising_amount(noisy, make_topology(noisy), noise, run_in_parallel), found));
+    PolygonMesh other = noisy;
+    for (const double scale : {0x1p-30, 0x1p20}) {
+        other.vertices = scale * noisy.vertices;
+        const DenoisingAmount scaled = amount_for(other, scale * noise);
+        CHECK(is_same(scaled, {found.amount, scale * scale * found.risk, scale * found.move}));
+    }
+    const Eigen::Matrix3d rotation =
+        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+    other.vertices = (noisy.vertices * rotation.transpose()).rowwise() + Eigen::RowVector3d(30.0, -4.0, 70.0);
+    CHECK(amount_for(other, noise).amount / found.amount == doctest::Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("patches of a large mesh say what the whole says, and do not depend on threads")
+{
+    const PolygonMesh one = test::with_gaussian_noise(make_noisy_sphere(20'000, {.noise = 0.0}), 0.2, 3);
+    const PolygonMesh three = test::side_by_side({one, one, one});
+    const double noise = noise_along_normals(0.2, one);
+    const DenoisingAmount of_three = amount_for(three, noise);
+    CHECK(std::abs(of_three.amount / amount_for(one, noise).amount - 1.0) < 0.2);
+    CHECK(is_same(denoising_amount(three, make_topology(three), noise, run_in_parallel), of_three));
+}
+
+TEST_CASE("the amount hardly depends on the order of vertices")
+{
+    const PolygonMesh noisy = test::with_gaussian_noise(make_triangles(9000), 0.2, 4);
+    const double noise = noise_along_normals(0.2, noisy);
+    std::vector<Index> order(at(noisy.n_vertices()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::shuffle(order.begin(), order.end(), std::mt19937(5));
+    PolygonMesh shuffled = noisy;
+    for (Index v = 0; v < noisy.n_vertices(); ++v)
+        shuffled.vertices.row(order[v]) = noisy.vertices.row(v);
+    for (Index& v : shuffled.face_vertices)
+        v = order[v];
+    CHECK(std::abs(amount_for(shuffled, noise).amount / amount_for(noisy, noise).amount - 1.0) < 0.1);
+}
