@@ -20,7 +20,8 @@ class LimitedComponents {
     /// @param topology with twins, which are not needed later.
     LimitedComponents(const PolygonMesh& mesh, const Topology& topology, const ComponentLimits& limits);
 
-    /// Moves the vertices of components that have lost too much back, along a straight line to where they were at first.
+    /// Moves the vertices of components that have lost too much back, along a straight line to where they were at
+    /// first.
     /// @param positions #V by 3.
     void apply(Points& positions);
 

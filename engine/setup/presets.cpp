@@ -92,10 +92,11 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
     if (!(radius > 0.0) || !(radius <= largest_radius * diagonal))
-        return smooth_nothing(choice, mean_edge,
-                              "The noise of the mesh cannot be told from its shape well enough for smoothing to bring "
-                              "it nearer to the true surface: nothing is smoothed. --radius says how much to smooth all "
-                              "the same, and --preset cad keeps edges.");
+        return smooth_nothing(
+            choice, mean_edge,
+            "The noise of the mesh cannot be told from its shape well enough for smoothing to bring "
+            "it nearer to the true surface: nothing is smoothed. --radius says how much to smooth all "
+            "the same, and --preset cad keeps edges.");
     const double edges = time_step_for_radius(radius, std::max(choice.options.steps, 1), filter_of(choice.options)) /
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);

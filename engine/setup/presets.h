@@ -66,8 +66,8 @@ struct PresetChoice {
 PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptions& further = {},
                          const std::optional<LengthOnMesh>& noise = {}, const Loop& loop = run_serially);
 
-/// The amount of a preset, and its limits, for other options than its own, too: an amount by the noise is that with which
-/// bumps are half as high that the preset's own options would make half as high.
+/// The amount of a preset, and its limits, for other options than its own, too: an amount by the noise is that with
+/// which bumps are half as high that the preset's own options would make half as high.
 /// @param choice its options all but the amount; receives that, the noise and the remark.
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
                    PresetChoice& choice, const Loop& loop = run_serially);

@@ -52,7 +52,7 @@ TEST_CASE("a Chebyshev expansion is the function on [0, 2], the nearer the smoot
     for (const auto& [amount, error] : {std::pair{0.25, 1e-12}, {1.0, 1e-12}, {4.0, 1e-6}, {12.0, 5e-4}}) {
         CAPTURE(amount);
         const Eigen::VectorXd coefficients =
-            expansion.coefficients([&](double eigenvalue) { return filter(amount, eigenvalue); });
+            expansion.coefficients([&, t = amount](double eigenvalue) { return filter(t, eigenvalue); });
         REQUIRE(coefficients.size() == n_terms);
         for (double eigenvalue = 0.0; eigenvalue <= 2.0; eigenvalue += 0.05) {
             double value = 0.0;
