@@ -49,16 +49,17 @@ Signals filtered(const FilterSample& sample, const Signals& signals, double amou
 TEST_CASE("a Chebyshev expansion is the function on [0, 2], the nearer the smoother it is")
 {
     const ChebyshevExpansion expansion(n_terms);
-    for (const auto& [amount, error] : {std::pair{0.25, 1e-12}, {1.0, 1e-12}, {4.0, 1e-6}, {12.0, 5e-4}}) {
+    for (const auto& filter_and_error : {std::pair{0.25, 1e-12}, {1.0, 1e-12}, {4.0, 1e-6}, {12.0, 5e-4}}) {
+        const double amount = filter_and_error.first;
         CAPTURE(amount);
         const Eigen::VectorXd coefficients =
-            expansion.coefficients([&, t = amount](double eigenvalue) { return filter(t, eigenvalue); });
+            expansion.coefficients([&](double eigenvalue) { return filter(amount, eigenvalue); });
         REQUIRE(coefficients.size() == n_terms);
         for (double eigenvalue = 0.0; eigenvalue <= 2.0; eigenvalue += 0.05) {
             double value = 0.0;
             for (Index j = 0; j < n_terms; ++j)
                 value += coefficients[j] * std::cos(j * std::acos(std::clamp(eigenvalue - 1.0, -1.0, 1.0)));
-            CHECK(std::abs(value - filter(amount, eigenvalue)) < error);
+            CHECK(std::abs(value - filter(amount, eigenvalue)) < filter_and_error.second);
         }
     }
 }
