@@ -24,7 +24,7 @@ ExitStatus compare(int argc, char** argv)
     const PolygonMesh reference = read_faulty_mesh(command.reference, left_out, workers.loop()).mesh;
     const PolygonMesh candidate = read_faulty_mesh(command.candidate, left_out, workers.loop()).mesh;
 
-    Comparison comparison = compare_meshes(reference, candidate, command.direction);
+    Comparison comparison = compare_meshes(reference, candidate, command.direction, workers.loop());
     comparison.reference = command.reference.string();
     comparison.candidate = command.candidate.string();
     std::ostream& out = is_standard_stream(command.report) ? std::cerr : std::cout;

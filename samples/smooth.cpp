@@ -215,8 +215,9 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     if (change) {
-        run.surface = change->measure(file.mesh, report.mesh.moved_with, loop);
+        run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, loop);
         remark_on_loss(command.options, run.surface, report.remarks);
+        remark_on_folds(run.surface, report.remarks);
     }
     run.seconds = whole.seconds();
     write_reports(command, run, report, page);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -107,8 +108,24 @@ double LimitedComponents::factor_of(Index component, const Points& positions) co
     return factor >= smallest_factor ? factor : 0.0;
 }
 
+/// Shortens what displacements have across the normals of the result.
+void LimitedComponents::limit_slides(Points& positions) const
+{
+    Points limited = positions;
+    for_each(run_in_parallel, mesh_->n_vertices(), [&](Index v) {
+        const Point move = positions.row(v) - first_.row(v);
+        const Point normal = normals_(v, positions);
+        const Point slide = move - move.dot(normal) * normal;
+        if (const double length = slide.norm(); length > limits_.slide)
+            limited.row(v) -= (1.0 - limits_.slide / length) * slide;
+    });
+    positions = std::move(limited);
+}
+
 void LimitedComponents::apply(Points& positions)
 {
+    if (std::isfinite(limits_.slide))
+        limit_slides(positions);
     for (Index c = 0; c < components_.count(); ++c) {
         factors_[c] = factor_of(c, positions);
         if (factors_[c] == 1.0)

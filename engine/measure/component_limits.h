@@ -29,6 +29,7 @@ class LimitedComponents {
     [[nodiscard]] std::string remark() const;
 
   private:
+    void limit_slides(Points& positions) const;
     [[nodiscard]] double volume_of(Index component, const Points& positions, double factor) const;
     [[nodiscard]] double factor_by_volume(Index component, const Points& positions) const;
     [[nodiscard]] double factor_by_move(Index component, const Points& positions) const;

@@ -209,8 +209,10 @@ struct ComponentLimits {
     double volume = std::numeric_limits<double>::infinity();
     /// How far vertices may move along the normals, as root mean square over the component, in length.
     double move = std::numeric_limits<double>::infinity();
+    /// How far a vertex may move along the surface, in length: beyond that it is moved along the normal alone.
+    double slide = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move); }
+    [[nodiscard]] bool exist() const { return std::isfinite(volume) || std::isfinite(move) || std::isfinite(slide); }
 };
 
 /// Which vertices move, and where to.

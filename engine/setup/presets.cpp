@@ -49,6 +49,8 @@ constexpr std::array table{
 
 /// What each component of the mesh keeps of its volume at least, in parts of it.
 constexpr double most_volume_change = 0.02;
+/// How far vertices move along the surface at most, in standard deviations of the noise, which moved them there, too.
+constexpr double most_slide = 4.0;
 /// Bumps are not noise beyond that part of the diagonal.
 constexpr double largest_radius = 0.1;
 
@@ -101,6 +103,7 @@ void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>&
                          (mean_edge * mean_edge);
     choice.options.time_step = require_step(rounded(edges) * mean_edge * mean_edge);
     choice.options.motion.limits.move = *choice.noise;
+    choice.options.motion.limits.slide = most_slide * *choice.noise;
 }
 
 }  // namespace

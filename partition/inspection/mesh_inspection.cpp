@@ -250,6 +250,7 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     found.defects.duplicate_faces = duplicate_faces(mesh);
     found.defects.faces_without_area = select(loop, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
     found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
+    found.defects.self_intersections = self_intersections(mesh, mesh.vertices, loop);
     return found;
 }
 

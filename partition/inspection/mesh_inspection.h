@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/loop.h"
+#include "partition/metrics/self_intersections.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -62,6 +63,8 @@ struct MeshDefects {
     std::vector<Index> coincident_vertices;
     /// Vertices without faces.
     std::vector<Index> isolated_vertices;
+    /// Faces that cross each other (see self_intersections).
+    std::vector<FacePair> self_intersections;
 };
 
 /// What a mesh is made of and what is wrong with it.

@@ -52,7 +52,7 @@ constexpr double quiet = 0.02;
 constexpr double most_quiet = 0.06;
 /// In mean edges as measured: noise of half of the true mean edge makes edges that are half as long again.
 constexpr double most_noise = 1.0 / 3.0;
-constexpr double least_noise = 1e-3;
+constexpr double least_noise = 1e-2;
 
 /// The sums of squared residuals over some vertices, those of fits to two and to three rings.
 struct Residuals {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/metrics/flipped_faces.h"
+#include "partition/metrics/self_intersections.h"
 #include "partition/metrics/surface_distance.h"
 
 namespace seamflow {
@@ -36,11 +38,19 @@ void measure_surfaces(const PolygonMesh& reference, const PolygonMesh& candidate
     }
 }
 
-void measure_vertices(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison)
+void measure_vertices(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison,
+                      const Loop& loop)
 {
     comparison.vertex_distance = vertex_distance(reference, reference.vertices, candidate.vertices);
     comparison.displacement =
         displacement_statistics(displacement_field(reference, reference.vertices, candidate.vertices));
+    comparison.flipped_faces =
+        static_cast<Index>(flipped_faces(reference, reference.vertices, candidate.vertices, loop).size());
+}
+
+Index n_crossing(const PolygonMesh& mesh, const Loop& loop)
+{
+    return static_cast<Index>(self_intersections(mesh, mesh.vertices, loop).size());
 }
 
 }  // namespace
@@ -72,7 +82,8 @@ std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMes
     return {};
 }
 
-Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction)
+Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction,
+                          const Loop& loop)
 {
     Comparison comparison;
     comparison.vertices = reference.n_vertices();
@@ -81,7 +92,7 @@ Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candi
     comparison.direction = direction;
     const std::string mismatch = why_not_corresponding(reference, candidate);
     if (mismatch.empty())
-        measure_vertices(reference, candidate, comparison);
+        measure_vertices(reference, candidate, comparison, loop);
     else
         comparison.remarks.push_back(
             "V_ and displacements are left out, for the vertices do not correspond: " + mismatch + ".");
@@ -93,6 +104,8 @@ Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candi
         throw InputError("the meshes have nothing to compare: without faces there is no surface, and their vertices do "
                          "not correspond: " +
                          mismatch);
+    comparison.self_intersections = n_crossing(reference, loop);
+    comparison.candidate_self_intersections = n_crossing(candidate, loop);
     return comparison;
 }
 

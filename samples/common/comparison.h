@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/loop.h"
 #include "partition/metrics/displacement.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/vertex_distance.h"
@@ -45,6 +46,11 @@ struct Comparison {
     std::optional<LengthStatistics> surface_distance_back;
     /// From the reference to the candidate, where the vertices correspond.
     std::optional<DisplacementStatistics> displacement;
+    /// Faces whose normal has turned by more than 90° (see flipped_faces), where the vertices correspond.
+    std::optional<Index> flipped_faces;
+    /// How many pairs of faces cross each other in the reference, and in the candidate (see self_intersections).
+    Index self_intersections = 0;
+    Index candidate_self_intersections = 0;
     /// Sentences for the user: what was left out, and why.
     std::vector<std::string> remarks;
 };
@@ -54,6 +60,7 @@ std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMes
 
 /// Measures all that can be measured of two meshes; the names of the files are left to the caller.
 /// @throws InputError if there is nothing.
-Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction);
+Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction,
+                          const Loop& loop = run_serially);
 
 }  // namespace seamflow

@@ -21,6 +21,7 @@ std::vector<SmoothProgram::Lack> lacks()
             {"--keep-edges", whole_mesh},
             {"--overlap", sweeps_alone},
             {"--keep-gaps", sweeps_alone},
+            {"--self-intersections", whole_mesh},
             {"--reference", whole_mesh},
             {"--trace", one_process},
             {"--task-graph", one_process},

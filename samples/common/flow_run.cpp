@@ -82,6 +82,19 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
                                       100.0 * lost, can_rescale ? "--rescale volume scales it back, " : ""));
 }
 
+void remark_on_folds(const SurfaceChange& change, std::vector<std::string>& remarks)
+{
+    std::string what;
+    if (change.folded_faces > 0)
+        what = fmt::format("{} turned over against those around",
+                           change.folded_faces == 1 ? "1 face has" : fmt::format("{} faces have", change.folded_faces));
+    if (const std::size_t n = change.new_self_intersections.value_or(0); n > 0)
+        what += fmt::format("{}{} of faces cross{} now that did not before", what.empty() ? "" : ", and ",
+                            n == 1 ? "1 pair" : fmt::format("{} pairs", n), n == 1 ? "es" : "");
+    if (!what.empty())
+        remarks.push_back(what + ": less smoothing prevents it, or --within a length below that of the edges there.");
+}
+
 std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)
 {
     const int missed = steps_failed(command, report);

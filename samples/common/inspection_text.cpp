@@ -132,6 +132,11 @@ void print_inspection(std::ostream& out, const std::string& file, const FaultLog
     printer.print(found.defects.coincident_vertices, "vertices at the same place as one before them",
                   "smooth moves those along seams as one, and each of the others with its own faces");
     printer.print(found.defects.isolated_vertices, "vertices without faces", "they stay where they are");
+    printer.print(found.defects.self_intersections,
+                  found.defects.self_intersections.size() < most_self_intersections
+                      ? "pairs of faces that cross each other"
+                      : "pairs of faces that cross each other, and no more were looked for",
+                  "smooth moves them as if they did not; programs that fill or print the solid may mind");
     if (found.bits_for_detail < 30)
         printer.print("The mesh lies so far from the origin that its coordinates are coarse against its edges: floats "
                       "cannot hold it; move it to the origin.");

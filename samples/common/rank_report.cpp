@@ -107,7 +107,9 @@ void print_distributed_result(std::ostream& out, const DistributedRecord& record
     for (const std::string& remark : record.remarks)
         out << "remark     " << remark << '\n';
     const double edge = record.size.mean_edge > 0.0 ? record.size.mean_edge : 1.0;
-    const auto& [before, after, moved] = record.run.surface;
+    const SurfaceLook& before = record.run.surface.before;
+    const SurfaceLook& after = record.run.surface.after;
+    const LengthStatistics& moved = record.run.surface.moved;
     out << fmt::format(
         "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {:.3g} -> {:.3g} degrees, "
         "area {:.6g} -> {:.6g}",

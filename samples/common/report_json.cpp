@@ -114,16 +114,23 @@ Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
 
 Json look_json(const SurfaceLook& look)
 {
-    return {{"area", number(look.area)},
-            {"volume", look.volume ? number(*look.volume) : Json(nullptr)},
-            {"roughness_rms", number(look.roughness.rms)},
-            {"roughness_percentile_95", number(look.roughness.percentile_95)}};
+    Json json{{"area", number(look.area)},
+              {"volume", look.volume ? number(*look.volume) : Json(nullptr)},
+              {"roughness_rms", number(look.roughness.rms)},
+              {"roughness_percentile_95", number(look.roughness.percentile_95)}};
+    if (look.self_intersections)
+        json["self_intersections"] = *look.self_intersections;
+    return json;
 }
 
 Json surface_json(const RunRecord& run)
 {
     Json json{{"before", look_json(run.surface.before)}, {"after", look_json(run.surface.after)}};
     add_statistics(json, "moved", run.surface.moved, run.scale.mean_edge);
+    json["flipped_faces"] = run.surface.flipped_faces;
+    json["folded_faces"] = run.surface.folded_faces;
+    if (run.surface.new_self_intersections)
+        json["new_self_intersections"] = *run.surface.new_self_intersections;
     return json;
 }
 
@@ -219,6 +226,10 @@ std::string compare_report_json(const Comparison& comparison)
         add_statistics(json, "h_back", *comparison.surface_distance_back, comparison.mean_edge);
     if (comparison.displacement)
         add_displacement(json, *comparison.displacement, comparison.mean_edge);
+    if (comparison.flipped_faces)
+        json["flipped_faces"] = *comparison.flipped_faces;
+    json["self_intersections"] = comparison.self_intersections;
+    json["candidate_self_intersections"] = comparison.candidate_self_intersections;
     json["remarks"] = comparison.remarks;
     return text_of(json);
 }
@@ -255,6 +266,7 @@ std::string inspection_json(const std::string& file, const FaultLog& faults, con
         {"edges_without_length", defects.edges_without_length},
         {"coincident_vertices", defects.coincident_vertices},
         {"isolated_vertices", defects.isolated_vertices},
+        {"self_intersections", defects.self_intersections},
     };
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -197,7 +197,13 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
         print_distance_to_reference(out, *report.steps.back().distance);
         out << " mean edge lengths, from the undecomposed flow\n";
     }
-    const auto& [before, after, moved] = run.surface;
+    const SurfaceLook& before = run.surface.before;
+    const SurfaceLook& after = run.surface.after;
+    const LengthStatistics& moved = run.surface.moved;
+    if (before.self_intersections && after.self_intersections)
+        out << fmt::format("crossing   {} of faces -> {}\n",
+                           counted(static_cast<std::int64_t>(*before.self_intersections), "pair", "pairs"),
+                           *after.self_intersections);
     const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
     out << fmt::format(
         "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {} degrees, "
@@ -229,6 +235,10 @@ void print_comparison(std::ostream& out, const Comparison& comparison)
         out << "from the vertices of the candidate to the surface of the reference:\n";
         print("H", *comparison.surface_distance_back);
     }
+    if (comparison.flipped_faces)
+        out << "flipped     " << counted(*comparison.flipped_faces, "face", "faces") << " by more than 90 degrees\n";
+    out << "crossing    " << counted(comparison.self_intersections, "pair", "pairs") << " of faces in the reference, "
+        << comparison.candidate_self_intersections << " in the candidate\n";
     if (comparison.displacement) {
         print_lengths(out, "tangential  ", comparison.displacement->tangential, unit);
         print_lengths(out, "normal      ", comparison.displacement->normal, unit);

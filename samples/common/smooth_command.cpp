@@ -199,6 +199,8 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         "most that the factorisations of sub-meshes may take at once, in bytes or with K, M, G, T, KiB, MiB, GiB, TiB; "
         "asks for sub-meshes, and does not change their result; converged steps make again what they cannot keep "
         "[sweeps: as little as keeps all threads busy; converged steps: no limit]");
+    app.add_flag("--self-intersections", command.self_intersections,
+                 "count the pairs of faces that cross each other, before and after; --report does so, too");
     app.add_flag("--reference", options.report.reference, "also run the undecomposed flow and give the distance to it");
 }
 
@@ -323,6 +325,7 @@ std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothComm
     // Nobody would see it.
     command.options.report.measures =
         command.verbose || !command.report.empty() || !command.html.empty() || !command.checkpoint.empty();
+    command.self_intersections = command.self_intersections || !command.report.empty();
     command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
     if (!every_step.empty())
         command.every_step.emplace(every_step);

@@ -60,6 +60,8 @@ struct SmoothCommand {
     /// Whether to print errors alone; and what each step and task did.
     bool quiet = false;
     bool verbose = false;
+    /// Whether to count the pairs of faces that cross each other, before and after.
+    bool self_intersections = false;
     /// Whether the number of threads was left open.
     bool chooses_threads = false;
     /// Where to write the mesh after every step.

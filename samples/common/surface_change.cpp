@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "partition/index_lists.h"
+#include "partition/metrics/flipped_faces.h"
+#include "partition/metrics/self_intersections.h"
 #include "partition/metrics/volume.h"
 #include "partition/vector_area.h"
 #include "samples/common/surface_sample.h"
@@ -70,6 +72,16 @@ PolygonMesh joined(const PolygonMesh& mesh, const std::vector<Index>& moved_with
     return faces;
 }
 
+void find_crossings(const PolygonMesh& mesh, const Points& before, SurfaceChange& change, const Loop& loop)
+{
+    const std::vector<FacePair> old_pairs = self_intersections(mesh, before, loop);
+    const std::vector<FacePair> pairs = self_intersections(mesh, mesh.vertices, loop);
+    change.before.self_intersections = old_pairs.size();
+    change.after.self_intersections = pairs.size();
+    change.new_self_intersections = static_cast<std::size_t>(std::ranges::count_if(
+        pairs, [&](const FacePair& pair) { return !std::ranges::binary_search(old_pairs, pair); }));
+}
+
 }  // namespace
 
 SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop)
@@ -79,7 +91,7 @@ SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop
 }
 
 SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
-                                          const Loop& loop) const
+                                          bool finds_crossings, const Loop& loop) const
 {
     std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
     for_each_block(loop, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
@@ -92,8 +104,16 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::ve
     std::optional<PolygonMesh> welded;
     if (!moved_with.empty())
         welded = joined(mesh, moved_with, loop);
-    const Surface surface(welded ? *welded : mesh, loop);
-    return {.before = surface.look(positions_), .after = surface.look(mesh.vertices), .moved = moved.statistics()};
+    const PolygonMesh& faces = welded ? *welded : mesh;
+    const Surface surface(faces, loop);
+    SurfaceChange change{
+        .before = surface.look(positions_), .after = surface.look(mesh.vertices), .moved = moved.statistics()};
+    const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, loop);
+    change.flipped_faces = flipped.size();
+    change.folded_faces = flipped.empty() ? 0 : folded_faces(faces, positions_, mesh.vertices, flipped).size();
+    if (finds_crossings)
+        find_crossings(mesh, positions_, change, loop);
+    return change;
 }
 
 }  // namespace seamflow

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct SurfaceLook {
     std::optional<double> volume;
     /// Of large meshes by a sample of their faces.
     Roughness roughness;
+    /// How many pairs of faces cross each other (see self_intersections), if it was asked for.
+    std::optional<std::size_t> self_intersections = std::nullopt;
 };
 
 /// What has become of it.
@@ -26,6 +29,12 @@ struct SurfaceChange {
     SurfaceLook after;
     /// Of the distances from where vertices were, in units of length.
     LengthStatistics moved;
+    /// How many faces have turned by more than 90° (see flipped_faces), and how many of them the surface has folded
+    /// over (see folded_faces).
+    std::size_t flipped_faces = 0;
+    std::size_t folded_faces = 0;
+    /// How many pairs of faces cross each other that did not before, if it was asked for.
+    std::optional<std::size_t> new_self_intersections = std::nullopt;
 };
 
 /// Compares a surface with what it was. Reads the mesh a few times; the bits do not depend on how loops are run.
@@ -36,8 +45,9 @@ class SurfaceChangeMeter {
 
     /// @param mesh the same faces, with the vertices somewhere else.
     /// @param moved_with see MeshReport::moved_with: the surface goes on where vertices move as one.
+    /// @param finds_crossings whether to look for self-intersections, which takes longer than all the rest.
     [[nodiscard]] SurfaceChange measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
-                                        const Loop& loop) const;
+                                        bool finds_crossings, const Loop& loop) const;
 
   private:
     Points positions_;

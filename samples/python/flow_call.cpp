@@ -26,8 +26,9 @@ FlowReport run(SmoothCommand& command, PolygonMesh& mesh, const FlowControl& con
     FlowReport report = mean_curvature_flow(mesh, command.options, {}, control);
     if (!record.remark_on_amount.empty())
         report.remarks.insert(report.remarks.begin(), record.remark_on_amount);
-    record.surface = change.measure(mesh, report.mesh.moved_with, loop);
+    record.surface = change.measure(mesh, report.mesh.moved_with, command.self_intersections, loop);
     remark_on_loss(command.options, record.surface, report.remarks);
+    remark_on_folds(record.surface, report.remarks);
     record.seconds = whole.seconds();
     return report;
 }

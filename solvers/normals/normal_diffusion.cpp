@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "solvers/krylov/sums.h"
 #include "solvers/laplacian/geometry.h"
@@ -30,6 +31,9 @@ constexpr double least_sigma = 1e-6;
 /// Of the residual of a round, relative to that at its beginning; and most iterations.
 constexpr double diffusion_tolerance = 1e-2;
 constexpr int most_diffusion_iterations = 500;
+/// The height of a face over its longest side, relative to its coordinates, below which its normal is rounding of a
+/// file with floats.
+constexpr double least_height = 4.0 * std::numeric_limits<float>::epsilon();
 /// Weights relative to the diagonal of A beyond which a face has the mean of its neighbours to all digits.
 constexpr double largest_diffusion_weight = 1e20;
 
@@ -45,6 +49,20 @@ void normalise_row(Points& normals, Index f)
         normals.row(f) /= length;
     else
         normals.row(f).setZero();
+}
+
+/// 0 where no normal can be told: such a face follows none, and holds no vertex.
+double area_with_normal(std::span<const Index> corners, const Points& positions)
+{
+    double farthest = 0.0;
+    double longest = 0.0;
+    const Point origin = positions.row(corners.front());
+    for (const Index v : corners) {
+        farthest = std::max(farthest, positions.row(v).cwiseAbs().maxCoeff());
+        longest = std::max(longest, (positions.row(v) - origin).norm());
+    }
+    const double size = area(corners, positions);
+    return size > least_height * farthest * longest ? size : 0.0;
 }
 
 }  // namespace
@@ -78,7 +96,8 @@ Points NormalDiffusion::smoothed(const Points& positions, double time_step, doub
     const double edge_chord = 2.0 * std::sin(angle * std::numbers::pi / 360.0);
     Points normals(n, 3);
     for_each(loop, n, [&](Index f) {
-        normals.row(f) = vector_area(mesh_->face(f), positions) * (signs_.empty() ? 1.0 : signs_[f]);
+        normals.row(f) = areas_[f] > 0.0 ? Point(vector_area(mesh_->face(f), positions)) : Point(Point::Zero());
+        normals.row(f) *= signs_.empty() ? 1.0 : signs_[f];
         normalise_row(normals, f);
     });
     noise_ = measure_noise(normals, edge_chord, loop);
@@ -98,7 +117,7 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const L
 {
     const Index n = mesh_->n_faces();
     for_each(loop, n, [&](Index f) {
-        areas_[f] = area(mesh_->face(f), positions);
+        areas_[f] = area_with_normal(mesh_->face(f), positions);
         centroids_.row(f) = centroid(mesh_->face(f), positions);
     });
     const double mean_area = sum(loop, n, [&](Index f) { return areas_[f]; }) / n;
@@ -129,6 +148,8 @@ double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, 
     std::vector<double> chords(at(n));
     for_each(loop, n, [&](Index f) {
         chords[f] = std::numeric_limits<double>::infinity();
+        if (areas_[f] == 0.0)
+            return;
         Point mean = Point::Zero();
         for (Index h = mesh_->face_offsets[f]; h < mesh_->face_offsets[f + 1]; ++h) {
             if (across_[h] < 0)

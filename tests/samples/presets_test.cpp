@@ -51,6 +51,39 @@ TEST_CASE("without an amount a mesh loses its noise, and hardly anything else")
     }
 }
 
+TEST_CASE("clean parts come back as they were, and what folds or crosses is counted")
+{
+    const Workshop w;
+    (void)w.directory.with("plate.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 0\nv 0 0 1\nv 9 0 1\nv 0 9 1\nv 9 9 1\n"
+                                        "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+    (void)w.directory.with("pyramid.obj", "v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\n"
+                                          "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 3 2\nf 1 4 3\n");
+    for (const std::string mesh : {"plate.obj", "pyramid.obj"})
+        for (const std::string options :
+             {"", "--preset scan", "--preset cad", "--preset terrain", "--keep-edges 30 --time-step-edges 1e-12",
+              "--keep-edges 30 --steps 3", "--keep-edges 30 --time-step-edges 1000"}) {
+            CAPTURE(options);
+            REQUIRE(w.smooth(mesh + " out.obj --report report.json " + options) == 0);
+            const auto surface = w.json("report.json")["surface"];
+            CHECK(surface["moved_max_absolute"].get<double>() <= 1e-12);
+            CHECK(surface["flipped_faces"] == 0);
+            CHECK(surface["new_self_intersections"] == 0);
+        }
+    // A sheet that is drawn through the other: the comparison tells both.
+    (void)w.directory.with("apart.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 1\nv 1 2 1\nv 2 1 1\nf 1 2 3\nf 4 5 6\n");
+    (void)w.directory.with("through.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 1\nv 2 1 -1\nv 1 2 1\nf 1 2 3\nf 4 5 6\n");
+    REQUIRE(w.run(COMPARE " apart.obj through.obj --report compared.json") == 0);
+    CHECK(w.said().find("flipped     1 face by") != std::string::npos);
+    CHECK(w.said().find("crossing    0 pairs of faces in the reference, 1 in the candidate") != std::string::npos);
+    CHECK(w.json("compared.json")["flipped_faces"] == 1);
+    CHECK(w.json("compared.json")["self_intersections"] == 0);
+    CHECK(w.json("compared.json")["candidate_self_intersections"] == 1);
+    REQUIRE(w.run(INSPECT " through.obj") == 0);
+    CHECK(w.said().find("pairs of faces that cross each other (1): 0-1") != std::string::npos);
+    REQUIRE(w.run(INSPECT " through.obj --json") == 0);
+    CHECK(seamflow::test::Json::parse(w.said())["self_intersections"] == seamflow::test::Json{{0, 1}});
+}
+
 TEST_CASE("options that are given go before those of a preset")
 {
     const Workshop w;

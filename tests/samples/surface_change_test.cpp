@@ -10,8 +10,10 @@
 #include "samples/common/flow_run.h"
 #include "samples/common/meshes.h"
 #include "samples/common/surface_change.h"
+#include "tests/support/test_meshes.h"
 
 using namespace seamflow;
+using namespace seamflow::test;
 
 TEST_CASE("a closed surface that is scaled has its area and volume change with the powers, and is as rough as before")
 {
@@ -19,7 +21,7 @@ TEST_CASE("a closed surface that is scaled has its area and volume change with t
     const SurfaceChangeMeter meter(mesh, run_serially);
     const Points before = mesh.vertices;
     mesh.vertices *= 0.5;
-    const SurfaceChange change = meter.measure(mesh, {}, run_serially);
+    const SurfaceChange change = meter.measure(mesh, {}, true, run_serially);
     CHECK(change.after.area == doctest::Approx(change.before.area / 4.0));
     REQUIRE(change.before.volume);
     CHECK(*change.after.volume == doctest::Approx(*change.before.volume / 8.0));
@@ -36,13 +38,14 @@ TEST_CASE("the roughness of a large mesh is told by a sample, and all numbers ar
     const Points before = mesh.vertices;
     for (Index v = 0; v < mesh.n_vertices(); ++v)
         mesh.vertices.row(v) *= 0.9 / before.row(v).norm();
-    const SurfaceChange change = meter.measure(mesh, {}, run_serially);
+    const SurfaceChange change = meter.measure(mesh, {}, true, run_serially);
     CHECK(change.before.roughness.rms == doctest::Approx(roughness(mesh, before).rms).epsilon(0.03));
     CHECK(change.before.roughness.percentile_95 ==
           doctest::Approx(roughness(mesh, before).percentile_95).epsilon(0.03));
     CHECK(change.after.roughness.percentile_95 ==
           doctest::Approx(roughness(mesh, mesh.vertices).percentile_95).epsilon(0.03));
-    const SurfaceChange in_parallel = SurfaceChangeMeter(mesh, run_in_parallel).measure(mesh, {}, run_in_parallel);
+    const SurfaceChange in_parallel =
+        SurfaceChangeMeter(mesh, run_in_parallel).measure(mesh, {}, true, run_in_parallel);
     CHECK(in_parallel.before.area == change.after.area);
     CHECK(in_parallel.before.volume == change.after.volume);
     CHECK(in_parallel.before.roughness.rms == change.after.roughness.rms);
@@ -52,7 +55,7 @@ TEST_CASE("the roughness of a large mesh is told by a sample, and all numbers ar
 TEST_CASE("polygons are as rough as all of the mesh is when it is looked at as a whole")
 {
     for (const PolygonMesh& mesh : {make_quads(900), make_hexagons(900), make_mixed_polygons(900)}) {
-        const SurfaceChange change = SurfaceChangeMeter(mesh, run_serially).measure(mesh, {}, run_serially);
+        const SurfaceChange change = SurfaceChangeMeter(mesh, run_serially).measure(mesh, {}, true, run_serially);
         CHECK(change.before.roughness.rms == roughness(mesh, mesh.vertices).rms);
         CHECK(change.before.roughness.percentile_95 == roughness(mesh, mesh.vertices).percentile_95);
     }
@@ -86,9 +89,44 @@ TEST_CASE("a mesh without faces has no surface")
     mesh.vertices = Points::Zero(3, 3);
     const SurfaceChangeMeter meter(mesh, run_serially);
     mesh.vertices(1, 2) = 2.0;
-    const SurfaceChange change = meter.measure(mesh, {}, run_serially);
+    const SurfaceChange change = meter.measure(mesh, {}, true, run_serially);
     CHECK(change.after.area == 0.0);
     CHECK_FALSE(change.after.volume);
     CHECK(change.after.roughness.rms == 0.0);
     CHECK(change.moved.max == 2.0);
+}
+
+TEST_CASE("faces that fold over and cross are told of, and those that noise had turned are not")
+{
+    const auto remark = [](const SurfaceChange& change) {
+        std::vector<std::string> remarks;
+        remark_on_folds(change, remarks);
+        return remarks.empty() ? std::string() : remarks.front();
+    };
+    PolygonMesh mesh = triangle_grid(6, 6);
+    const Points flat = mesh.vertices;
+    const SurfaceChangeMeter of_flat(mesh, run_serially);
+    CHECK(remark(of_flat.measure(mesh, {}, true, run_serially)).empty());
+    // A vertex inside goes beyond its neighbours on one side.
+    const Index v = 24;
+    mesh.vertices.row(v) += Point(1.7, 0.2, 0.0);
+    const SurfaceChange folded = of_flat.measure(mesh, {}, true, run_serially);
+    CHECK(folded.flipped_faces > 0);
+    CHECK(folded.folded_faces == folded.flipped_faces);
+    CHECK(folded.before.self_intersections == 0);
+    CHECK(folded.after.self_intersections == folded.new_self_intersections);
+    CHECK(*folded.new_self_intersections > 0);
+    CHECK(remark(folded).find("faces have turned over") != std::string::npos);
+    CHECK(remark(folded).find("pairs of faces cross now") != std::string::npos);
+    CHECK(remark(folded).find("--within") != std::string::npos);
+    // And back.
+    const SurfaceChangeMeter of_folded(mesh, run_serially);
+    mesh.vertices = flat;
+    const SurfaceChange mended = of_folded.measure(mesh, {}, true, run_serially);
+    CHECK(mended.flipped_faces == folded.flipped_faces);
+    CHECK(mended.folded_faces == 0);
+    CHECK(mended.new_self_intersections == 0);
+    CHECK(remark(mended).empty());
+    // Crossings are searched for where it is asked for alone.
+    CHECK_FALSE(of_folded.measure(mesh, {}, false, run_serially).new_self_intersections);
 }

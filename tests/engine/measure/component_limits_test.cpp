@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -104,4 +105,34 @@ TEST_CASE("vertices of a component move along the normals by no more than the li
         CHECK(same_bits(positions, free));
         CHECK(unlimited.remark().empty());
     }
+}
+
+TEST_CASE("no vertex slides along the surface further than the limit, and what it moves along the normal stays")
+{
+    const PolygonMesh mesh = make_noisy_sphere(4000, {.amplitude = 0.3, .noise = 0.2});
+    const Topology topology = make_topology(mesh);
+    const double edge = mean_edge_length(mesh, mesh.vertices);
+    FlowOptions options;
+    options.laplacian = Laplacian::Uniform;
+    options.time_step = 2.0 * edge * edge;
+    const Points free = flowed(mesh, options);
+    const VertexNormals normals(mesh, topology);
+    const double limit = 0.15 * edge;
+    Points positions = free;
+    LimitedComponents(mesh, topology, {.slide = limit}).apply(positions);
+    int n_limited = 0;
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+        const Point normal = normals(v, free);
+        const Point asked = free.row(v) - mesh.vertices.row(v);
+        const Point given = positions.row(v) - mesh.vertices.row(v);
+        CHECK(given.dot(normal) == doctest::Approx(asked.dot(normal)).scale(edge).epsilon(1e-12));
+        const double slide = (asked - asked.dot(normal) * normal).norm();
+        const double left = (given - given.dot(normal) * normal).norm();
+        CHECK(left == doctest::Approx(std::min(slide, limit)).scale(edge).epsilon(1e-12));
+        if (slide <= limit)
+            CHECK(same_bits(positions.row(v), free.row(v)));
+        n_limited += slide > limit ? 1 : 0;
+    }
+    CHECK(n_limited > mesh.n_vertices() / 10);
+    CHECK(n_limited < mesh.n_vertices());
 }

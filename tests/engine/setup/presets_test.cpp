@@ -1,5 +1,7 @@
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -10,6 +12,7 @@
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/parallel_loop.h"
 #include "partition/errors.h"
+#include "partition/metrics/flipped_faces.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/vertex_normals.h"
 #include "samples/common/meshes.h"
@@ -52,10 +55,88 @@ PolygonMesh smoothed(PolygonMesh mesh, Preset preset)
     return mesh;
 }
 
-/// Parts without noise: few faces, many, all alike, slivers, polygons.
+PolygonMesh from(const std::vector<Point>& points, const std::vector<std::vector<Index>>& faces)
+{
+    PolygonMesh mesh;
+    mesh.vertices.resize(std::ssize(points), 3);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        mesh.vertices.row(static_cast<Eigen::Index>(v)) = points[v];
+    for (const std::vector<Index>& face : faces)
+        mesh.add_face(face);
+    return mesh;
+}
+
+/// A box of 12 triangles.
+PolygonMesh plain_box(double width, double depth, double height)
+{
+    std::vector<Point> points;
+    for (int v = 0; v < 8; ++v)
+        points.emplace_back(width * (v % 2), depth * (v / 2 % 2), height * (v / 4));
+    return from(points, {{0, 2, 3},
+                         {0, 3, 1},
+                         {4, 5, 7},
+                         {4, 7, 6},
+                         {0, 1, 5},
+                         {0, 5, 4},
+                         {2, 6, 7},
+                         {2, 7, 3},
+                         {0, 4, 6},
+                         {0, 6, 2},
+                         {1, 3, 7},
+                         {1, 7, 5}});
+}
+
+/// Quads between circles of latitude, triangles at the poles.
+PolygonMesh globe(Index meridians, Index parallels)
+{
+    std::vector<Point> points{Point(0, 0, 1)};
+    std::vector<std::vector<Index>> faces;
+    const auto vertex = [&](Index i, Index k) { return 1 + (i - 1) * meridians + k % meridians; };
+    for (Index i = 1; i < parallels; ++i)
+        for (Index k = 0; k < meridians; ++k) {
+            const double polar = std::numbers::pi * i / parallels;
+            const double azimuth = 2.0 * std::numbers::pi * k / meridians;
+            points.emplace_back(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                                std::cos(polar));
+        }
+    const auto south = static_cast<Index>(points.size());
+    points.emplace_back(0, 0, -1);
+    for (Index k = 0; k < meridians; ++k) {
+        faces.push_back({0, vertex(1, k), vertex(1, k + 1)});
+        for (Index i = 1; i + 1 < parallels; ++i)
+            faces.push_back({vertex(i, k), vertex(i + 1, k), vertex(i + 1, k + 1), vertex(i, k + 1)});
+        faces.push_back({south, vertex(parallels - 1, k + 1), vertex(parallels - 1, k)});
+    }
+    return from(points, faces);
+}
+
+/// Parts without noise: few faces, many, all alike, slivers, polygons, sheets thinner than their edges, tips and poles.
 std::vector<PolygonMesh> clean_parts()
 {
-    std::vector<PolygonMesh> parts;
+    std::vector<PolygonMesh> parts{plain_box(1, 1, 1), plain_box(10, 10, 1), plain_box(10, 7, 1e-3),
+                                   plain_box(1, 1, 50)};
+    // Of a pyramid, and of an octahedron.
+    const std::vector<Point> tips{Point(1, 0, 0),  Point(0, 1, 0), Point(-1, 0, 0),
+                                  Point(0, -1, 0), Point(0, 0, 1), Point(0, 0, -1)};
+    const std::vector<std::vector<Index>> upper{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    parts.push_back(from({tips.begin(), tips.end() - 1}, upper));
+    parts.back().add_face(std::vector<Index>{0, 3, 2, 1});
+    parts.push_back(from(tips, upper));
+    for (const Index k : {0, 1, 2, 3})
+        parts.back().add_face(std::vector<Index>{(k + 1) % 4, k, 5});
+    // A box with two vertices at a corner, apart by the rounding of cos 90°: two faces have no normal that means
+    // anything.
+    PolygonMesh needle = plain_box(1, 1, 1);
+    needle.vertices.col(0).array() -= 1.0;
+    needle.vertices.conservativeResize(9, 3);
+    needle.vertices.row(8) = needle.vertices.row(7);
+    needle.vertices(7, 0) = 6.1e-17;
+    needle.vertices(8, 0) = 1.2e-16;
+    for (const Index corner : {10, 20, 22})
+        needle.face_vertices[corner] = 8;
+    needle.add_face(std::vector<Index>{4, 7, 8});
+    needle.add_face(std::vector<Index>{7, 3, 8});
+    parts.push_back(needle);
     for (const Index n : {5, 6, 48}) {
         // A prism on a regular n-gon, and a pyramid.
         PolygonMesh prism = cylinder(n, 1);
@@ -125,6 +206,7 @@ TEST_CASE("clean parts are fixed points where edges are kept, whatever the amoun
         const auto check = [&](const FlowOptions& options) {
             const Points moved = flowed(mesh, options);
             CHECK((moved - mesh.vertices).rowwise().norm().maxCoeff() <= 1e-6 * extent_of(mesh.vertices));
+            CHECK(folded_faces(mesh, mesh.vertices, moved, flipped_faces(mesh, mesh.vertices, moved)).empty());
         };
         check(options_for(Preset::Cad, mesh).options);
         for (const double edges : {1e-12, 1.0, 1000.0}) {
@@ -132,6 +214,24 @@ TEST_CASE("clean parts are fixed points where edges are kept, whatever the amoun
             options.keep_edges = 30.0;
             options.time_step = edges * edge * edge;
             check(options);
+        }
+    }
+}
+
+TEST_CASE("a clean globe keeps its poles and its faces where edges are kept")
+{
+    for (const auto& [meridians, parallels] : {std::pair(48, 24), std::pair(24, 12), std::pair(64, 16)}) {
+        CAPTURE(meridians);
+        const PolygonMesh mesh = globe(meridians, parallels);
+        const double edge = mean_edge_length(mesh, mesh.vertices);
+        const Points by_preset = flowed(mesh, options_for(Preset::Cad, mesh).options);
+        CHECK((by_preset - mesh.vertices).rowwise().norm().maxCoeff() < 0.4 * edge);
+        CHECK(flipped_faces(mesh, mesh.vertices, by_preset).empty());
+        for (const double edges : {1e-12, 1.0, 1000.0}) {
+            FlowOptions options;
+            options.keep_edges = 30.0;
+            options.time_step = edges * edge * edge;
+            CHECK(flipped_faces(mesh, mesh.vertices, flowed(mesh, options)).empty());
         }
     }
 }
@@ -144,6 +244,7 @@ TEST_CASE("noise that is said is believed, and no more is taken than it")
     const PresetChoice choice = options_for(Preset::Scan, c.noisy, {}, LengthOnMesh{known, false});
     CHECK(choice.noise == known);
     CHECK(choice.options.motion.limits.move == known);
+    CHECK(choice.options.motion.limits.slide == 4.0 * known);
     const PresetChoice by_diagonal =
         options_for(Preset::Scan, c.noisy, {}, LengthOnMesh{known / extent_of(c.noisy.vertices), true});
     CHECK(std::abs(by_diagonal.options.time_step / choice.options.time_step - 1.0) < 0.01);

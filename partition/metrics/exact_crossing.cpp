@@ -1,0 +1,52 @@
+#include "partition/metrics/exact_crossing.h"
+
+// Exact numbers by headers alone: no further library is linked for the few that need them.
+#define CGAL_DISABLE_GMP 1
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace seamflow::exact {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 at(const Point& p)
+{
+    return {p[0], p[1], p[2]};
+}
+
+Kernel::Triangle_3 triangle(const Corners& t)
+{
+    return {at(t[0]), at(t[1]), at(t[2])};
+}
+
+/// The edge opposite to the first corner.
+Kernel::Segment_3 opposite_edge(const Corners& t)
+{
+    return {at(t[1]), at(t[2])};
+}
+
+}  // namespace
+
+bool is_flat(const Corners& t)
+{
+    return CGAL::collinear(at(t[0]), at(t[1]), at(t[2]));
+}
+
+bool meet(const Corners& a, const Corners& b)
+{
+    return CGAL::do_intersect(triangle(a), triangle(b));
+}
+
+bool meet_beyond_corner(const Corners& a, const Corners& b)
+{
+    return CGAL::do_intersect(triangle(a), opposite_edge(b)) || CGAL::do_intersect(triangle(b), opposite_edge(a));
+}
+
+bool meet_beyond_edge(const Corners& a, const Corners& b)
+{
+    return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
+           CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
+}
+
+}  // namespace seamflow::exact

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// The faces whose normal, the direction of their vector area, has turned by more than 90° from `before` to `after`.
+/// Faces without area in either state have none, and are not counted.
+/// @param before, after #V by 3, in units of length.
+/// @returns ascending.
+std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
+                                 const Loop& loop = run_serially);
+
+/// Those among them that lie against the faces around their vertices in the state `after`, and did not before: the
+/// surface has folded there. The others are those that noise had turned, and the ones of regions that turned as a
+/// whole. Where faces are not oriented alike none are told from the others, and both kinds may be missed.
+/// @param flipped see flipped_faces.
+std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
+                                const std::vector<Index>& flipped);
+
+}  // namespace seamflow

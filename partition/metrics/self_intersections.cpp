@@ -1,0 +1,193 @@
+#include "partition/metrics/self_intersections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "partition/index_lists.h"
+#include "partition/metrics/box_tree.h"
+#include "partition/metrics/triangle_crossing.h"
+#include "partition/metrics/triangulation.h"
+
+namespace seamflow {
+
+namespace {
+
+/// How many triangles a leaf of the tree has, how many leaves one task, and how many tasks run until pairs are counted.
+constexpr Index leaf_size = 4;
+constexpr Index leaves_of_task = 64;
+constexpr Index tasks_of_round = 64;
+
+/// A triangle of a face.
+struct Piece {
+    Triangle vertices;
+    Index face;
+};
+
+/// A box's middle in 2²¹ steps along each side of another, the bits of all three in turn: numbers that are near to each
+/// other are of boxes that are so, too (Morton, A Computer Oriented Geodetic Data Base, 1966).
+std::uint64_t place_on_curve(const Box& box, const Box& whole)
+{
+    constexpr int n_bits = 21;
+    std::uint64_t place = 0;
+    for (int c = 0; c < 3; ++c) {
+        // Halves, for the sums of large numbers are none.
+        const double side = 0.5 * whole.high[c] - 0.5 * whole.low[c];
+        const double offset = 0.5 * (0.5 * box.low[c] + 0.5 * box.high[c] - whole.low[c]);
+        const double part = side > 0.0 ? std::clamp(offset / side, 0.0, 1.0) : 0.0;
+        const auto step = static_cast<std::uint64_t>(part * ((1U << n_bits) - 1U));
+        for (int bit = 0; bit < n_bits; ++bit)
+            place |= (step >> bit & 1U) << (3 * bit + c);
+    }
+    return place;
+}
+
+/// All triangles of all faces with finite corners, face by face.
+std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+{
+    std::vector<std::vector<Piece>> of_block(at(mesh.n_faces() / block_size) + 1);
+    for_each_block(loop, mesh.n_faces(), [&](Index block, Index begin, Index end) {
+        std::vector<Triangle> triangles;
+        for (Index f = begin; f < end; ++f) {
+            if (!std::ranges::all_of(mesh.face(f), [&](Index v) { return positions.row(v).allFinite(); }))
+                continue;
+            triangles.clear();
+            triangulate(mesh.face(f), positions, triangles);
+            for (const Triangle& t : triangles)
+                of_block[block].push_back({t, f});
+        }
+    });
+    std::vector<Piece> pieces;
+    pieces.reserve(at(mesh.n_corners()) - 2 * at(mesh.n_faces()));
+    for (const auto& of_faces : of_block)
+        pieces.insert(pieces.end(), of_faces.begin(), of_faces.end());
+    return pieces;
+}
+
+/// The triangles of a mesh, neighbours together, and a tree over them.
+class CrossingSearch {
+  public:
+    CrossingSearch(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+        : positions_(positions)
+        , pieces_(pieces_of(mesh, positions, loop))
+        , tree_((sort_pieces(loop), boxes_of_leaves(loop)))
+    {
+    }
+
+    /// Not in order, and pairs of polygons perhaps several times.
+    [[nodiscard]] std::vector<FacePair> run(const Loop& loop) const
+    {
+        std::vector<FacePair> found;
+        for (Index first = 0; first < tree_.size() && found.size() < most_self_intersections;
+             first += tasks_of_round * leaves_of_task)
+            run_round(first, found, loop);
+        return found;
+    }
+
+  private:
+    [[nodiscard]] Corners corners(const Piece& piece) const
+    {
+        const auto& [a, b, c] = piece.vertices;
+        return {positions_.row(a), positions_.row(b), positions_.row(c)};
+    }
+
+    [[nodiscard]] Box box(const Piece& piece) const
+    {
+        Box box;
+        for (const Point& p : corners(piece))
+            box.add(p);
+        return box;
+    }
+
+    void sort_pieces(const Loop& loop);
+    [[nodiscard]] std::vector<Box> boxes_of_leaves(const Loop& loop) const;
+    void run_round(Index first, std::vector<FacePair>& found, const Loop& loop) const;
+    void search(Index leaf, std::vector<FacePair>& found) const;
+    void search(const Piece& piece, const Box& its_box, Index begin, Index end, std::vector<FacePair>& found) const;
+
+    [[nodiscard]] Index begin_of(Index leaf) const { return leaf * leaf_size; }
+    [[nodiscard]] Index end_of(Index leaf) const
+    {
+        return std::min(static_cast<Index>(pieces_.size()), (leaf + 1) * leaf_size);
+    }
+
+    const Points& positions_;
+    std::vector<Piece> pieces_;
+    BoxTree tree_;
+};
+
+/// Along the curve, those at one place as they come.
+void CrossingSearch::sort_pieces(const Loop& loop)
+{
+    const auto n = static_cast<Index>(pieces_.size());
+    Box whole;
+    for (const Piece& piece : pieces_)
+        whole.add(box(piece));
+    std::vector<std::pair<std::uint64_t, Index>> order(pieces_.size());
+    for_each(loop, n, [&](Index i) { order[i] = {place_on_curve(box(pieces_[i]), whole), i}; });
+    std::sort(order.begin(), order.end());
+    std::vector<Piece> sorted(pieces_.size());
+    for_each(loop, n, [&](Index i) { sorted[i] = pieces_[order[i].second]; });
+    pieces_ = std::move(sorted);
+}
+
+std::vector<Box> CrossingSearch::boxes_of_leaves(const Loop& loop) const
+{
+    const auto n = static_cast<Index>(pieces_.size());
+    std::vector<Box> leaves(at(n / leaf_size) + (n % leaf_size > 0 ? 1 : 0));
+    for_each(loop, static_cast<Index>(leaves.size()), [&](Index leaf) {
+        for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
+            leaves[leaf].add(box(pieces_[i]));
+    });
+    return leaves;
+}
+
+/// Searches for pairs with a triangle in the leaves from `first` to the end of a round, and one in the same leaf or a
+/// later one.
+void CrossingSearch::run_round(Index first, std::vector<FacePair>& found, const Loop& loop) const
+{
+    std::vector<std::vector<FacePair>> of_task(tasks_of_round);
+    for_each(loop, tasks_of_round, [&](Index task) {
+        const Index begin = std::min(tree_.size(), first + task * leaves_of_task);
+        const Index end = std::min(tree_.size(), begin + leaves_of_task);
+        for (Index leaf = begin; leaf < end && of_task[task].size() < most_self_intersections; ++leaf)
+            search(leaf, of_task[task]);
+    });
+    for (const auto& pairs : of_task)
+        found.insert(found.end(), pairs.begin(), pairs.end());
+}
+
+void CrossingSearch::search(Index leaf, std::vector<FacePair>& found) const
+{
+    std::array<Box, leaf_size> boxes;
+    for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
+        boxes[i - begin_of(leaf)] = box(pieces_[i]);
+    tree_.for_each_meeting(tree_.leaf(leaf), leaf, [&](Index other) {
+        for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
+            search(pieces_[i], boxes[i - begin_of(leaf)], other == leaf ? i + 1 : begin_of(other), end_of(other),
+                   found);
+    });
+}
+
+void CrossingSearch::search(const Piece& piece, const Box& its_box, Index begin, Index end,
+                            std::vector<FacePair>& found) const
+{
+    for (Index j = begin; j < end; ++j)
+        if (pieces_[j].face != piece.face && box(pieces_[j]).meets(its_box) &&
+            cross(corners(piece), corners(pieces_[j])))
+            found.push_back({std::min(piece.face, pieces_[j].face), std::max(piece.face, pieces_[j].face)});
+}
+
+}  // namespace
+
+std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+{
+    std::vector<FacePair> pairs = CrossingSearch(mesh, positions, loop).run(loop);
+    sort_unique(pairs);
+    if (pairs.size() > most_self_intersections)
+        pairs.resize(most_self_intersections);
+    return pairs;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "partition/loop.h"
+#include "partition/polygon_mesh.h"
+
+namespace seamflow {
+
+/// Two faces, the lower number first.
+using FacePair = std::array<Index, 2>;
+
+/// More pairs than these are not looked for: in a surface that has collapsed, each face may cross all others.
+inline constexpr std::size_t most_self_intersections = 1'000'000;
+
+/// The pairs of faces that have a point in common beyond the vertices and edges that they share: where one pierces the
+/// other, touches it, lies on it in one plane, or is folded back onto it along their edge (see cross, which is exact).
+/// Polygons are triangulated (see triangulation.h); whether one crosses itself is not asked. What two faces share is
+/// told by positions: where a file doubles vertices along the seams of a texture, meeting there is no crossing. Faces
+/// that lie on each other with all their corners cross. Triangles without area cross nothing, nor do those with a
+/// corner that is not finite.
+///
+/// Near to linear in the size of the mesh where faces are about as large as their neighbours. The same pairs however
+/// loops are run.
+/// @param positions #V by 3, not necessarily those of the mesh; need not be finite.
+/// @returns ascending. Of more than most_self_intersections just so many.
+std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions,
+                                         const Loop& loop = run_serially);
+
+}  // namespace seamflow

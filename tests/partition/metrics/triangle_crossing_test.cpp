@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "partition/metrics/exact_crossing.h"
+#include "partition/metrics/triangle_crossing.h"
+#include "samples/common/meshes/random_numbers.h"
+
+using namespace seamflow;
+
+namespace {
+
+const Corners flat{Point(0, 0, 0), Point(4, 0, 0), Point(0, 4, 0)};
+
+/// Whatever the order of triangles and corners, and however large and where they are.
+bool cross_somehow(const Corners& a, const Corners& b)
+{
+    const bool result = cross(a, b);
+    Corners turned = b;
+    do {
+        CHECK(cross(a, turned) == result);
+        CHECK(cross(turned, a) == result);
+    } while (std::ranges::next_permutation(turned, [](const Point& p, const Point& q) {
+                 return std::ranges::lexicographical_compare(p, q);
+             }).found);
+    for (const double scale : {0x1p-100, 0x1p-40, 0x1p90}) {
+        const auto scaled = [&](const Corners& t) { return Corners{t[0] * scale, t[1] * scale, t[2] * scale}; };
+        CHECK(cross(scaled(a), scaled(b)) == result);
+    }
+    for (const Point& by : {Point(1024, -512, 64), Point(-0x1p30, 0x1p20, 3)}) {
+        const auto moved = [&](const Corners& t) { return Corners{t[0] + by, t[1] + by, t[2] + by}; };
+        CHECK(cross(moved(a), moved(b)) == result);
+    }
+    return result;
+}
+
+/// By exact predicates alone.
+bool cross_exactly(Corners a, Corners b)
+{
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (const auto same = std::find(b.begin() + static_cast<std::ptrdiff_t>(shared), b.end(), a[i]);
+            same != b.end()) {
+            std::swap(*same, b[shared]);
+            std::swap(a[i], a[shared++]);
+        }
+    if (exact::is_flat(a) || exact::is_flat(b))
+        return false;
+    return shared == 0   ? exact::meet(a, b)
+           : shared == 1 ? exact::meet_beyond_corner(a, b)
+           : shared == 2 ? exact::meet_beyond_edge(a, b)
+                         : true;
+}
+
+}  // namespace
+
+TEST_CASE("triangles cross where one pierces the other, and not where they pass each other by")
+{
+    CHECK(cross_somehow(flat, {Point(1, 1, -1), Point(1, 1, 1), Point(2, 1, 1)}));
+    CHECK(cross_somehow(flat, {Point(1, 1, -1), Point(2, 2, 1), Point(8, 1, 1)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(3, 3, -1), Point(3, 3, 1), Point(4, 3, 1)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(1, 1, 1), Point(2, 1, 1), Point(1, 2, 2)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(5, 0, 0), Point(9, 0, 0), Point(5, 4, 0)}));
+}
+
+TEST_CASE("triangles without a common corner cross where they touch, to the last bit")
+{
+    const double beside = std::nextafter(4.0, 5.0);
+    // A corner on a face, on an edge, and an edge on an edge.
+    CHECK(cross_somehow(flat, {Point(1, 1, 0), Point(1, 1, 4), Point(2, 1, 4)}));
+    CHECK(cross_somehow(flat, {Point(2, 2, 0), Point(4, 4, 0), Point(4, 3, 0)}));
+    CHECK(cross_somehow(flat, {Point(1, 0, 0), Point(3, 0, 0), Point(2, -1, 0)}));
+    CHECK(cross_somehow(flat, {Point(2, -1, -1), Point(2, -1, 1), Point(2, 3, 1)}));
+    CHECK_FALSE(cross(flat, {Point(beside, 0, 0), Point(8, 0, 0), Point(8, 1, 0)}));
+    CHECK_FALSE(cross(flat, {Point(1, 1, 0x1p-1000), Point(1, 1, 4), Point(2, 1, 4)}));
+}
+
+TEST_CASE("triangles in one plane cross where they overlap")
+{
+    CHECK(cross_somehow(flat, {Point(1, 1, 0), Point(2, 1, 0), Point(1, 2, 0)}));
+    CHECK(cross_somehow(flat, {Point(3, -1, 0), Point(3, 5, 0), Point(5, 2, 0)}));
+    CHECK(cross_somehow(flat, flat));
+}
+
+TEST_CASE("triangles that share a corner cross where the opposite edge of one meets the other")
+{
+    CHECK(cross_somehow(flat, {Point(0, 0, 0), Point(2, 1, -1), Point(1, 2, 1)}));
+    CHECK(cross_somehow(flat, {Point(0, 0, 0), Point(2, 1, 0), Point(1, 8, 0)}));
+    CHECK(cross_somehow(flat, {Point(0, 0, 0), Point(2, 0, 0), Point(2, -1, 0)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(-2, -1, -1), Point(-1, -2, 1)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(-1, 1, 0), Point(-2, 1, 0)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(1, 1, 1), Point(2, 1, 1)}));
+    // The zeros of a position may have either sign.
+    CHECK_FALSE(cross_somehow(flat, {Point(-0.0, 0, -0.0), Point(1, 1, 1), Point(2, 1, 1)}));
+}
+
+TEST_CASE("triangles that share an edge cross where they are folded onto each other")
+{
+    CHECK(cross_somehow(flat, {Point(0, 0, 0), Point(4, 0, 0), Point(1, 1, 0)}));
+    CHECK(cross_somehow(flat, {Point(4, 0, 0), Point(0, 0, 0), Point(9, 9, 0)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(4, 0, 0), Point(1, -1, 0)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(4, 0, 0), Point(1, 0, 1)}));
+    CHECK_FALSE(cross(flat, {Point(0, 0, 0), Point(4, 0, 0), Point(1, 1, 0x1p-1000)}));
+}
+
+TEST_CASE("triangles without area cross nothing")
+{
+    CHECK_FALSE(cross_somehow(flat, {Point(1, 1, -1), Point(1, 1, 1), Point(1, 1, 2)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(1, 1, 0), Point(1, 1, 0), Point(1, 1, 0)}));
+    CHECK_FALSE(cross_somehow(flat, {Point(0, 0, 0), Point(4, 0, 0), Point(2, 0, 0)}));
+    CHECK_FALSE(
+        cross({Point(0, 0, 0), Point(1, 0, 0), Point(2, 0, 0)}, {Point(0, 0, 0), Point(2, 0, 0), Point(1, 0, 0)}));
+}
+
+TEST_CASE("numbers of any size decide as exact ones do")
+{
+    // Few values: corners in common, in line, and planes in common are frequent.
+    for (const double scale : {1e-320, 1e-200, 1e-90, 0.3, 1e70, 1e150, 5e307}) {
+        RandomNumbers random(7);
+        int n_crossing = 0;
+        for (int i = 0; i < 3000; ++i) {
+            std::array<Corners, 2> t;
+            for (Corners& corners : t)
+                for (Point& p : corners)
+                    p = scale * Point(random.below(4) - 1.5, random.below(4) - 1.5, random.below(3) - 1);
+            CHECK(cross(t[0], t[1]) == cross_exactly(t[0], t[1]));
+            n_crossing += cross(t[0], t[1]) ? 1 : 0;
+        }
+        CHECK(n_crossing > 500);
+    }
+}
+
+TEST_CASE("triangles that nearly touch decide as exact numbers do")
+{
+    RandomNumbers random(11);
+    const auto point = [&] { return Point(random.symmetric(), random.symmetric(), random.symmetric()); };
+    for (int i = 0; i < 20000; ++i) {
+        const Corners a{point(), point(), point()};
+        const double s = random.unit();
+        const double t = random.unit() * (1.0 - s);
+        // Some corners are those of the first triangle, or rounded from places on it.
+        const auto near = [&]() -> Point { return a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0]); };
+        const Point other = random.below(2) == 0 ? near() : point();
+        const Corners b{random.below(2) == 0 ? a[2] : near(), random.below(3) == 0 ? a[0] : other, point()};
+        CHECK(cross(a, b) == cross_exactly(a, b));
+    }
+}
