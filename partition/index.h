@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -7,6 +8,9 @@ namespace seamflow {
 
 /// Index of a vertex, face, half-edge or sub-mesh.
 using Index = std::int32_t;
+
+/// An edge by its two vertices.
+using Edge = std::array<Index, 2>;
 
 /// An index beside sizes of standard containers, as in `at(h) < twin.size()`. Subscripts need no such cast: a container
 /// that checks them (_GLIBCXX_ASSERTIONS, as the preset debug has it) refuses a negative one, too.

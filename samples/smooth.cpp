@@ -23,6 +23,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
+#include "partition/formats/edge_files.h"
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
@@ -52,6 +53,8 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std
     MotionOptions& motion = command.options.motion;
     if (!command.fix.empty())
         motion.fixed_vertices = read_vertex_set(command.fix, mesh.n_vertices(), command.fix_property);
+    if (!command.edges.empty() || command.edges_from_file)
+        motion.feature_edges = read_edges(command.edges_from_file ? command.input : command.edges, mesh.n_vertices());
     if (!command.attach_weights.empty())
         motion.attachment_weights =
             read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);

@@ -130,6 +130,12 @@ void require_valid_constraints(const FlowOptions& options)
         throw OptionError(
             "rescale, within and limits are for results whose sub-meshes are joined; keep_gaps leaves them "
             "separate");
+    if (!options.motion.feature_edges.empty()) {
+        if (!options.keep_edges)
+            throw OptionError("feature_edges are kept where keep_edges says so: give its angle as well");
+        if (options.motion.rescale != Rescale::None || options.motion.within)
+            throw OptionError("rescale and within move vertices off feature_edges: leave them out");
+    }
     if (options.motion.rescale != Rescale::None && !options.motion.fixed_vertices.empty())
         throw OptionError("rescale moves every vertex, but fixed_vertices are to stay: leave rescale "
                           "out; Filter::LowPass, with which what is large hardly shrinks, lets them stay");

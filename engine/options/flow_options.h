@@ -226,6 +226,10 @@ struct MotionOptions {
     Boundary boundary = Boundary::Fixed;
     /// Vertices that stay where they are, bit for bit, wherever they lie; in any order, repetitions are allowed.
     std::vector<Index> fixed_vertices = {};
+    /// Edges that keep_edges keeps, however little they bend: pairs of vertices that share an edge of a face. Faces on
+    /// both sides of them know nothing of each other there. A vertex between two of them moves along the line that
+    /// they make, as far as the middles of both, and the vertices at ends of lines and where more of them meet stay.
+    std::vector<Edge> feature_edges = {};
     /// Refuse meshes on which the flow is not defined everywhere: those that are not manifold, or on which edges
     /// without length (Δ_F) or faces without area (the others) leave the Laplacian undefined at vertices that should
     /// move. Without it such vertices are held fixed, and a remark says how many.

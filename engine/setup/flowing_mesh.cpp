@@ -60,9 +60,14 @@ void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Lo
         if (!have_same_bits(own.row(v), joined.row(first_[v])))
             apart_.push_back({v, own.row(v), joined.row(first_[v])});
     }
-    for (Index& v : motion.fixed_vertices)
+    const auto join = [&](Index& v) {
         if (v >= 0 && v < given_->n_vertices())
             v = first_[v];
+    };
+    for (Index& v : motion.fixed_vertices)
+        join(v);
+    for (Edge& edge : motion.feature_edges)
+        std::ranges::for_each(edge, join);
     if (motion.attachment_weights.size() == first_.size())
         for (const Index v : copies_) {
             double& weight = motion.attachment_weights[first_[v]];

@@ -58,6 +58,14 @@ std::string text_of(const std::vector<Index>& indices)
     return indices.empty() ? std::string(none) : fmt::format("those with checksum {:x}", checksum_of(indices));
 }
 
+std::string text_of(const std::vector<Edge>& edges)
+{
+    std::vector<Index> ends;
+    for (const Edge& edge : edges)
+        ends.insert(ends.end(), edge.begin(), edge.end());
+    return text_of(ends);
+}
+
 std::string text_of(const std::vector<double>& numbers)
 {
     if (numbers.empty())
@@ -91,8 +99,8 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
     const auto& [subdomains, labels] = cut;
     const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
     const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [weld, boundary, fixed_vertices, strict, attachment, attachment_weights, rescale, within, limits] =
-        motion;
+    const auto& [weld, boundary, fixed_vertices, feature_edges, strict, attachment, attachment_weights, rescale, within,
+                 limits] = motion;
     const auto& [threads, memory_limit, factorisation, precision] = resources;
     const auto& [reference, record_schedule, keep_gaps, measures] = report;
     // These do not change results, or (steps) only where they end; a radius has become a time step.
@@ -130,12 +138,14 @@ FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
         {"weld", text_of(weld)},
         {"boundary", text_of(boundary)},
         {"fixed_vertices", text_of(fixed_vertices)},
+        {"feature_edges", text_of(feature_edges)},
         {"attachment", text_of(attachment)},
         {"attachment_weights", text_of(attachment_weights)},
         {"rescale", text_of(rescale)},
         {"within", within ? text_of(*within) : "none"},
         {"limit_of_volume", text_of(limits.volume)},
         {"limit_of_move", text_of(limits.move)},
+        {"limit_of_slide", text_of(limits.slide)},
         {"correction", text_of(correction)},
         {"tolerance", text_of(tolerance)},
         {"approach", text_of(approach)},

@@ -18,6 +18,16 @@ constexpr int passes = 3;
 /// Steps of so many face areas move vertices half as far as they would.
 constexpr double short_step = 0.01;
 
+/// Normals diffuse on each side of the lines alone.
+NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
+                                  const Loop& loop)
+{
+    if (lines.empty())
+        return {mesh, topology, loop};
+    const PolygonMesh open = lines.cut_open(mesh, topology);
+    return {mesh, open, make_topology(open, loop), loop};
+}
+
 }  // namespace
 
 EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,
@@ -26,7 +36,8 @@ EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& 
     , topology_(&topology)
     , time_step_(options.time_step)
     , angle_(options.keep_edges.value())
-    , diffusion_(mesh, topology, progress.loop())
+    , lines_(mesh, topology, options.motion.feature_edges)
+    , diffusion_(diffusion_between(mesh, topology, lines_, progress.loop()))
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
@@ -39,7 +50,7 @@ void EdgeKeepingStepper::step(const Points& before)
     Points from = before;
     for (int pass = 0; pass < passes; ++pass) {
         const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, loop);
-        fit_vertices(*mesh_, *topology_, normals, diffusion_.noise(), from, positions_, loop);
+        fit_vertices(*mesh_, *topology_, lines_, normals, diffusion_.noise(), from, positions_, loop);
         from.swap(positions_);
     }
     // Vertices fit at once, however short the step: they go all the way where it is long against faces.
@@ -50,7 +61,7 @@ void EdgeKeepingStepper::step(const Points& before)
             size += area(mesh_->face(topology_->face_of[corner]), before) / static_cast<double>(corners.size());
         const double part = time_step_ / (time_step_ + short_step * size);
         positions_.row(v) =
-            part < 1.0 ? Point(before.row(v) + part * (from.row(v) - before.row(v))) : Point(from.row(v));
+            part < 1.0 ? lines_.on_line(v, before.row(v) + part * (from.row(v) - before.row(v))) : Point(from.row(v));
     });
     loops_.end();
     if (!positions_.allFinite())

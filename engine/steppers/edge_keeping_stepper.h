@@ -6,6 +6,7 @@
 #include "engine/tasks/progress.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "solvers/normals/feature_lines.h"
 #include "solvers/normals/normal_diffusion.h"
 
 namespace seamflow {
@@ -36,6 +37,7 @@ class EdgeKeepingStepper final : public Stepper {
     const Topology* topology_;
     double time_step_;
     double angle_;
+    FeatureLines lines_;
     NormalDiffusion diffusion_;
     Points positions_;
     LoopCount loops_;

@@ -11,9 +11,6 @@
 
 namespace seamflow {
 
-/// An edge by its two vertices, the lower number first.
-using Edge = std::array<Index, 2>;
-
 /// How much there is of a mesh.
 struct ElementCounts {
     Index vertices = 0;
@@ -43,7 +40,8 @@ struct MeshBox {
     double diagonal = 0.0;
 };
 
-/// What is uncommon or wrong, element by element. All numbers count from 0; all lists are ascending.
+/// What is uncommon or wrong, element by element. All numbers count from 0; all lists are ascending, and edges have the
+/// lower vertex first.
 struct MeshDefects {
     /// Vertices with a coordinate that is no finite number. What is measured leaves them and their edges and faces out.
     std::vector<Index> vertices_not_finite;

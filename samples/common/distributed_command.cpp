@@ -19,6 +19,8 @@ std::vector<SmoothProgram::Lack> lacks()
             {"--rescale", whole_mesh},
             {"--scheme", sweeps_alone},
             {"--keep-edges", whole_mesh},
+            {"--edges", whole_mesh},
+            {"--edges-from-file", whole_mesh},
             {"--overlap", sweeps_alone},
             {"--keep-gaps", sweeps_alone},
             {"--self-intersections", whole_mesh},

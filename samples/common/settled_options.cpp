@@ -128,6 +128,16 @@ bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view
            (option == "--order" && app.count("--filter") > 0);
 }
 
+bool names_edges(const CLI::App& app)
+{
+    return app.count("--edges") + app.count("--edges-from-file") > 0;
+}
+
+bool keeps_edges(const CLI::App& app)
+{
+    return app.count("--keep-edges") > 0 || names_edges(app);
+}
+
 /// Takes from the preset that is asked for, or that an amount which is not given asks for, what no option says.
 void apply_preset(const CLI::App& app, SmoothCommand& command)
 {
@@ -146,7 +156,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                         command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
                         command.preset.empty() ? "" : ", and leave the preset out"));
     if (command.preset.empty())
-        command.preset = app.count("--keep-edges") > 0 ? "cad" : all_presets().front().name;
+        command.preset = keeps_edges(app) ? "cad" : all_presets().front().name;
     const PresetTraits& preset = preset_of(command.preset);
     if (command.noise && !preset.measures_noise())
         throw OptionError("--noise is for --preset scan and terrain; the amount of " + command.preset +
@@ -205,6 +215,9 @@ void settle(const CLI::App& app, SmoothCommand& command)
     if (command.chooses_threads)
         command.options.resources.threads = threads_within_quota();
     apply_preset(app, command);
+    if (names_edges(app) && !command.options.keep_edges)
+        throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
+                          " names edges to keep: say --preset cad, or --keep-edges with an angle, as well");
     command.limits_iterations = app.count("--converge-iterations") > 0;
     for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
         if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)

@@ -96,7 +96,7 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
         names.emplace_back(preset.name);
     app.add_option("--preset", command.preset,
                    "options that suit a kind of mesh; those that are given go before them. " + describe_presets() +
-                       " [scan if no amount is given; cad with --keep-edges]")
+                       " [scan if no amount is given; cad with --keep-edges or --edges]")
         ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
     add_length(app, "--noise", command.noise,
@@ -152,6 +152,14 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_real(app, "--keep-edges", options.keep_edges, {0.0, 180.0, true},
              "smooth what lies between edges sharper than this angle between faces, in degrees, and keep these and "
              "their corners; 20 to 40 are good, with --time-step-edges 16 or so; on the whole mesh");
+    auto* edges =
+        app.add_option("--edges", command.edges,
+                       "edges that are kept, too, however little they bend: two numbers of vertices a line, from 0, or "
+                       "an .obj with polylines or .ply with edges; with --keep-edges or --preset cad")
+            ->type_name("FILE");
+    app.add_flag("--edges-from-file", command.edges_from_file,
+                 "the same by the polylines (.obj) or edges (.ply) of INPUT")
+        ->excludes(edges);
     add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
     auto* subdomains = add_integer(app, "--subdomains", options.cut.subdomains, 0,
                                    "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
@@ -274,8 +282,10 @@ void require_usable_files(const SmoothCommand& command)
         throw OptionError("OUTPUT and --report are both -: name a file for one of them");
     if (!command.report.empty() && !is_standard_stream(command.report))
         results.push_back(command.report);
-    require_files({command.labels, command.fix, command.attach_weights});
-    for (const auto& input : {command.input, command.labels, command.fix, command.attach_weights}) {
+    if (command.edges_from_file && is_standard_stream(command.input))
+        throw OptionError("--edges-from-file reads INPUT a second time: name a file instead of -");
+    require_files({command.labels, command.fix, command.edges, command.attach_weights});
+    for (const auto& input : {command.input, command.labels, command.fix, command.edges, command.attach_weights}) {
         std::vector<std::filesystem::path> files = results;
         if (!input.empty())
             files.push_back(input);

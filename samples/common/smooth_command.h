@@ -47,6 +47,9 @@ struct SmoothCommand {
     std::filesystem::path html;
     /// The property of vertices that says which are fixed, where `fix` is a PLY file.
     std::string fix_property = "fixed";
+    /// File with edges that are kept (see MotionOptions::feature_edges), or whether the input has them; empty: none.
+    std::filesystem::path edges;
+    bool edges_from_file = false;
     /// 1/√w of an attachment that is the same for all vertices, if not empty; or a file with w, and where that is a PLY
     /// file, the property of vertices that says it.
     std::optional<LengthOnMesh> attach;

@@ -178,11 +178,13 @@ std::vector<Value> to_vector(const Array<Value>& array)
 template <class Integer>
 py::tuple run(const Array<double>& positions, const Array<Integer>& corners, const Array<std::int64_t>& offsets,
               const std::vector<std::string>& words, const Array<Index>& fixed, const Array<Index>& labels,
-              const Array<double>& weights, const py::object& progress)
+              const Array<Index>& edges, const Array<double>& weights, const py::object& progress)
 {
     SmoothCommand command = parse_flow_options(words);
     command.options.motion.fixed_vertices = to_vector(fixed);
     command.options.cut.labels = to_vector(labels);
+    for (py::ssize_t i = 0; i + 1 < edges.size(); i += 2)
+        command.options.motion.feature_edges.push_back({edges.data()[i], edges.data()[i + 1]});
     command.options.motion.attachment_weights = to_vector(weights);
     FlowResult result = run_interruptibly(std::move(command), make_mesh(positions, corners, offsets), progress);
     const py::array_t<Index> parts(static_cast<py::ssize_t>(result.labels.size()), result.labels.data());
@@ -193,14 +195,15 @@ template <class Integer>
 void define_run(py::module_& module)
 {
     module.def("run", &run<Integer>, py::arg("positions").noconvert(), py::arg("corners").noconvert(),
-               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"),
+               py::arg("offsets").noconvert(), py::arg("words"), py::arg("fixed"), py::arg("labels"), py::arg("edges"),
                py::arg("weights"), py::arg("progress"));
 }
 
 /// Those that are arrays here, or are about files.
 bool is_of_files(const FlowOptionText& option)
 {
-    constexpr std::array names{"fix", "fix-property", "labels", "attach-weights", "attach-property", "keep-gaps"};
+    constexpr std::array names{"fix",       "fix-property", "labels",         "attach-weights", "attach-property",
+                               "keep-gaps", "edges",        "edges-from-file"};
     return std::ranges::find(names, option.name) != names.end();
 }
 

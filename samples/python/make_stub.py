@@ -49,6 +49,7 @@ def load_core():
 
 lines = ["def smooth(", "    V: npt.ArrayLike | Any,", "    F: npt.ArrayLike | Iterable[Sequence[int]] | None = None,",
          "    *,", "    fixed: npt.ArrayLike | None = None,", "    labels: npt.ArrayLike | None = None,",
+         "    edges: npt.ArrayLike | None = None,",
          "    attach_weights: npt.ArrayLike | None = None,", "    progress: Callable[[Progress], Any] | None = None,"]
 for name, kind, _, is_flag in load_core().options():
     lines.append(f"    {name.replace('-', '_')}: {type_of(kind, is_flag)} | None = None,")

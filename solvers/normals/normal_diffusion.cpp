@@ -67,10 +67,11 @@ double area_with_normal(std::span<const Index> corners, const Points& positions)
 
 }  // namespace
 
-NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology,
+                                 const Loop& loop)
     : mesh_(&mesh)
-    , neighbours_(make_face_neighbours(mesh, topology, loop))
-    , signs_(face_signs(mesh, topology))
+    , neighbours_(make_face_neighbours(connected, topology, loop))
+    , signs_(face_signs(connected, topology))
     , across_(mesh.face_vertices.size())
     , areas_(at(mesh.n_faces()))
     , centroids_(mesh.n_faces(), 3)

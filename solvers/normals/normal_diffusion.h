@@ -30,7 +30,14 @@ class NormalDiffusion {
   public:
     /// @param mesh must outlive this; its vertices are not looked at. @param topology with twins; not needed
     /// afterwards.
-    NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+    NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially)
+        : NormalDiffusion(mesh, mesh, topology, loop)
+    {
+    }
+
+    /// The same between faces that share vertices of another mesh.
+    /// @param connected the faces of `mesh` with other vertices; not needed afterwards. @param topology of it.
+    NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology, const Loop& loop);
 
     /// @param positions #V by 3. @param time_step the sum of all τ, in length².
     /// @param angle between the normals of faces, in degrees, 0 to 180: sharper edges stay.

@@ -48,8 +48,8 @@ Point fitting_step(const PolygonMesh& mesh, const Topology& topology, const Poin
 
 }  // namespace
 
-void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Points& normals, double noise,
-                  const Points& from, Points& to, const Loop& loop)
+void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines, const Points& normals,
+                  double noise, const Points& from, Points& to, const Loop& loop)
 {
     // Chords of noise up to here, which folds hardly any face, are as long as relaxation is to go.
     const double relaxation = std::min(noise, most_relaxation);
@@ -64,8 +64,9 @@ void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const Point
                 return;
             const bool relaxes = i < relaxing_fits && topology.kind[v] == VertexKind::Interior;
             // `to` has the positions of the iteration before the last.
-            to.row(v) = before.row(v) + fit_momentum * (before.row(v) - to.row(v)) +
-                        fitting_step(mesh, topology, normals, centroids, before, v, relaxes ? relaxation : 0.0);
+            to.row(v) = lines.on_line(
+                v, before.row(v) + fit_momentum * (before.row(v) - to.row(v)) +
+                       fitting_step(mesh, topology, normals, centroids, before, v, relaxes ? relaxation : 0.0));
         });
     }
 }

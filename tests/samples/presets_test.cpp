@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <string>
 
 #include "tests/samples/workshop.h"
@@ -117,4 +120,78 @@ TEST_CASE("reports name the flow that was taken")
     CHECK(w.json("report.json")["rescale"] == "volume");
     CHECK(w.json("report.json")["attachment"] == 4.0);
     CHECK(!w.json("report.json").contains("keep_edges"));
+}
+
+namespace {
+
+/// A roof of n by n quads over the unit square, its ridge at x = .5, noise on everything else.
+struct Roof {
+    static constexpr int n = 20;
+    std::string obj;
+    /// The edges of the ridge: pairs of vertices, and as polylines of OBJ.
+    std::string pairs;
+    std::string polylines;
+
+    Roof()
+    {
+        unsigned random = 1;
+        for (int y = 0; y <= n; ++y)
+            for (int x = 0; x <= n; ++x) {
+                random = random * 1664525U + 1013904223U;
+                const double noise = x == n / 2 ? 0.0 : 0.006 * (random / 2147483648.0 - 1.0);
+                obj += "v " + std::to_string(1.0 * x / n) + " " + std::to_string(1.0 * y / n) + " " +
+                       std::to_string(0.09 * std::min(x, n - x) / n + noise) + "\n";
+            }
+        for (int y = 0; y < n; ++y) {
+            const int ridge = y * (n + 1) + n / 2;
+            pairs += std::to_string(ridge) + " " + std::to_string(ridge + n + 1) + "\n";
+            polylines += "l " + std::to_string(ridge + 1) + " " + std::to_string(ridge + n + 2) + "\n";
+            for (int x = 0; x < n; ++x) {
+                const int v = y * (n + 1) + x + 1;
+                obj += "f " + std::to_string(v) + " " + std::to_string(v + 1) + " " + std::to_string(v + n + 2) + " " +
+                       std::to_string(v + n + 1) + "\n";
+            }
+        }
+    }
+};
+
+/// How far the vertices of the ridge in an OBJ file are off it.
+double off_ridge(const Workshop& w, const char* mesh)
+{
+    std::ifstream file(w.directory / mesh);
+    std::string keyword;
+    double largest = 0.0;
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    for (int v = 0; file >> keyword >> x >> y >> z && keyword == "v"; ++v)
+        if (v % (Roof::n + 1) == Roof::n / 2)
+            largest = std::max({largest, std::abs(x - 0.5), std::abs(z - 0.045)});
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("edges that are given stay as they are, from whichever file, and vertices on them move along them alone")
+{
+    const Workshop w;
+    const Roof roof;
+    (void)w.directory.with("roof.obj", roof.obj + roof.polylines);
+    (void)w.directory.with("pairs", roof.pairs);
+    REQUIRE(w.smooth("roof.obj kept.obj --edges pairs") == 0);
+    CHECK(w.said().find("preset     cad") != std::string::npos);
+    REQUIRE(w.smooth("roof.obj by_file.obj --preset cad --edges-from-file") == 0);
+    CHECK(w.run("cmp kept.obj by_file.obj") == 0);
+    REQUIRE(w.smooth("roof.obj lost.obj --preset cad") == 0);
+    CHECK(off_ridge(w, "kept.obj") < 1e-12);
+    CHECK(off_ridge(w, "lost.obj") > 1e-3);
+    CHECK(w.smooth("roof.obj out.obj --radius 1% --edges pairs") == 2);
+    CHECK(w.said().find("--edges names edges to keep: say --preset cad, or --keep-edges") != std::string::npos);
+    CHECK(w.smooth("roof.obj out.obj --edges pairs --edges-from-file") == 2);
+    CHECK(w.smooth("- out.obj --edges-from-file <roof.obj") == 2);
+    (void)w.directory.with("bare.obj", roof.obj);
+    CHECK(w.smooth("bare.obj out.obj --preset cad --edges-from-file") == 3);
+    (void)w.directory.with("wrong", "0 99\n");
+    CHECK(w.smooth("roof.obj out.obj --edges wrong") == 3);
+    CHECK(w.said().find("vertices 0 and 99 (numbered from 0) of a feature edge share no edge") != std::string::npos);
 }

@@ -92,6 +92,10 @@ class SameBits(WithFolder):
         cut, report = seamflow.smooth(V, F, radius="3%", labels=labels.astype(np.uint8))
         np.testing.assert_array_equal(cut, self.smooth_file("--radius", "3%", "--labels", self.folder / "labels"))
         self.assertEqual(report["subdomains"], 4)
+        edges = [[face[0], face[1]] for face in F[:9]]
+        (self.folder / "edges").write_text("".join(f"{v} {w}\n" for v, w in edges))
+        kept, _ = seamflow.smooth(V, F, preset="cad", edges=edges)
+        np.testing.assert_array_equal(kept, self.smooth_file("--edges", self.folder / "edges"))
         attached, _ = seamflow.smooth(V, F, radius="3%", attach_weights=weights)
         words = ["--radius", "3%", "--attach-weights", self.folder / "weights"]
         np.testing.assert_array_equal(attached, self.smooth_file(*words))
@@ -165,6 +169,8 @@ class WrongInput(unittest.TestCase):
             (ValueError, r"fixed has to be a mask .*\(8,\), but is bool, \(7,\)", (V, SIDES), {"fixed": [True] * 7}),
             (ValueError, r"labels has to be .*\(6,\)", (V, SIDES), {"labels": [0] * 5}),
             (ValueError, r"labels\[1\] is -1", (V, SIDES), {"labels": [0, -1, 0, 0, 0, 0]}),
+            (ValueError, "edges has to be pairs", (V, SIDES), {"keep_edges": 30, "edges": [0, 1]}),
+            (ValueError, "edges has to name vertices from 0 to 7", (V, SIDES), {"keep_edges": 30, "edges": [[0, 8]]}),
             (ValueError, r"attach_weights\[2\] is nan", (V, SIDES), {"attach_weights": [0, 1, np.nan, 0, 0, 0, 0, 0]}),
             (ValueError, r"V has to be real numbers, \(#V, 3\), but is float64, \(8, 2\)", (V[:, :2], SIDES), {}),
             (ValueError, "mesh: vertex 5 .* not a finite number", (nan, SIDES), {}),
@@ -232,6 +238,7 @@ class Described(unittest.TestCase):
         compile(stub, "__init__.pyi", "exec")
         of_files = {"help", "version", "every-step", "parts", "report", "trace", "task-graph", "html", "checkpoint"}
         of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
+        of_files |= {"edges", "edges-from-file"}
         named = {line.split()[0][2:] for line in text.splitlines() if line.strip().startswith("--")} - of_files
         self.assertGreater(len(named), 30)
         for name in named:

@@ -121,6 +121,9 @@ TEST_CASE("faces that fold over and cross are told of, and those that noise had 
     CHECK(remark(folded).find("--within") != std::string::npos);
     // And back.
     const SurfaceChangeMeter of_folded(mesh, run_serially);
+    const SurfaceChange unchanged = of_folded.measure(mesh, {}, true, run_serially);
+    CHECK(unchanged.before.self_intersections == folded.after.self_intersections);
+    CHECK(unchanged.new_self_intersections == 0);
     mesh.vertices = flat;
     const SurfaceChange mended = of_folded.measure(mesh, {}, true, run_serially);
     CHECK(mended.flipped_faces == folded.flipped_faces);

@@ -28,7 +28,7 @@ class Progress(NamedTuple):
     """The part of the whole that is done, from 0 to 1."""
 
 
-def smooth(V, F=None, *, fixed=None, labels=None, attach_weights=None, progress=None, **options):
+def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, progress=None, **options):
     """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
     `smooth`. Without any it removes the noise that the mesh is found to have.
 
@@ -37,6 +37,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, attach_weights=None, progress=
     F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
     fixed: vertices that stay where they are, as a mask (#V, bool) or by their numbers.
     labels: the sub-mesh of every face, (#F,), at least 0.
+    edges: edges that are kept, however little they bend, by their vertices, (#E, 2); with keep_edges or preset="cad".
     attach_weights: how strongly each vertex is pulled back to where it was, (#V,), in 1/length².
     progress: called with a Progress a few times a second, in the calling thread; what it raises stops the flow.
 
@@ -65,6 +66,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, attach_weights=None, progress=
     for name, convert, kind, value, count in (
         ("fix", _fixed, np.int32, fixed, len(V)),
         ("labels", _labels, np.int32, labels, len(offsets) - 1),
+        ("edges", _edges, np.int32, edges, len(V)),
         ("attach-weights", _weights, np.float64, attach_weights, len(V)),
     ):
         array = [] if value is None else convert(value, count)
@@ -141,6 +143,15 @@ def _array_of(name, value, count, kinds, described):
     return array
 
 
+def _edges(value, count):
+    array = np.asarray(value)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise ValueError(f"edges has to be pairs of vertices, (#E, 2), but is {array.dtype}, {array.shape}")
+    if array.size > 0 and not (0 <= array.min() and array.max() < count):
+        raise ValueError(f"edges has to name vertices from 0 to {count - 1}, but has {array.min()} to {array.max()}")
+    return array.reshape(-1)
+
+
 def _fixed(value, count):
     array = np.asarray(value)
     if array.dtype.kind == "b":
@@ -174,7 +185,7 @@ def _weights(value, count):
 def _words(keyword, value):
     """A keyword as on a command line; nothing where it is None or False."""
     if keyword not in _OPTIONS:
-        known = sorted({*_OPTIONS, "fixed", "labels", "attach_weights", "progress"})
+        known = sorted({*_OPTIONS, "fixed", "labels", "edges", "attach_weights", "progress"})
         raise TypeError(f"smooth() has no keyword {keyword}; there are {', '.join(known)}")
     name, _, _, is_flag = _OPTIONS[keyword]
     if is_flag:

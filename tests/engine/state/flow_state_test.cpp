@@ -202,6 +202,11 @@ TEST_CASE("every option that changes results tells flows apart, by its own name"
         {"uniform_edge", [](FlowOptions& o) { o.uniform_edge = 0.5; }},
         {"within", [](FlowOptions& o) { o.motion.within = 0.5; }},
         {"limit_of_volume", [](FlowOptions& o) { o.motion.limits.volume = 0.5; }},
+        {"limit_of_slide", [](FlowOptions& o) { o.motion.limits.slide = 0.5; }},
+        {"feature_edges",
+         [](FlowOptions& o) {
+             o.motion.feature_edges = {{0, 1}};
+         }},
         {"limit_of_move", [](FlowOptions& o) { o.motion.limits.move = 0.5; }},
         {"attachment", [](FlowOptions& o) { o.motion.attachment = 2.0; }},
         {"attachment_weights", [](FlowOptions& o) { o.motion.attachment_weights = {2.0}; }},

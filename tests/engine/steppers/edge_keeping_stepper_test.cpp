@@ -158,6 +158,45 @@ TEST_CASE("faces without area and surfaces with one side do no harm")
     CHECK(flowed(sphere, edge_options(sphere, 1e30)).allFinite());
 }
 
+TEST_CASE("feature edges divide faces that would be smoothed together, the same on turned and renumbered meshes")
+{
+    // A round tube with a scratch drawn along it, where its faces hardly bend.
+    PolygonMesh mesh = make_cylinder(900, {.noise = 0.1});
+    const Topology topology = make_topology(mesh);
+    FlowOptions options = edge_options(mesh, 4.0);
+    const Points without = flowed(mesh, options);
+    for (Index v = mesh.n_vertices() / 2, steps = 0; steps < 6; ++steps) {
+        const Index corner = topology.corners_at(v).front();
+        const Index next = mesh.face_vertices[topology.next(mesh, topology.next(mesh, corner))];
+        const Index beside = mesh.face_vertices[topology.next(mesh, corner)];
+        options.motion.feature_edges.push_back({v, beside});
+        options.motion.feature_edges.push_back({next, beside});
+        v = next;
+    }
+    const Points with = flowed(mesh, options);
+    CHECK(largest_difference(with, without) > 1e-3 * mean_edge_length(mesh, mesh.vertices));
+    // Both ends of the line stay to the bit.
+    CHECK(with.row(options.motion.feature_edges.front()[0]) == mesh.vertices.row(mesh.n_vertices() / 2));
+    options.resources.threads = 1;
+    CHECK(test::same_bits(flowed(mesh, options), with));
+    options.resources.threads = 0;
+
+    const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+    PolygonMesh turned = mesh;
+    turned.vertices = mesh.vertices * turn.toRotationMatrix().transpose();
+    CHECK(largest_difference(flowed(turned, options), with * turn.toRotationMatrix().transpose()) < 1e-9);
+
+    RandomNumbers random(4);
+    const std::vector<Index> new_vertex = test::random_permutation(mesh.n_vertices(), random);
+    FlowOptions renamed = options;
+    for (Edge& edge : renamed.motion.feature_edges)
+        edge = {new_vertex[edge[1]], new_vertex[edge[0]]};
+    const PolygonMesh shuffled = test::renumbered(mesh, new_vertex, test::random_permutation(mesh.n_faces(), random));
+    const Points result = flowed(shuffled, renamed);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        CHECK((result.row(new_vertex[v]) - with.row(v)).norm() < 1e-9);
+}
+
 TEST_CASE("what leaves no room for edges is refused")
 {
     PolygonMesh mesh = make_quads(400);
@@ -179,4 +218,13 @@ TEST_CASE("what leaves no room for edges is refused")
     refuses([](FlowOptions& o) { o.accuracy.approach = Approach::ConjugateGradients; });
     refuses([](FlowOptions& o) { o.accuracy.tolerance = 1e-3; });
     refuses([](FlowOptions& o) { o.report.reference = true; });
+    const auto refuses_feature = [&](auto change) {
+        FlowOptions options = edge_options(mesh);
+        options.motion.feature_edges = {{mesh.face(0)[0], mesh.face(0)[1]}};
+        change(options);
+        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, options), doctest::Contains("feature_edges"), OptionError);
+    };
+    refuses_feature([](FlowOptions& o) { o.keep_edges.reset(); });
+    refuses_feature([](FlowOptions& o) { o.motion.within = 1.0; });
+    refuses_feature([](FlowOptions& o) { o.motion.rescale = Rescale::Area; });
 }

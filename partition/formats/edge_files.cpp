@@ -1,0 +1,141 @@
+#include "partition/formats/edge_files.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/formats/obj.h"
+#include "partition/formats/ply_header.h"
+#include "partition/formats/ply_source.h"
+#include "partition/io/input_file.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Collects edges, and refuses those that cannot be any of the mesh.
+class EdgeList {
+  public:
+    explicit EdgeList(Index n_vertices)
+        : n_vertices_(n_vertices)
+    {
+    }
+
+    /// @param v, w counted from 0. @param position of the edge, for messages. @param first what the file counts from.
+    void add(std::int64_t v, std::int64_t w, const InputPosition& position, int first)
+    {
+        for (const std::int64_t end : {v, w})
+            if (end < 0 || end >= n_vertices_)
+                position.fail(fmt::format("there is no vertex {}: the mesh has {}, numbered from {}; use the file with "
+                                          "the mesh it belongs to",
+                                          end + first, n_vertices_, first));
+        if (v == w)
+            position.fail(fmt::format("names vertex {} twice; an edge has two ends", v + first));
+        edges_.push_back({static_cast<Index>(v), static_cast<Index>(w)});
+    }
+
+    [[nodiscard]] std::vector<Edge> take() { return std::move(edges_); }
+
+  private:
+    Index n_vertices_;
+    std::vector<Edge> edges_;
+};
+
+void read_obj_lines(TextScanner scanner, EdgeList& list)
+{
+    std::int64_t n_vertices = 0;
+    while (scanner.next_line()) {
+        const std::string_view keyword = scanner.token();
+        n_vertices += keyword == "v" ? 1 : 0;
+        if (keyword != "l")
+            continue;
+        std::int64_t before = -1;
+        for (int n = 0; scanner.has_token(); ++n) {
+            const std::int64_t number = scanner.integer_before_slash("a vertex number (as in 7 or 7/1)");
+            scanner.skip(scanner.rest_of_token().size());
+            const std::int64_t v = number < 0 ? n_vertices + number : number - 1;
+            if (n > 0)
+                list.add(before, v, scanner, 1);
+            before = v;
+        }
+    }
+}
+
+template <class Source>
+void read_ply_edges(Source source, const PlyHeader& header, EdgeList& list)
+{
+    const PlyElement* element = header.elements.data();
+    for (; element->name != "edge"; ++element)
+        for (std::uint64_t e = 0; e < element->count; ++e)
+            pass_over(source, *element, e, "file");
+    for (std::uint64_t e = 0; e < element->count; ++e) {
+        std::int64_t ends[2] = {-1, -1};
+        source.begin_element(*element, e);
+        for (const PlyProperty& property : element->properties) {
+            const bool is_first = property.name == "vertex1";
+            if (is_first || property.name == "vertex2")
+                ends[is_first ? 0 : 1] = source.integer(property.type);
+            else
+                pass_over(source, property, "file");
+        }
+        list.add(ends[0], ends[1], source.position(), 0);
+        source.end_element();
+    }
+}
+
+void read_ply(TextScanner scanner, const std::filesystem::path& path, std::string_view content, EdgeList& list)
+{
+    const PlyHeader header = read_ply_header(scanner);
+    const PlyElement* const element = header.element("edge");
+    if (element == nullptr)
+        return;
+    for (const char* name : {"vertex1", "vertex2"}) {
+        const auto found = std::ranges::find(element->properties, name, &PlyProperty::name);
+        if (found == element->properties.end() || found->length_type || !is_integer(found->type))
+            throw InputError(fmt::format("{}: the edges have no whole number {}; declare vertex1 and vertex2",
+                                         scanner.position_of(element->line), name));
+    }
+    with_source(scanner, path, content, header.encoding,
+                [&](auto source) { read_ply_edges(std::move(source), header, list); });
+}
+
+void read_pairs(TextScanner scanner, EdgeList& list)
+{
+    while (scanner.next_line()) {
+        const char* const what = "two numbers of vertices on each line";
+        const std::int64_t v = scanner.integer(what);
+        const std::int64_t w = scanner.integer(what);
+        if (scanner.has_token())
+            scanner.fail("the line goes on after two numbers of vertices; write one edge a line");
+        list.add(v, w, scanner, 0);
+    }
+}
+
+}  // namespace
+
+std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices)
+{
+    const std::optional<FileFormat> format = format_of(path);
+    if (format == FileFormat::Off || format == FileFormat::Stl)
+        throw InputError(path.string() + ": the format has no edges of its own; OBJ (lines l) and PLY (element edge) "
+                                         "have, and a text file may have two numbers of vertices a line");
+    const InputFile file{OpenFile(path)};
+    EdgeList list(n_vertices);
+    if (format == FileFormat::Obj)
+        read_obj_lines(TextScanner(path, file.content(), obj_syntax), list);
+    else if (format == FileFormat::Ply)
+        read_ply(TextScanner(path, file.content(), ply_syntax), path, file.content(), list);
+    else
+        read_pairs(TextScanner(path, file.content()), list);
+    std::vector<Edge> edges = list.take();
+    if (edges.empty() && format)
+        throw InputError(path.string() + ": the file has no edges of its own: " +
+                         (format == FileFormat::Obj ? "lines l" : "elements edge") + " would name them");
+    return edges;
+}
+
+}  // namespace seamflow
