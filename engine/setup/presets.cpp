@@ -51,6 +51,9 @@ constexpr std::array table{
 constexpr double most_volume_change = 0.02;
 /// How far vertices move along the surface at most, in standard deviations of the noise, which moved them there, too.
 constexpr double most_slide = 4.0;
+/// Steps that are told in mean edges reach no further than that part of the diagonal: what coarse parts have of shape
+/// is not much larger.
+constexpr double largest_reach = 0.2;
 /// Bumps are not noise beyond that part of the diagonal.
 constexpr double largest_radius = 0.1;
 
@@ -144,7 +147,9 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
     options.motion.limits = {.volume = most_volume_change};
     if (preset.time_step_edges) {
         const double mean_edge = mean_edge_length(mesh, mesh.vertices, loop);
-        options.time_step = require_step(*preset.time_step_edges * mean_edge * mean_edge);
+        const double reach = largest_reach * extent_of(mesh.vertices) / mean_edge;
+        const double edges = std::min(*preset.time_step_edges, rounded(reach * reach));
+        options.time_step = require_step(edges * mean_edge * mean_edge);
     } else if (preset.radius) {
         options.time_step =
             time_step_for_radius(*preset.radius, options.steps, extent_of(mesh.vertices), filter_of(options));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/setup/presets.h"
+#include "samples/common/presets.h"
 
 namespace seamflow {
 
@@ -19,14 +20,15 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& 
     choose_amount(preset, mesh, command.noise, choice, loop);
     command.options = std::move(choice.options);
     run.remark_on_amount = std::move(choice.remark);
-    if (!choice.noise)
-        return;
-    run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
-    if (run.remark_on_amount.empty())
+    if (choice.noise)
+        run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
+    if (!run.remark_on_amount.empty())
+        command.chosen = "nothing is smoothed";
+    else if (preset.radius)
+        command.chosen += amount_of(preset);
+    else
         command.chosen += fmt::format("--time-step-edges {:.3g}",
                                       command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
-    else
-        command.chosen = "nothing is smoothed";
 }
 
 }  // namespace

@@ -168,8 +168,6 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
         command.chosen += fmt::format("{} {} ", option.name, option.value);
     }
     command.chooses_amount = !has_amount;
-    if (command.chooses_amount)
-        command.chosen += amount_of(preset);
 }
 
 void require_consistent(const CLI::App& app, const SmoothCommand& command)

@@ -236,6 +236,19 @@ TEST_CASE("a clean globe keeps its poles and its faces where edges are kept")
     }
 }
 
+TEST_CASE("the amount of the cad preset is in mean edges, and reaches no further than a fifth of a coarse part")
+{
+    const auto edges_of = [](const PolygonMesh& mesh) {
+        const double edge = mean_edge_length(mesh, mesh.vertices);
+        return options_for(Preset::Cad, mesh).options.time_step / (edge * edge);
+    };
+    CHECK(edges_of(make_box(3000)) == doctest::Approx(32.0));
+    const PolygonMesh coarse = make_box(400);
+    const double reach = 0.2 * extent_of(coarse.vertices) / mean_edge_length(coarse, coarse.vertices);
+    REQUIRE(reach * reach < 20.0);
+    CHECK(edges_of(coarse) == doctest::Approx(reach * reach).epsilon(0.005));
+}
+
 TEST_CASE("noise that is said is believed, and no more is taken than it")
 {
     const Case c = bumpy_sphere(0.1);
