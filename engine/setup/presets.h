@@ -36,7 +36,8 @@ struct PresetTraits {
     /// What stays (see attachment_of), if vertices are attached.
     std::optional<LengthOnMesh> attach = {};
     int steps = 1;
-    /// dt in squared mean edge lengths, less where its root is above a fifth of the diagonal; or what all steps together smooth.
+    /// dt in squared mean edge lengths, less where its root is above a fifth of the diagonal; or what all steps
+    /// together smooth.
     std::optional<double> time_step_edges = {};
     std::optional<LengthOnMesh> radius = {};
 

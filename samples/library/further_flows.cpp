@@ -1,11 +1,12 @@
-// One mesh, five flows: plain, with a low-pass filter, attached to where it was, conformalized, with sharp edges kept;
-// and how far each moves it.
+// One mesh, six flows: plain, with a low-pass filter, attached to where it was, conformalized, with sharp edges kept,
+// and as much as its noise asks for; and how far each moves it.
 //
 //     further_flows INPUT
 
 #include <iostream>
 
 #include <seamflow/engine/mean_curvature_flow.h>
+#include <seamflow/engine/setup/presets.h>
 #include <seamflow/partition/formats/mesh_io.h>
 #include <seamflow/partition/metrics/vertex_distance.h>
 
@@ -35,6 +36,9 @@ try {
     flow("conformalized", [](Options& options) { options.flow = seamflow::FlowEquation::Conformalized; });
     // It needs no Laplacian; the angle is in degrees.
     flow("edges kept", [](Options& options) { options.keep_edges = 30.0; });
+    // What the program does without options; a mesh without noise stays.
+    flow("its noise removed",
+         [&](Options& options) { options = seamflow::options_for(seamflow::Preset::Scan, mesh).options; });
 } catch (const std::exception& error) {
     std::cerr << "further_flows: " << error.what() << '\n';
     return 1;

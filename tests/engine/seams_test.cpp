@@ -141,6 +141,34 @@ TEST_CASE("a copy that is fixed or attached holds all of them")
     CHECK(same_bits(flowed(parts, of_parts).topRows(whole.n_vertices()), flowed(whole, of_whole)));
 }
 
+TEST_CASE("feature edges may name any copies of the vertices along a seam")
+{
+    const PolygonMesh whole = make_triangles(400);
+    const PolygonMesh parts = split(whole, halves(whole));
+    FlowOptions of_parts;
+    of_parts.keep_edges = 30.0;
+    of_parts.time_step = 0.01;
+    FlowOptions of_whole = of_parts;
+    // All edges between copies: those along the seam in the second part.
+    const std::vector<Index> of = originals(parts, whole);
+    for (Index f = 0; f < parts.n_faces(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const Edge edge{parts.face(f)[k], parts.face(f)[(k + 1) % 3]};
+                std::min(edge[0], edge[1]) >= whole.n_vertices()) {
+                of_parts.motion.feature_edges.push_back(edge);
+                of_whole.motion.feature_edges.push_back({of[edge[0]], of[edge[1]]});
+            }
+    REQUIRE(of_parts.motion.feature_edges.size() > 5);
+    check_flows_as_one(parts, whole, of_whole);
+    const Points expected = flowed(whole, of_whole);
+    CHECK(same_bits(flowed(parts, of_parts), expected(of, Eigen::all)));
+    CHECK_FALSE(same_bits(expected, flowed(whole, [&] {
+                              FlowOptions without = of_whole;
+                              without.motion.feature_edges.clear();
+                              return without;
+                          }())));
+}
+
 TEST_CASE("copies that are a little apart come to one place, and stay where they are if that is fixed")
 {
     const PolygonMesh whole = make_quads(400);

@@ -52,6 +52,42 @@ TEST_CASE("bumps of the radius lose half their height over all steps, smaller on
             }
 }
 
+TEST_CASE("bumps of the radius lose half their height with every filter, order and operator, in one step or several")
+{
+    const Index n = 60;
+    const double radius = n / 6.0;
+    PolygonMesh mesh = quad_grid(n, n);
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        mesh.vertices(v, 2) = 1e-3 * std::sin(std::numbers::pi * mesh.vertices(v, 0) / (2.0 * radius)) *
+                              std::sin(std::numbers::pi * mesh.vertices(v, 1) / (2.0 * radius));
+    struct Kind {
+        Filter filter;
+        int order;
+    };
+    for (const Laplacian laplacian :
+         {Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement, Laplacian::Fujiwara, Laplacian::Uniform})
+        for (const Kind kind : {Kind{Filter::Diffusion, 1},
+                                {Filter::Diffusion, 2},
+                                {Filter::Diffusion, 3},
+                                {Filter::LowPass, 2},
+                                {Filter::LowPass, 5},
+                                {Filter::LowPass, 8}})
+            for (const int steps : {1, 3}) {
+                FlowOptions options;
+                options.laplacian = laplacian;
+                options.filter = kind.filter;
+                options.order = kind.order;
+                options.steps = steps;
+                options.accuracy.tolerance = 1e-8;
+                options.radius = {.value = radius};
+                CAPTURE(name_of(laplacian));
+                CAPTURE(kind.order);
+                CAPTURE(steps);
+                const double left = flowed(mesh, options).col(2).maxCoeff() / mesh.vertices.col(2).maxCoeff();
+                CHECK(left == doctest::Approx(0.5).epsilon(0.02));
+            }
+}
+
 TEST_CASE("a flow takes a radius in place of a time step")
 {
     const PolygonMesh mesh = make_noisy_sphere(500);
