@@ -202,13 +202,13 @@ FlowState FlowRun::capture(const FlowState* resume) const
     return state;
 }
 
-void FlowRun::compare_with_reference(int step, const Rescaling& rescaling, const StepFractions& fractions,
-                                     StepReport& of_step)
+void FlowRun::compare_with_reference(int step, const Rescaling& rescaling, VanishingComponents& vanishing,
+                                     const StepFractions& fractions, StepReport& of_step)
 {
     progress_.enter(FlowPhase::Reference, step, fractions.begin_of_reference(), fractions.end());
     Stopwatch watch;
     named("step " + std::to_string(step) + " of the undecomposed flow", [&] {
-        reference_->step(reference_->positions());
+        vanishing.step(*reference_, reference_->positions());
         if (goes_on_scaled(options()))
             rescale(*reference_, rescaling);
     });
@@ -247,6 +247,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     const PolygonMesh& mesh = mesh_.mesh();
     const double extent = extent_of(mesh.vertices);
     const UpdateLimit limit(mesh, options().accuracy.largest_update);
+    VanishingComponents vanishing(options(), mesh.vertices, find_small_components(mesh, prepared_->topology));
     const Rescaling rescaling(mesh, prepared_->topology, options().motion.rescale);
     std::optional<LimitedComponents> limited;
     if (options().motion.limits.exist())
@@ -283,7 +284,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         const std::string name = "step " + std::to_string(step);
         progress_.enter(FlowPhase::Step, step, fractions.begin(), fractions.end_of_tasks());
         Stopwatch watch;
-        named(name, [&] { stepper_->step(before); });
+        named(name, [&] { vanishing.step(*stepper_, before); });
         StepReport of_step;
         of_step.seconds = watch.lap();
         stepper_->describe(of_step);
@@ -307,7 +308,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         }
         const double measuring = watch.lap();
         if (reference_) {
-            compare_with_reference(step, rescaling, fractions, of_step);
+            compare_with_reference(step, rescaling, vanishing, fractions, of_step);
             undecomposed = reference_->positions();
             named(name + " of the undecomposed flow", [&] { make_result(undecomposed); });
         }
@@ -321,6 +322,9 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         if (on_step)
             tell(on_step, step, of_step, reference_ ? &undecomposed : nullptr, resume);
     }
+    // Limits have a remark of their own on components that lose too much.
+    if (!limited && !vanishing.remark().empty())
+        report_.remarks.push_back(vanishing.remark());
     if (limited && !limited->remark().empty())
         report_.remarks.push_back(limited->remark());
     finish(extent, resume);

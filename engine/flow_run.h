@@ -9,6 +9,7 @@
 #include "engine/setup/flowing_mesh.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/stepper.h"
+#include "engine/steppers/vanishing_components.h"
 #include "engine/tasks/progress.h"
 
 namespace seamflow {
@@ -34,8 +35,8 @@ class FlowRun {
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
     void restore(const FlowState& state, const std::function<void(Points& positions)>& make_result);
     [[nodiscard]] FlowState capture(const FlowState* resume) const;
-    void compare_with_reference(int step, const Rescaling& rescaling, const StepFractions& fractions,
-                                StepReport& of_step);
+    void compare_with_reference(int step, const Rescaling& rescaling, VanishingComponents& vanishing,
+                                const StepFractions& fractions, StepReport& of_step);
     void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
               const FlowState* resume) const;
     void finish(double extent_before, const FlowState* resume);

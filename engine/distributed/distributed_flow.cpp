@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/distributed/parts/deal.h"
+#include "engine/distributed/rank_components.h"
 #include "engine/distributed/rank_exchange.h"
 #include "engine/distributed/rank_memory.h"
 #include "engine/distributed/rank_meter.h"
@@ -150,6 +151,7 @@ class RankFlow {
         }
         if (options_.motion.within)
             bound_.emplace(make_bound(mesh));
+        vanishing_.emplace(options_, mesh.part.mesh.vertices, find_small_components(talk_, mesh));
         report.setup_seconds = watch.seconds();
         result_ = mesh.part.mesh.vertices;
         if (resume_ != nullptr)
@@ -165,6 +167,8 @@ class RankFlow {
                 show(step, report.steps.back(), mesh, offset, *stepper);
         }
         describe_convergence(*stepper, report);
+        if (!vanishing_->remark().empty())
+            report.remarks.push_back(vanishing_->remark());
         return positions_of_part(mesh, result_, offset);
     }
 
@@ -210,7 +214,7 @@ class RankFlow {
         const std::uint64_t messages = talk_.n_messages();
         const std::uint64_t bytes = talk_.n_bytes();
         in_step(step, [&] {
-            stepper.step(mesh.part.mesh.vertices);
+            vanishing_->step(stepper, mesh.part.mesh.vertices);
             require_within_limit(limit, mesh, stepper.positions());
         });
         StepReport of_step;
@@ -355,6 +359,7 @@ class RankFlow {
     Progress progress_;
     std::optional<RankMeter> meter_;
     std::optional<DisplacementBound> bound_;
+    std::optional<VanishingComponents> vanishing_;
     /// Of the vertices that this rank knows, after the last step.
     Points result_;
 };

@@ -22,6 +22,7 @@ class ConvergedStepper : public Stepper {
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }
     void go_on_from(const Points& image, const Similarity&) final;
+    void move(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
     void add_seconds(PhaseSeconds& seconds) const final { add_up(seconds_, seconds); }

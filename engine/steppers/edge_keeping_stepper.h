@@ -24,6 +24,7 @@ class EdgeKeepingStepper final : public Stepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     void go_on_from(const Points& image, const Similarity&) override { positions_ = image; }
+    void move(std::span<const Index> vertices, const Points& to) override { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;
     /// There are no tasks.

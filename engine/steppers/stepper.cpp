@@ -38,6 +38,13 @@ std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, cons
                                           progress);
 }
 
+void move_rows(std::span<const Index> vertices, const Points& to, Points& positions)
+{
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (vertices[i] >= 0)
+            positions.row(vertices[i]) = to.row(static_cast<Index>(i));
+}
+
 void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum)
 {
     for (const PhaseSeconds& task : tasks) {

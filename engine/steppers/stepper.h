@@ -41,6 +41,11 @@ class Stepper {
     /// @param image #V by 3: what the similarity makes of positions(); vertices without faces stay.
     virtual void go_on_from(const Points& image, const Similarity& similarity) = 0;
 
+    /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates and
+    /// errors stays.
+    /// @param vertices those below 0 are passed over. @param to #vertices by 3.
+    virtual void move(std::span<const Index> vertices, const Points& to) = 0;
+
     /// Gives what the next step needs.
     virtual void save(StepMemory& memory) const = 0;
 
@@ -78,6 +83,9 @@ std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& t
 std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
                                                    const FlowOptions& options, const std::vector<double>& curvature,
                                                    Progress& progress);
+
+/// Stepper::move of positions of which there are no copies.
+void move_rows(std::span<const Index> vertices, const Points& to, Points& positions);
 
 /// Adds the seconds of tasks to `sum`.
 void add_up(std::span<const PhaseSeconds> tasks, PhaseSeconds& sum);

@@ -350,6 +350,21 @@ void SweepStepper::go_on_from(const Points& image, const Similarity& similarity)
         join();
 }
 
+void SweepStepper::move(std::span<const Index> vertices, const Points& to)
+{
+    move_rows(vertices, to, positions_);
+    std::vector<std::uint8_t> moves(at(static_cast<Index>(positions_.rows())), 0);
+    for (const Index v : vertices)
+        if (v >= 0)
+            moves[v] = 1;
+    for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
+        const SubMesh& sub_mesh = *states_[s].sub_mesh;
+        for (Index v = 0; v < sub_mesh.n_vertices; ++v)
+            if (const Index global = sub_mesh.local_to_global[v]; moves[global] != 0)
+                states_[s].position.row(v) = positions_.row(global);
+    });
+}
+
 /// Sub-meshes that do not differ have no more than the whole mesh has.
 void SweepStepper::save(StepMemory& memory) const
 {

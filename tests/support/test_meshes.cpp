@@ -8,6 +8,8 @@
 #include <random>
 #include <utility>
 
+#include "samples/common/meshes.h"
+
 namespace seamflow::test {
 
 namespace {
@@ -152,12 +154,30 @@ PolygonMesh hourglass()
 
 PolygonMesh side_by_side(const std::vector<PolygonMesh>& meshes)
 {
+    std::vector<PolygonMesh> moved = meshes;
+    Index n_before = 0;
+    for (PolygonMesh& mesh : moved) {
+        mesh.vertices.col(2).array() += 10.0 * n_before;
+        n_before += mesh.n_faces();
+    }
+    return together(moved);
+}
+
+PolygonMesh ball(double size, const Point& centre, Index vertices)
+{
+    PolygonMesh mesh = make_noisy_sphere(vertices);
+    mesh.vertices *= size;
+    mesh.vertices.rowwise() += centre;
+    return mesh;
+}
+
+PolygonMesh together(const std::vector<PolygonMesh>& meshes)
+{
     PolygonMesh all;
     for (const PolygonMesh& mesh : meshes) {
         const Index first = all.n_vertices();
         all.vertices.conservativeResize(first + mesh.n_vertices(), 3);
         all.vertices.bottomRows(mesh.n_vertices()) = mesh.vertices;
-        all.vertices.bottomRows(mesh.n_vertices()).col(2).array() += 10.0 * all.n_faces();
         for (Index f = 0; f < mesh.n_faces(); ++f) {
             std::vector<Index> corners(mesh.face(f).begin(), mesh.face(f).end());
             std::for_each(corners.begin(), corners.end(), [&](Index& v) { v += first; });

@@ -6,6 +6,7 @@
 
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
+#include "partition/vector_area.h"
 
 namespace seamflow::test {
 
@@ -41,6 +42,12 @@ PolygonMesh hourglass();
 
 /// All meshes in one, side by side, sharing nothing.
 PolygonMesh side_by_side(const std::vector<PolygonMesh>& meshes);
+
+/// The same, each where it is.
+PolygonMesh together(const std::vector<PolygonMesh>& meshes);
+
+/// A noisy sphere of radius `size`.
+PolygonMesh ball(double size, const Point& centre, Index vertices);
 
 /// The mesh with about every second face turned round, at random.
 PolygonMesh with_faces_flipped(const PolygonMesh& mesh, std::uint32_t seed);

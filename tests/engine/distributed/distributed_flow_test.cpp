@@ -407,3 +407,21 @@ TEST_CASE("a failure on one rank ends all with one message")
     };
     check_refusal<InputError>(flow(options, labels, attach), 3, "some ranks have attachment weights");
 }
+
+TEST_CASE("ranks find the bits of one machine: components that vanish, in one sub-mesh or several")
+{
+    for (const double size : {1e-6, 1e-12}) {
+        PolygonMesh mesh = test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 300), test::ball(size, {3.0, 0.0, 0.0}, 100),
+                                               test::ball(2.0 * size, {-2.0, 1.0, 0.0}, 120)});
+        Example example{"small", mesh, by_sweeps(Laplacian::Fujiwara, 0.002)};
+        check_bits(example, 6, some_numbers_of_ranks);
+        // Through the small ones, too.
+        for (Index f = 0; f < mesh.n_faces(); ++f)
+            example.labels.push_back((7 * f) / 5 % 5);
+        check_bits(example, 5, some_numbers_of_ranks);
+        example.options = converged(Laplacian::VirtualRefinement, 0.002);
+        check_bits(example, 5, {1, 2, 3});
+        example.options.motion.attachment = 100.0;
+        check_bits(example, 5, {1, 3});
+    }
+}

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "engine/steppers/stepper.h"
+#include "partition/connected_components.h"
+#include "partition/index_lists.h"
+#include "partition/polygon_mesh.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// Components of a mesh that are joined by shared vertices, that nothing holds, and that are small; all who know a part
+/// of the mesh have the same ones, in the same order.
+struct SmallComponents {
+    /// Per component, its rows of the table of their vertices: ascending by vertex.
+    IndexLists rows;
+    /// Per row, the vertex; -1 where it is not known here.
+    std::vector<Index> vertices;
+    /// Makes the table of what is known of vertices, #V by 3: #rows by 3. All who know a part call it together.
+    std::function<Points(const Points& of_vertices)> table;
+};
+
+/// Finds those whose bounding boxes have diagonals of less than `extent`. All who know a part call it together.
+using FindSmallComponents = std::function<SmallComponents(const Points& positions, double extent)>;
+
+/// Whether any face is so small that a component of less than `extent` may have it.
+bool has_small_face(const PolygonMesh& mesh, const Points& positions, double extent);
+
+/// Whether the bounding box of some vertices has a diagonal of less than `extent`.
+bool is_smaller(const Points& positions, std::span<const Index> vertices, double extent);
+
+/// Finds them where the mesh is known as a whole.
+/// @param mesh, topology must outlive it.
+FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology);
+
+/// Takes steps of surfaces whose components differ much in size. A backward Euler step makes of a component that is
+/// small against √dt about a point: its centroid, which stays. But beside dt K its masses are then lost to rounding, and
+/// with them where it is. Such a component is scaled up about its centroid before the step, and what the
+/// step makes of it is scaled back: of all but the centroid about 1 / (dt λ) is left, where λ are the eigenvalues of
+/// M⁻¹ K, which go with the square of lengths. A component that its coordinates do not resolve any more is a point, and
+/// stays.
+class VanishingComponents {
+  public:
+    /// @param first #V by 3: what an attachment attaches to.
+    VanishingComponents(const FlowOptions& options, const Points& first, FindSmallComponents find);
+
+    /// One step. @throws as Stepper::step.
+    void step(Stepper& stepper, const Points& before);
+
+    /// A sentence on components that have been so small; empty where there was none.
+    [[nodiscard]] std::string remark() const;
+
+  private:
+    /// How a component is brought to where the step is taken.
+    struct Pose {
+        /// The mean of its vertices, which stays where it is.
+        Point centre;
+        /// 0: the component is a point.
+        double scale = 0.0;
+        /// What the shape that the step leaves there is to be multiplied by.
+        double rest = 0.0;
+    };
+    [[nodiscard]] Pose pose(std::span<const Index> rows, const Points& first, Points& table) const;
+    void bring_back(std::span<const Index> rows, const Pose& pose, const Points& before, const Points& first,
+                    const Points& weights, Points& table) const;
+
+    FlowOptions options_;
+    bool is_attached_ = false;
+    /// Whether steps have a K that goes with the lengths of the first surface, not with present ones.
+    bool has_kept_lengths_ = false;
+    /// Empty where neither holds.
+    Points first_;
+    FindSmallComponents find_;
+    /// Below it components are small; 0: no step needs this.
+    double extent_ = 0.0;
+    /// How many there were at most.
+    Index most_ = 0;
+};
+
+}  // namespace seamflow

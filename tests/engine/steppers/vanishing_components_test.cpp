@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/mean_curvature_flow.h"
+#include "tests/support/flows.h"
+
+using namespace seamflow;
+using test::ball;
+using test::flowed;
+using test::together;
+
+namespace {
+
+struct Way {
+    std::string name;
+    FlowOptions options;
+};
+
+std::vector<Way> all_ways(double time_step)
+{
+    std::vector<Way> ways;
+    const auto add = [&](const std::string& name, const std::function<void(FlowOptions&)>& change) {
+        FlowOptions options;
+        options.time_step = time_step;
+        options.steps = 3;
+        options.accuracy.approach = Approach::Sweep;
+        options.cut.subdomains = 5;
+        change(options);
+        ways.push_back({name, options});
+    };
+    for (const Laplacian laplacian : test::geometric_laplacians) {
+        const std::string of(name_of(laplacian));
+        add(of + ", sweeps", [&](FlowOptions& o) { o.laplacian = laplacian; });
+        add(of + ", converged", [&](FlowOptions& o) { o.laplacian = laplacian, o.accuracy.tolerance = 1e-9; });
+        add(of + ", undecomposed", [&](FlowOptions& o) {
+            o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::Undecomposed;
+        });
+        add(of + ", with reference", [&](FlowOptions& o) { o.laplacian = laplacian, o.report.reference = true; });
+    }
+    for (const Laplacian laplacian : test::symmetric_geometric_laplacians)
+        add(std::string(name_of(laplacian)) + ", cg", [&](FlowOptions& o) {
+            o.laplacian = laplacian, o.cut.subdomains = 0, o.accuracy.approach = Approach::ConjugateGradients;
+        });
+    add("conformalized", [](FlowOptions& o) { o.flow = FlowEquation::Conformalized; });
+    add("low-pass", [](FlowOptions& o) { o.filter = Filter::LowPass, o.order = 3; });
+    add("order 2", [](FlowOptions& o) { o.order = 2; });
+    add("attached", [&](FlowOptions& o) { o.motion.attachment = 1.0 / time_step; });
+    add("robin", [](FlowOptions& o) { o.interface.conditions = Conditions::Robin; });
+    add("Schwarz", [](FlowOptions& o) { o.interface.conditions = Conditions::Schwarz; });
+    return ways;
+}
+
+}  // namespace
+
+TEST_CASE("components a million times smaller stay where they are, whatever the way of taking steps")
+{
+    const Index n = 300;
+    const PolygonMesh large = ball(1.0, {0.0, 0.0, 0.0}, n);
+    for (const double size : {1e-5, 1e-6, 1e-9, 1e-12}) {
+        const std::vector<Point> centres{{3.0, 0.0, 0.0}, {-2.0, 5.0, 1.0}};
+        const PolygonMesh both =
+            together({large, ball(size, centres.front(), 100), ball(size, centres.back(), 100)});
+        const Index n_large = large.n_vertices();
+        const Index n_small = (both.n_vertices() - n_large) / 2;
+        const Points begun = both.vertices;
+        for (const Way& way : all_ways(0.002)) {
+            CAPTURE(size);
+            CAPTURE(way.name);
+            PolygonMesh mesh = both;
+            const FlowReport report = mean_curvature_flow(mesh, way.options);
+            REQUIRE(mesh.vertices.allFinite());
+            for (int i = 0; i < 2; ++i) {
+                const Points before = begun.middleRows(n_large + i * n_small, n_small);
+                const Points after = mesh.vertices.middleRows(n_large + i * n_small, n_small);
+                const Point centre = before.colwise().mean();
+                const double radius = (before.rowwise() - centre).rowwise().norm().maxCoeff();
+                // In the middle of the component; where coordinates do not resolve it, it stays.
+                if (size > 1e-10)
+                    CHECK((after.rowwise() - centre).rowwise().norm().maxCoeff() < 0.2 * radius);
+                else
+                    CHECK(test::largest_difference(after, before) <= 1e-12 * size);
+            }
+            const auto n_remarks = std::ranges::count(
+                report.remarks, "2 components are so small beside the amount that a point is left of each: less "
+                                "smoothing keeps them, and the rest of the surface has gone on.");
+            CHECK(n_remarks == 1);
+            // The large one goes on as if it were alone.
+            CHECK(test::largest_difference(mesh.vertices.topRows(n_large), begun.topRows(n_large)) > 1e-3);
+        }
+    }
+}
+
+TEST_CASE("small components leave the others' result alone")
+{
+    const PolygonMesh large = ball(1.0, {0.0, 0.0, 0.0}, 300);
+    FlowOptions options;
+    options.time_step = 0.002;
+    options.steps = 3;
+    options.accuracy.approach = Approach::Undecomposed;
+    const Points alone = flowed(large, options);
+    const Points beside = flowed(together({large, ball(1e-6, {3.0, 0.0, 0.0}, 100)}), options);
+    const Points shift = beside.topRows(alone.rows()) - alone;
+    CHECK((shift.rowwise() - Point(shift.row(0))).cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("what the scaling of a small component leaves out is far below its size")
+{
+    // About the threshold the step with scaling is that without.
+    const PolygonMesh mesh = ball(1.0, {0.0, 0.0, 0.0}, 300);
+    FlowOptions options;
+    options.accuracy.approach = Approach::Undecomposed;
+    const double extent = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+    const auto after = [&](double factor) {
+        options.time_step = factor * 1e6 * extent * extent;
+        return flowed(mesh, options);
+    };
+    const Points below = after(0.99);
+    const Points above = after(1.01);
+    CHECK(test::largest_difference(below, above) < 1e-9);
+    // What is left of the shape is as 1 / dt.
+    const Point centre = below.colwise().mean();
+    const Points shape = below.rowwise() - centre;
+    const Points shape_above = above.rowwise() - Point(above.colwise().mean());
+    CHECK(shape_above.norm() / shape.norm() == doctest::Approx(0.99 / 1.01).epsilon(1e-3));
+}
+
+TEST_CASE("a component that is held does not count as one that vanishes")
+{
+    PolygonMesh mesh = together({ball(1.0, {0.0, 0.0, 0.0}, 300), ball(1e-6, {3.0, 0.0, 0.0}, 100)});
+    const Point held = mesh.vertices.row(mesh.n_vertices() - 1);
+    FlowOptions options;
+    options.time_step = 0.002;
+    options.accuracy.approach = Approach::Undecomposed;
+    options.motion.fixed_vertices = {mesh.n_vertices() - 1};
+    const FlowReport report = mean_curvature_flow(mesh, options);
+    CHECK(std::ranges::none_of(report.remarks, [](const auto& r) { return r.find("small beside") != r.npos; }));
+    CHECK(Point(mesh.vertices.row(mesh.n_vertices() - 1)) == held);
+    CHECK((mesh.vertices.bottomRows(100).rowwise() - held).rowwise().norm().maxCoeff() < 1e-8);
+}
