@@ -293,14 +293,19 @@ FlowOptions FlowOptions::plain()
     return options;
 }
 
+void require_threads(int threads)
+{
+    require(threads >= 0 && threads <= ResourceOptions::most_threads, "threads", threads,
+            "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
+}
+
 void require_valid(const FlowOptions& options)
 {
     require_valid_amount(options);
     require(options.steps >= 0 && options.steps <= FlowOptions::most_steps, "steps", options.steps,
             "at least 0 and at most 1000000000");
     require(options.cut.subdomains >= 0, "subdomains", options.cut.subdomains, "at least 0 (0: chosen)");
-    require(options.resources.threads >= 0 && options.resources.threads <= ResourceOptions::most_threads, "threads",
-            options.resources.threads, "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
+    require_threads(options.resources.threads);
     if (options.interface.p)
         require(positive_and_finite(*options.interface.p), "p", *options.interface.p, "positive and finite (1/length)");
     if (options.interface.q)

@@ -18,9 +18,9 @@ namespace seamflow {
 
 namespace {
 
-/// dt over the squared diagonal of a component from which on it is small: masses have ten digits left beside dt K, and
-/// all but its centroid loses six, so that what the scaling leaves out is beyond the digits of a double.
-constexpr double small_by_steps = 1e6;
+/// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K, and
+/// what the scaling leaves out, the square of what is left of the shape, is the ten-billionth part of it.
+constexpr double small_by_steps = 1e5;
 /// A component whose diagonal has fewer digits than this leaves of its coordinates is a point.
 constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
 

@@ -19,6 +19,7 @@
 #include <pthread.h>
 #include <sys/resource.h>
 
+#include "engine/options/flow_options.h"
 #include "engine/tasks/library_threads.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/thread_sanitizer.h"
@@ -132,6 +133,7 @@ class Workers::Arena {
   public:
     explicit Arena(int threads)
     {
+        require_threads(threads);
         if (threads > 0) {
             // TBB starts no more threads than there are cores, whatever an arena asks for, unless it is told to.
             const auto wanted = static_cast<std::size_t>(threads);

@@ -14,6 +14,7 @@ class Workers {
     /// @param threads their number, the calling thread included: fewer where the program has set a lower limit. 0: the
     /// arena of the caller with the limits it has. In that arena a thread that waits may take up other tasks of the
     /// caller's meanwhile, as everywhere in oneTBB; with a number the flow has an arena of its own.
+    /// @throws OptionError as require_threads; ComputationError where there is no memory for them.
     explicit Workers(int threads);
     ~Workers();
     Workers(const Workers&) = delete;

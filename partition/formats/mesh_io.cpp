@@ -126,13 +126,14 @@ struct Format {
     bool holds_polygons;
     MeshFile (*read)(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                      FaultLog* faults);
-    /// Throws OutputError for a mesh that the format cannot hold; null: it holds all of them.
-    void (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
+    /// Throws OutputError for a mesh that the format cannot hold, and says what a user should know; null: it holds all
+    /// of them.
+    std::vector<std::string> (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
-    /// See write_mesh_like; null: there is nothing in a file that `write` does not write.
+    /// See write_mesh_like.
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                         const PolygonMesh& mesh, const Slicing& slicing);
-    /// See extras_of; null: there are none.
+    /// See extras_of.
     std::vector<std::string> (*extras)(const std::filesystem::path& path, std::string_view content,
                                        const Slicing& slicing);
 };
@@ -187,8 +188,8 @@ constexpr std::array<Format, 4> all_formats = {{
      .read = read_stl,
      .require_fits = require_fits_stl,
      .write = write_stl,
-     .rewrite = nullptr,
-     .extras = nullptr},
+     .rewrite = rewrite_stl,
+     .extras = extras_of_stl},
 }};
 
 /// The format with that value of a member, or null.
@@ -341,16 +342,19 @@ FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& sou
     return {format.format, std::min(Encoding::BinaryLittleEndian, format.last_encoding)};
 }
 
-void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind, const Loop& loop)
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
+                                    const Loop& loop)
 {
     const Format& format = format_of(kind);
     require_encoding(format, kind.encoding);
     require_readable(path, mesh, loop);
+    std::vector<std::string> remarks;
     if (format.require_fits != nullptr)
-        format.require_fits(path, mesh, kind.encoding);
+        remarks = format.require_fits(path, mesh, kind.encoding);
     OutputFile file(path);
     format.write(file, mesh, kind.encoding, {loop});
     file.commit();
+    return remarks;
 }
 
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
@@ -359,10 +363,6 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
     require_readable(path, mesh, loop);
     source.require_same_faces(path, mesh, loop);
     const Format& format = format_of(source.kind());
-    if (format.rewrite == nullptr) {
-        write_mesh(path, mesh, source.kind(), loop);
-        return {};
-    }
     const InputFile input = source.read_again(loop);
     OutputFile file(path);
     auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {loop});
@@ -374,8 +374,7 @@ std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop)
 {
     const Format& format = format_of(source.kind());
     const InputFile input = source.read_again(loop);
-    return format.extras != nullptr ? format.extras(source.path(), input.content(), {loop})
-                                    : std::vector<std::string>{};
+    return format.extras(source.path(), input.content(), {loop});
 }
 
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,

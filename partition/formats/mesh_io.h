@@ -81,7 +81,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_ser
 /// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
 /// With FaultLog::of_faces_alone only faces of less than three corners, or that name a vertex twice, are left out, and
 /// numbers passed over that rows have too many; all else is thrown as by read_mesh, and the result has a source: there
-/// such faces and numbers stay (but in STL, which is written from the mesh).
+/// such faces and numbers stay.
 /// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
 
@@ -96,18 +96,18 @@ FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& sou
 /// output.
 /// @param mesh valid (see require_valid) and not without vertices.
 /// @throws OutputError naming the file; also for a mesh that is not valid or that the format cannot hold (STL: faces of
-///         more than three sides, vertices without faces, two corners of a face in one place, and in binary files
-///         also coordinates beyond single precision).
+///         more than three sides, vertices without faces, and in binary files coordinates beyond single precision).
 /// @throws OptionError for an encoding that the format does not have.
-void write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
-                const Loop& loop = run_serially);
+/// @returns what else a user should know, in sentences: facets of STL that have become lines.
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
+                                    const Loop& loop = run_serially);
 
 /// Writes the file that was read with the positions of `mesh` in place of its own: texture coordinates, materials,
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
 /// the digits of every coordinate that is the same, bit for bit. Normals become those of the surface as it is now where
 /// they can: normals of the vertices of PLY and OFF files, and those of an OBJ file that belong to one vertex or to one
-/// face. Kind and types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. STL
-/// files, in which facets stand alone, are written as by write_mesh. The file may be written over itself.
+/// face. Kind and types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. Facets
+/// of STL files that become lines by that stay. The file may be written over itself.
 /// @param mesh with as many vertices as the file and the same faces.
 /// @returns what else a user should know, in sentences: normals that could not be made new, rounding.
 /// @throws OutputError naming the file; also if the mesh does not fit the file that was read.

@@ -2,8 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <span>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,7 +24,7 @@ namespace seamflow {
 /// Reads STL, as binary if the size of the file is the one that the count of facets in a binary file calls for,
 /// whatever it begins with; as text, if it begins with the word `solid` and holds no byte 0 early on; else as binary.
 /// Corners with equal coordinates become one vertex, numbered in order of appearance; normals, names and attributes are
-/// passed over, and several solids become one mesh. After the facets of a binary file only padding (zeros, blanks, line
+/// passed over (see StlForm), and several solids become one mesh. After the facets of a binary file only padding (zeros, blanks, line
 /// ends) is accepted.
 /// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming line, or facet and byte; also for a facet of which two corners coincide.
@@ -42,7 +43,10 @@ class StlStretches {
 
     [[nodiscard]] Index n_facets() const { return n_facets_; }
 
-    /// The facets from `begin` to `end` - 1 as they stand there.
+    /// All facets as they stand there.
+    [[nodiscard]] std::string_view all() const { return bytes(0, n_facets_); }
+
+    /// The facets from `begin` to `end` - 1.
     [[nodiscard]] std::string_view bytes(Index begin, Index end) const;
 
     /// Appends the facets from `begin` to `end` - 1.
@@ -103,38 +107,96 @@ class StlText {
     TextScanner whole_;
 };
 
+/// A binary file begins with a title and the number of facets. Each has its normal, three corners, and an attribute.
+constexpr std::size_t stl_header_bytes = 84;
+constexpr std::size_t stl_facet_bytes = 50;
+
+/// Slices of a text that begin at facets, but for the first.
+std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes);
+
 /// Whether it is text rather than binary (see read_stl).
 bool is_text_stl(std::string_view file);
 
 /// Whether `read_stl` can make anything of it: the size is that of a binary file, or the text begins with `solid`.
 bool is_stl(std::string_view file);
 
-/// Checks that STL can hold the mesh: triangles only, no vertex without faces, no two corners of a face in the same
-/// place, and for the binary encoding all coordinates within, and corners distinct in, single precision.
+/// Checks that STL can hold the mesh: triangles only, no vertex without faces, and for the binary encoding all
+/// coordinates within single precision. Facets of which corners come to the same place are written, too: they are lines,
+/// which readers pass over.
 /// Vertices that coincide without having a face in common are one vertex when the file is read again: STL has points
 /// only, and no numbers for them.
+/// @returns a remark on these.
 /// @throws OutputError naming the face or vertex, and the remedy.
-void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
+std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
 
 /// The corners of a facet.
 using StlFacet = std::array<Point, 3>;
 
-/// What require_fits_stl checks of positions: of some vertices for the binary encoding, and of one facet.
+/// What require_fits_stl checks of positions, of some vertices for the binary encoding.
 /// @param first the number of the first of the vertices.
 /// @throws OutputError
 void require_floats(const std::filesystem::path& path, const Points& vertices, Index first = 0);
-/// @param f, corners the number of the facet, and those of its vertices.
-void require_distinct_corners(const std::filesystem::path& path, Index f, std::span<const Index> corners,
-                              const StlFacet& facet, Encoding encoding);
 
-/// What a file begins with, one of its facets, and what it ends with, as write_stl makes them.
-void write_stl_begin(ByteWriter& file, Index n_faces, Encoding encoding);
-void write_stl_facet(ByteWriter& file, const StlFacet& facet, Encoding encoding);
-void write_stl_end(ByteWriter& file, Encoding encoding);
+/// The corners of face f, a triangle.
+StlFacet facet_of(const PolygonMesh& mesh, Index f);
+
+/// Whether two corners are in the same place.
+bool is_line(const StlFacet& facet);
+
+/// In single precision.
+StlFacet rounded(const StlFacet& facet);
+
+/// Of unit length, in single precision; zero for a triangle without area.
+Point normal_of_facet(const StlFacet& triangle);
 
 /// Writes STL with unit normals (0 0 0 where a face has no area).
 /// @pre require_fits_stl
 /// @throws OutputError
 void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
+
+/// A file as the form for another with other positions. What is no coordinate and no normal of a facet that has moved
+/// stays byte for byte: names of solids, title, attributes, facets that are lines.
+class StlForm {
+  public:
+    /// @param path for messages only. @param content of a file that read_stl has read; has to outlive this.
+    StlForm(const std::filesystem::path& path, std::string_view content);
+
+    [[nodiscard]] bool is_text() const { return is_text_; }
+
+    /// What precedes the facets, these, and what follows them; in text all but a byte order mark counts as facets.
+    [[nodiscard]] std::string_view begin() const;
+    [[nodiscard]] std::string_view facets() const;
+    [[nodiscard]] std::string_view end() const;
+
+    /// Pieces of some facets, each of about so many bytes, of whole facets.
+    [[nodiscard]] std::vector<std::string_view> pieces(std::string_view facets, std::size_t bytes) const;
+
+    /// How many facets of a piece are triangles, and so faces of the mesh that is read.
+    [[nodiscard]] Index count(std::string_view piece) const;
+
+    /// Writes a piece.
+    /// @param facet_of where the triangles of the piece are now, in their order.
+    /// @returns how many of them have become lines.
+    Index rewrite(ByteWriter& file, std::string_view piece, const std::function<StlFacet(Index facet)>& facet_of) const;
+
+  private:
+    template <class Visit>
+    void walk(std::string_view piece, Visit&& visit) const;
+
+    TextScanner whole_;
+    std::string_view content_;
+    bool is_text_;
+};
+
+/// See write_mesh_like.
+std::vector<std::string> rewrite_stl(OutputFile& file, const std::filesystem::path& path, std::string_view content,
+                                     const PolygonMesh& mesh, const Slicing& slicing);
+
+/// A sentence, if there are any, on triangles that have become lines.
+std::vector<std::string> remarks_on_lines(const std::filesystem::path& path, std::int64_t n);
+
+/// See extras_of.
+std::vector<std::string> extras_of_stl(const std::filesystem::path& path, std::string_view content,
+                                       const Slicing& slicing);
 
 }  // namespace seamflow

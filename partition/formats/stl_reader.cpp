@@ -23,12 +23,11 @@ namespace seamflow {
 
 namespace {
 
-// A binary file: a title, the number of facets, and for each facet its normal, three corners, and an attribute.
 constexpr std::size_t title_bytes = 80;
-constexpr std::size_t header_bytes = title_bytes + 4;
+constexpr std::size_t header_bytes = stl_header_bytes;
 constexpr std::size_t normal_bytes = 12;
 constexpr std::size_t attribute_bytes = 2;
-constexpr std::size_t facet_bytes = normal_bytes + 36 + attribute_bytes;
+constexpr std::size_t facet_bytes = stl_facet_bytes;
 
 using Corner = PointNumbers::Place;
 

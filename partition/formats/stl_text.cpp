@@ -55,6 +55,8 @@ class TextReader {
     Corner read_corner();
     void next_line(std::string_view keyword);
     void expect(std::string_view keyword);
+    bool is_end_of(std::string_view what);
+    void expect_end_of(std::string_view what);
 
     TextScanner scanner_;
     FacetCollector collector_;
@@ -66,9 +68,9 @@ bool TextReader::read(bool in_solid, const char* end)
         if (!in_solid) {
             expect("solid");
             in_solid = true;
-        } else if (is_keyword(scanner_.peek(), "endsolid")) {
+        } else if (is_end_of("solid")) {
             in_solid = false;
-        } else {
+        } else if (!is_keyword(scanner_.peek(), "color")) {
             expect("facet");
             read_facet();
         }
@@ -88,9 +90,9 @@ void TextReader::read_facet()
     if (is_keyword(scanner_.peek(), "vertex"))
         scanner_.fail("the facet has more than 3 corners, but STL holds triangles only; export the mesh as " +
                       extensions_of(FormatGroup::Polygons));
-    expect("endloop");
+    expect_end_of("loop");
     next_line("endfacet");
-    expect("endfacet");
+    expect_end_of("facet");
     collector_.add({a, b, c});
 }
 
@@ -120,13 +122,32 @@ void TextReader::expect(std::string_view keyword)
                                   in_quotes(keyword), token.empty() ? "the end of the line" : in_quotes(token)));
 }
 
+/// Some programs write "end loop" for "endloop".
+bool TextReader::is_end_of(std::string_view what)
+{
+    if (is_keyword(scanner_.peek(), "end" + std::string(what)))
+        return true;
+    if (!is_keyword(scanner_.peek(), "end"))
+        return false;
+    TextScanner ahead = scanner_;
+    ahead.token();
+    return is_keyword(ahead.token(), what);
+}
+
+void TextReader::expect_end_of(std::string_view what)
+{
+    if (!is_end_of(what))
+        expect("end" + std::string(what));
+}
+
 const char* end_of(std::string_view text)
 {
     return text.data() + text.size();
 }
 
-/// Slices of a text that begin at facets, but for the first.
-std::vector<std::string_view> slices_at_facets(const TextScanner& whole, std::size_t bytes)
+}  // namespace
+
+std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes)
 {
     std::vector<std::string_view> slices;
     const char* const end = whole.rest().data() + whole.rest().size();
@@ -148,8 +169,6 @@ std::vector<std::string_view> slices_at_facets(const TextScanner& whole, std::si
     return slices;
 }
 
-}  // namespace
-
 StlText::StlText(const std::filesystem::path& path, std::string_view content)
     : whole_(path, content, {.comment = '\0'})
 {
@@ -157,12 +176,12 @@ StlText::StlText(const std::filesystem::path& path, std::string_view content)
 
 std::vector<std::string_view> StlText::shares(std::size_t n) const
 {
-    return slices_at_facets(whole_, (whole_.rest().size() + n - 1) / n);
+    return stl_slices_at_facets(whole_, (whole_.rest().size() + n - 1) / n);
 }
 
 PointNumbers StlText::facets(std::string_view share, PolygonMesh& faces, const Slicing& slicing) const
 {
-    const std::vector<std::string_view> slices = slices_at_facets(TextScanner(whole_, share), slicing.bytes);
+    const std::vector<std::string_view> slices = stl_slices_at_facets(TextScanner(whole_, share), slicing.bytes);
     const auto read = [&](Index i, const MeshSlice& place) {
         TextReader reader(TextScanner(whole_, slices[i]), place);
         const bool begins_in_solid = slices[i].data() != whole_.rest().data();

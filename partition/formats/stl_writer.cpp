@@ -43,40 +43,9 @@ void require_no_isolated_vertex(const std::filesystem::path& path, const Polygon
                                 unused - used.begin()));
 }
 
-template <class Scalar>
-void require_distinct_as(const std::filesystem::path& path, Index f, std::span<const Index> corners,
-                         const StlFacet& facet)
-{
-    for (std::size_t k = 0; k < 3; ++k)
-        if (facet[k].cast<Scalar>() == facet[(k + 1) % 3].cast<Scalar>())
-            refuse_mesh(path,
-                        fmt::format("the vertices {} and {} of face {} (all numbered from 0) are one and the "
-                                    "same point{}",
-                                    corners[k], corners[(k + 1) % 3], f,
-                                    std::is_same_v<Scalar, float> ? " in the single precision of binary STL" : ""));
-}
-
-StlFacet facet_of(const PolygonMesh& mesh, Index f)
-{
-    const auto corners = mesh.face(f);
-    return {mesh.vertices.row(corners[0]), mesh.vertices.row(corners[1]), mesh.vertices.row(corners[2])};
-}
-
-/// Of unit length; zero for a triangle without area. Scaled beforehand, lest products of large or small coordinates
-/// overflow or vanish.
-Eigen::Vector3f normal_of(const StlFacet& triangle)
-{
-    const double scale = std::max({triangle[0].cwiseAbs().maxCoeff(), triangle[1].cwiseAbs().maxCoeff(),
-                                   triangle[2].cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
-    const Eigen::Vector3d origin = triangle[0].transpose() / scale;
-    const Eigen::Vector3d u = triangle[1].transpose() / scale - origin;
-    const Eigen::Vector3d v = triangle[2].transpose() / scale - origin;
-    return u.stableNormalized().cross(v.stableNormalized()).stableNormalized().cast<float>();
-}
-
 void write_text_facet(ByteWriter& file, const StlFacet& triangle)
 {
-    file.line("facet normal", normal_of(triangle));
+    file.line("facet normal", Eigen::RowVector3f(normal_of_facet(triangle).cast<float>()));
     file.text("outer loop\n");
     for (const auto& point : triangle)
         file.line("vertex", point);
@@ -85,10 +54,7 @@ void write_text_facet(ByteWriter& file, const StlFacet& triangle)
 
 void write_binary_facet(ByteWriter& file, const StlFacet& triangle)
 {
-    const Eigen::Vector3f normal = normal_of(triangle);
-    for (const float x : {normal[0], normal[1], normal[2]})
-        file.binary(x, std::endian::little);
-    for (const auto& point : triangle)
+    for (const Point& point : {normal_of_facet(triangle), triangle[0], triangle[1], triangle[2]})
         for (const double x : {point[0], point[1], point[2]})
             file.binary(static_cast<float>(x), std::endian::little);
     file.binary(std::uint16_t{0}, std::endian::little);
@@ -96,25 +62,36 @@ void write_binary_facet(ByteWriter& file, const StlFacet& triangle)
 
 }  // namespace
 
-void write_stl_begin(ByteWriter& file, Index n_faces, Encoding encoding)
+bool is_line(const StlFacet& facet)
 {
-    if (encoding == Encoding::Ascii)
-        return file.text("solid mesh\n");
-    std::string title = "binary STL";
-    title.resize(80, ' ');
-    file.text(title);
-    file.binary(static_cast<std::uint32_t>(n_faces), std::endian::little);
+    return facet[0] == facet[1] || facet[1] == facet[2] || facet[2] == facet[0];
 }
 
-void write_stl_facet(ByteWriter& file, const StlFacet& facet, Encoding encoding)
+StlFacet rounded(const StlFacet& facet)
 {
-    encoding == Encoding::Ascii ? write_text_facet(file, facet) : write_binary_facet(file, facet);
+    StlFacet floats;
+    std::transform(facet.begin(), facet.end(), floats.begin(),
+                   [](const Point& corner) { return Point(corner.cast<float>().cast<double>()); });
+    return floats;
 }
 
-void write_stl_end(ByteWriter& file, Encoding encoding)
+StlFacet facet_of(const PolygonMesh& mesh, Index f)
 {
-    if (encoding == Encoding::Ascii)
-        file.text("endsolid mesh\n");
+    const auto corners = mesh.face(f);
+    return {mesh.vertices.row(corners[0]), mesh.vertices.row(corners[1]), mesh.vertices.row(corners[2])};
+}
+
+/// Scaled beforehand, lest products of large or small coordinates
+/// overflow or vanish.
+Point normal_of_facet(const StlFacet& triangle)
+{
+    const double scale = std::max({triangle[0].cwiseAbs().maxCoeff(), triangle[1].cwiseAbs().maxCoeff(),
+                                   triangle[2].cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
+    const Eigen::Vector3d origin = triangle[0].transpose() / scale;
+    const Eigen::Vector3d u = triangle[1].transpose() / scale - origin;
+    const Eigen::Vector3d v = triangle[2].transpose() / scale - origin;
+    const Eigen::Vector3d normal = u.stableNormalized().cross(v.stableNormalized()).stableNormalized();
+    return normal.transpose().cast<float>().cast<double>();
 }
 
 void require_floats(const std::filesystem::path& path, const Points& vertices, Index first)
@@ -127,30 +104,37 @@ void require_floats(const std::filesystem::path& path, const Points& vertices, I
                                     first + v));
 }
 
-void require_distinct_corners(const std::filesystem::path& path, Index f, std::span<const Index> corners,
-                              const StlFacet& facet, Encoding encoding)
-{
-    encoding == Encoding::Ascii ? require_distinct_as<double>(path, f, corners, facet)
-                                : require_distinct_as<float>(path, f, corners, facet);
-}
-
-void require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding)
+std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding)
 {
     require_triangles(path, mesh);
     require_no_isolated_vertex(path, mesh);
     if (encoding != Encoding::Ascii)
         require_floats(path, mesh.vertices);
+    std::int64_t n_lines = 0;
     for (Index f = 0; f < mesh.n_faces(); ++f)
-        require_distinct_corners(path, f, mesh.face(f), facet_of(mesh, f), encoding);
+        n_lines += is_line(encoding == Encoding::Ascii ? facet_of(mesh, f) : rounded(facet_of(mesh, f))) ? 1 : 0;
+    return remarks_on_lines(path, n_lines);
 }
 
 void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing)
 {
-    write_stl_begin(file, mesh.n_faces(), encoding);
+    const bool is_text = encoding == Encoding::Ascii;
+    if (is_text) {
+        file.text("solid mesh\n");
+    } else {
+        std::string title = "binary STL";
+        title.resize(80, ' ');
+        file.text(title);
+        file.binary(static_cast<std::uint32_t>(mesh.n_faces()), std::endian::little);
+    }
     constexpr std::size_t bytes_per_facet = 128;
     write_elements(file, mesh.n_faces(), elements_per_slice(slicing, bytes_per_facet), slicing.loop,
-                   [&](ByteWriter& slice, Index f) { write_stl_facet(slice, facet_of(mesh, f), encoding); });
-    write_stl_end(file, encoding);
+                   [&](ByteWriter& slice, Index f) {
+                       const StlFacet facet = facet_of(mesh, f);
+                       is_text ? write_text_facet(slice, facet) : write_binary_facet(slice, facet);
+                   });
+    if (is_text)
+        file.text("endsolid mesh\n");
 }
 
 }  // namespace seamflow

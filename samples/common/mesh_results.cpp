@@ -20,8 +20,7 @@ std::vector<std::string> write_state(const std::filesystem::path& path, const Po
 {
     if (separated == nullptr && has_format_of(input, path))
         return write_mesh_like(*input.source, path, mesh, loop);
-    write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind), loop);
-    return {};
+    return write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind), loop);
 }
 
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
@@ -44,8 +43,7 @@ std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path&
                             const FileKind& input)
 {
     // What write_mesh_like copies.
-    const bool stays =
-        joined && kind_for_writing(path, input).format == input.format && input.format != FileFormat::Stl;
+    const bool stays = joined && kind_for_writing(path, input).format == input.format;
     const std::size_t n_faces = faults.faces_left_out.size();
     const std::size_t n_rows = faults.n_harmless - n_faces;
     std::string text;

@@ -74,3 +74,18 @@ TEST_CASE("two flows at the same time do not disturb each other")
     CHECK(same_bits(first, expected));
     CHECK(same_bits(second, expected));
 }
+
+TEST_CASE("numbers of threads that no machine has are refused before any thread is made")
+{
+    for (const int threads : {-1, 1025, 65'536, 65'537, 2'147'483'647}) {
+        CAPTURE(threads);
+        const std::string expected =
+            "threads is " + std::to_string(threads) +
+            ", but must be at least 0 and at most 1024 (0: as many as the calling TBB arena has)";
+        CHECK_THROWS_WITH_AS(Workers{threads}, expected.c_str(), OptionError);
+        PolygonMesh mesh = make_triangles(100);
+        CHECK_THROWS_WITH_AS(mean_curvature_flow(mesh, threaded_options(Laplacian::Fujiwara, threads)),
+                             expected.c_str(), OptionError);
+    }
+    CHECK(Workers(1024).threads() >= 1);
+}

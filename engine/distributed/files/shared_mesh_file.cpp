@@ -57,7 +57,7 @@ class WholeMeshFile final : public SharedMeshFile {
             if (kind.format == file_.kind.format)
                 remarks = write_mesh_like(*file_.source, path, file_.mesh, loop_);
             else
-                write_mesh(path, file_.mesh, kind, loop_);
+                remarks = write_mesh(path, file_.mesh, kind, loop_);
         });
         return remarks;
     }

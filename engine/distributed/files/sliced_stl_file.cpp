@@ -1,10 +1,12 @@
 #include "engine/distributed/files/sliced_stl_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,7 +42,7 @@ class SlicedStlFile final : public SharedMeshFile {
     {
         const InputFile input(file_);
         const auto share = share_stl(talk, file_.path(), input.content(), encoding_, loop_);
-        RankSlice slice = read_share(talk, *share, faults_);
+        RankSlice slice = move_to_stretches(talk, read_share(talk, *share, faults_), sharing_.block);
         own_begin_ = static_cast<std::size_t>(share->bytes().data() - input.content().data());
         n_own_ = share->bytes().size();
         checksum_ = checksum(input.content());
@@ -55,23 +57,31 @@ class SlicedStlFile final : public SharedMeshFile {
     std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
                                    const Points& vertices) override
     {
-        const RankSlice slice = read_again(talk, vertices);
+        const InputFile input(file_);
+        require_unchanged(talk, input.content());
+        FaultLog known_faults;
+        const auto share = share_stl(talk, file_.path(), input.content(), encoding_, loop_);
+        RankSlice slice = read_share(talk, *share, known_faults);
+        slice.vertices = vertices;
         const SliceBounds bounds = gather_bounds(talk, slice);
+        if (encoding_ != Encoding::Ascii)
+            check_together(
+                talk, [&] { require_floats(path, vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
         const CornerPositions positions(talk, slice, bounds);
-        require_fits(talk, path, slice, bounds, positions);
-        constexpr Index at_once = 1 << 12;
-        const auto make = [&](Index piece, ByteWriter& file) {
-            const Index begin = piece * at_once;
-            for (Index f = begin; f < begin + std::min(at_once, slice.n_faces() - begin); ++f)
-                write_stl_facet(file, facet(slice, positions, f), encoding_);
+        const StlForm form(file_.path(), input.content());
+        constexpr std::size_t piece_bytes = std::size_t{1} << 18;
+        const std::vector<std::string_view> pieces = form.pieces(share->bytes(), piece_bytes);
+        const auto n = static_cast<Index>(pieces.size());
+        std::vector<Index> first(pieces.size() + 1, 0);
+        for_each(loop_, n, [&](Index i) { first[i + 1] = form.count(pieces[i]); });
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        std::vector<std::int64_t> n_lines(pieces.size(), 0);
+        const auto make = [&](Index i, ByteWriter& file) {
+            n_lines[i] = form.rewrite(file, pieces[i], [&](Index f) { return facet(slice, positions, first[i] + f); });
         };
-        const FilePieces pieces = measure_pieces((slice.n_faces() + at_once - 1) / at_once, make, loop_);
-        OutputBuffer begin;
-        OutputBuffer end;
-        write_stl_begin(begin, static_cast<Index>(bounds.faces.back()), encoding_);
-        write_stl_end(end, encoding_);
-        write_pieces_together(talk, path, begin.content(), pieces, end.content(), loop_);
-        return {};
+        write_pieces_together(talk, path, form.begin(), measure_pieces(n, make, loop_), form.end(), loop_);
+        const auto of_all = talk.gather_all(n_lines);
+        return remarks_on_lines(file_.path(), std::accumulate(of_all.begin(), of_all.end(), std::int64_t{0}));
     }
 
     void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
@@ -95,6 +105,7 @@ class SlicedStlFile final : public SharedMeshFile {
         return XXH3_64bits_withSeed(own.data(), own.size(), content.size());
     }
 
+    /// With the faces of this rank's share.
     /// @param faults receives what is left out, at rank 0.
     RankSlice read_share(Conversation& talk, const StlShare& share, FaultLog& faults) const
     {
@@ -117,41 +128,27 @@ class SlicedStlFile final : public SharedMeshFile {
         found.face_offsets = std::move(faces.face_offsets);
         for (const Index corner : faces.face_vertices)
             found.corners.push_back(joined.numbers[corner]);
-        return move_to_stretches(talk, std::move(found), sharing_.block);
+        return found;
+    }
+
+    void require_unchanged(Conversation& talk, std::string_view content) const
+    {
+        talk.look_together([&] {
+            if (checksum(content) != checksum_)
+                throw InputError(changed_since_read(file_.path()));
+        });
     }
 
     /// The same as was read, but for the positions.
     RankSlice read_again(Conversation& talk, const Points& vertices) const
     {
         const InputFile input(file_);
-        talk.look_together([&] {
-            if (checksum(input.content()) != checksum_)
-                throw InputError(changed_since_read(file_.path()));
-        });
+        require_unchanged(talk, input.content());
         FaultLog known_faults;
-        RankSlice slice =
-            read_share(talk, *share_stl(talk, file_.path(), input.content(), encoding_, loop_), known_faults);
+        const auto share = share_stl(talk, file_.path(), input.content(), encoding_, loop_);
+        RankSlice slice = move_to_stretches(talk, read_share(talk, *share, known_faults), sharing_.block);
         slice.vertices = vertices;
         return slice;
-    }
-
-    /// Throws on all ranks what write_mesh would say first.
-    void require_fits(Conversation& talk, const std::filesystem::path& path, const RankSlice& slice,
-                      const SliceBounds& bounds, const CornerPositions& positions) const
-    {
-        if (encoding_ != Encoding::Ascii)
-            check_together(
-                talk, [&] { require_floats(path, slice.vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
-        check_together(talk, [&] {
-            for (Index f = 0; f < slice.n_faces(); ++f) {
-                std::array<Index, 3> corners{};
-                std::transform(slice.corners.begin() + slice.face_offsets[f],
-                               slice.corners.begin() + slice.face_offsets[f + 1], corners.begin(),
-                               [](std::int64_t corner) { return static_cast<Index>(corner); });
-                require_distinct_corners(path, static_cast<Index>(bounds.faces[talk.rank()]) + f, corners,
-                                         facet(slice, positions, f), encoding_);
-            }
-        });
     }
 
     OpenFile file_;

@@ -45,7 +45,7 @@ std::string varied_stl(int n_facets, const std::string& end)
         if (f % 5 == 0)
             content += " " + end;
         if (f % 50 == 25)
-            content += "endsolid" + end + end + "solid facet" + end;
+            content += "end solid" + end + end + "solid facet" + end + "color 1 0 0" + end;
     }
     return content + "EndSolid";
 }
@@ -99,34 +99,56 @@ TEST_CASE("a result that STL cannot hold is refused as on one machine")
     const test::TemporaryDirectory directory;
     const auto file = directory / "in.stl";
     const auto result = directory / "out.stl";
-    for (const bool is_large : {true, false})
-        for (const FileKind& kind : {binary_stl, text_stl}) {
-            write_mesh(file, make_triangles(700), kind);
-            PolygonMesh moved = read_mesh(file).mesh;
-            const auto last_face = moved.face(moved.n_faces() - 1);
-            if (is_large)
-                moved.vertices(moved.n_vertices() - 2, 1) = 1e40;
-            moved.vertices.row(last_face[1]) = moved.vertices.row(last_face[2]);
-            std::string expected;
-            try {
-                write_mesh(result, moved, kind);
-            } catch (const OutputError& error) {
-                expected = error.what();
-            }
-            REQUIRE(!expected.empty());
-            for (const int n : {1, 2, 3, 5}) {
-                CAPTURE(n);
-                run_on_threads(n, [&](Communicator& communicator) {
-                    const auto work = [&](Conversation& talk) {
-                        const auto opened = open_together(talk, file, sliced);
-                        static_cast<void>(opened->read(talk));
-                        opened->write(talk, result, hand_out(talk, moved, sliced.block).vertices);
-                    };
-                    CHECK_THROWS_WITH_AS(run_together(communicator, work), expected.c_str(), OutputError);
+    write_mesh(file, make_triangles(700), binary_stl);
+    const MeshFile read = read_mesh(file);
+    PolygonMesh moved = read.mesh;
+    moved.vertices(moved.n_vertices() - 2, 1) = 1e40;
+    std::string expected;
+    try {
+        write_mesh_like(*read.source, result, moved);
+    } catch (const OutputError& error) {
+        expected = error.what();
+    }
+    REQUIRE(!expected.empty());
+    for (const int n : {1, 2, 3, 5}) {
+        CAPTURE(n);
+        run_on_threads(n, [&](Communicator& communicator) {
+            const auto work = [&](Conversation& talk) {
+                const auto opened = open_together(talk, file, sliced);
+                static_cast<void>(opened->read(talk));
+                opened->write(talk, result, hand_out(talk, moved, sliced.block).vertices);
+            };
+            CHECK_THROWS_WITH_AS(run_together(communicator, work), expected.c_str(), OutputError);
+        });
+    }
+    CHECK(!std::filesystem::exists(result));
+}
+
+TEST_CASE("facets that become lines are written, and told of, as on one machine")
+{
+    const test::TemporaryDirectory directory;
+    const auto file = directory / "in.stl";
+    for (const FileKind& kind : {binary_stl, text_stl}) {
+        write_mesh(file, make_triangles(700), kind);
+        const MeshFile read = read_mesh(file);
+        PolygonMesh moved = read.mesh;
+        for (const Index f : {3, moved.n_faces() - 1})
+            moved.vertices.row(moved.face(f)[1]) = moved.vertices.row(moved.face(f)[2]).eval();
+        const auto remarks = write_mesh_like(*read.source, directory / "alone.stl", moved);
+        REQUIRE(remarks.size() == 1);
+        for (const int n : {1, 2, 3, 5}) {
+            CAPTURE(n);
+            run_on_threads(n, [&](Communicator& communicator) {
+                run_together(communicator, [&](Conversation& talk) {
+                    const auto opened = open_together(talk, file, sliced);
+                    static_cast<void>(opened->read(talk));
+                    CHECK(opened->write(talk, directory / "out.stl", hand_out(talk, moved, sliced.block).vertices) ==
+                          remarks);
                 });
-            }
-            CHECK(!std::filesystem::exists(result));
+            });
+            CHECK(test::content_of(directory / "out.stl") == test::content_of(directory / "alone.stl"));
         }
+    }
 }
 
 TEST_CASE("ranks read and write slices of text STL files as one machine does")

@@ -1,11 +1,16 @@
 #include <bit>
 #include <cstdint>
+#include <cstring>
+#include <filesystem>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "partition/io/byte_order.h"
+#include "samples/common/meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -174,9 +179,112 @@ TEST_CASE("STL: single precision is refused where it is not enough")
     CHECK(contains(complaint_of_writing(mesh, "a.stl", binary_stl),
                    "vertex 1 (numbered from 0) has a coordinate too large"));
     mesh.vertices(1, 0) = 1e-300;
-    CHECK(complaint_of_writing(mesh, "a.stl", text_stl).empty());
-    CHECK(contains(complaint_of_writing(mesh, "a.stl", binary_stl),
-                   "the vertices 0 and 1 of face 0 (all numbered from 0) are one and the same point in the single"));
-    mesh.vertices(1, 0) = 0.0;
-    CHECK(contains(complaint_of_writing(mesh, "a.stl", text_stl), "are one and the same point"));
+    const test::TemporaryDirectory folder;
+    CHECK(write_mesh(folder / "a.stl", mesh, text_stl).empty());
+    // A facet that has become a line is still there.
+    for (const double x : {1e-300, 0.0}) {
+        mesh.vertices(1, 0) = x;
+        const auto remarks = write_mesh(folder / "a.stl", mesh, binary_stl);
+        REQUIRE(remarks.size() == 1);
+        CHECK(contains(remarks.front(), "1 facet of "));
+        CHECK(contains(remarks.front(), "has become a line"));
+        CHECK(std::filesystem::file_size(folder / "a.stl") == 84 + 50);
+    }
+    CHECK(write_mesh(folder / "a.stl", mesh, text_stl).size() == 1);
+}
+
+namespace {
+
+/// A text file with names, colours, a facet that is a line, and words as several programs write them.
+std::string named_solids(const std::string& end)
+{
+    std::string text = "solid inlet of the pump\ncolor 1 0 0\n" + facet(three) +
+                       "FACET NORMAL 9 9 9\n OUTER LOOP\n  VERTEX 0 0 0\n  VERTEX 0 0 0\n  VERTEX 1 0 0\n END LOOP\n"
+                       "END FACET\n end solid inlet\nsolid\tWALL\n" +
+                       facet("vertex 1.50 0 0\nvertex 2.5e0 0 0\nvertex 1 1 0\n") + "endsolid WALL\n\n";
+    for (std::size_t at = text.find('\n'); end != "\n" && at != text.npos; at = text.find('\n', at + end.size()))
+        text.replace(at, 1, end);
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("STL: names, colours, digits and facets that are lines stay when positions change")
+{
+    const TemporaryDirectory folder;
+    for (const std::string end : {"\n", "\r\n"}) {
+        const std::string text = named_solids(end);
+        const auto path = folder.with("a.stl", text);
+        FaultLog faults{.of_faces_alone = true};
+        MeshFile read = read_faulty_mesh(path, faults);
+        REQUIRE(read.mesh.n_faces() == 2);
+        REQUIRE(faults.faces_left_out == std::vector<Index>{1});
+        CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
+        CHECK(content_of(folder / "b.stl") == text);
+        // The second triangle turns about an edge.
+        read.mesh.vertices(5, 1) = 0.0;
+        read.mesh.vertices(5, 2) = -1.0;
+        CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
+        const std::string triangle = "facet normal 0 0 0" + end + "outer loop" + end + "vertex 1.50 0 0";
+        CHECK(content_of(folder / "b.stl") ==
+              with(with(text, triangle, with(triangle, "normal 0 0 0", "normal 0 1 0")), "vertex 1 1 0", "vertex 1 0 -1"));
+        CHECK(extras_of(*read.source) == std::vector<std::string>{"names of solids"});
+        // One that becomes a line is told of.
+        read.mesh.vertices.row(5) = read.mesh.vertices.row(4);
+        CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).size() == 1);
+        CHECK(contains(content_of(folder / "b.stl"), "vertex 2.5e0 0 0" + end + "vertex 2.5 0 0"));
+    }
+}
+
+TEST_CASE("STL: title, attributes and facets that are lines stay in binary files, and a normal keeps its side")
+{
+    const TemporaryDirectory folder;
+    std::string file = binary({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 5, 5, 5, 1, 0, 0, 0, 1, 0, 1, 1, 0},
+                              "COLOR=\x10\x20\x30\xff of the whole");
+    for (std::size_t facet = 0; facet < 3; ++facet) {
+        file[84 + 50 * facet + 48] = static_cast<char>(7 + facet);
+        file[84 + 50 * facet + 49] = static_cast<char>(0x80 + facet);
+    }
+    const float down = -1.0F;
+    std::memcpy(file.data() + 84 + 100 + 8, &down, sizeof down);
+    file += "\r\n";
+    const auto path = folder.with("a.stl", file);
+    FaultLog faults{.of_faces_alone = true};
+    MeshFile read = read_faulty_mesh(path, faults);
+    REQUIRE(read.mesh.n_faces() == 2);
+    CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
+    CHECK(content_of(folder / "b.stl") == file);
+    CHECK(extras_of(*read.source) == std::vector<std::string>{"colours of the header", "attributes of facets"});
+    read.mesh.vertices.col(0) *= 0.5;
+    CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
+    const std::string written = content_of(folder / "b.stl");
+    REQUIRE(written.size() == file.size());
+    CHECK(written.substr(0, 84) == file.substr(0, 84));
+    // The line, the attributes, and what follows.
+    CHECK(written.substr(84 + 50, 50) == file.substr(84 + 50, 50));
+    for (std::size_t facet = 0; facet < 3; ++facet)
+        CHECK(written.substr(84 + 50 * facet + 48, 2) == file.substr(84 + 50 * facet + 48, 2));
+    CHECK(written.substr(written.size() - 2) == "\r\n");
+    const auto number = [&](std::size_t facet, std::size_t k) {
+        return from_bytes<float>(written.data() + 84 + 50 * facet + 4 * k, std::endian::little);
+    };
+    CHECK(number(0, 2) == 1.0F);
+    CHECK(number(2, 2) == -1.0F);
+    CHECK(number(0, 6) == 0.5F);
+    FaultLog again{.of_faces_alone = true};
+    CHECK(identical(read_faulty_mesh(folder / "b.stl", again).mesh, read.mesh));
+}
+
+TEST_CASE("STL: files in many slices are written like small ones")
+{
+    const TemporaryDirectory folder;
+    for (const FileKind& kind : {text_stl, binary_stl}) {
+        write_mesh(folder / "a.stl", make_triangles(20'000), kind);
+        MeshFile read = read_mesh(folder / "a.stl");
+        CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
+        CHECK(content_of(folder / "b.stl") == content_of(folder / "a.stl"));
+        read.mesh.vertices = 0.5 * read.mesh.vertices;
+        CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
+        CHECK(identical(read_mesh(folder / "b.stl").mesh, read.mesh));
+    }
 }
