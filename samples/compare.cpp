@@ -6,6 +6,7 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
 #include "samples/common/compare_command.h"
+#include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
@@ -20,9 +21,14 @@ ExitStatus compare(int argc, char** argv)
     if (const auto end = parse_compare_command(argc, argv, command))
         return *end;
     Workers workers(0);
-    FaultLog left_out{.of_faces_alone = true};
-    const PolygonMesh reference = read_faulty_mesh(command.reference, left_out, workers.loop()).mesh;
-    const PolygonMesh candidate = read_faulty_mesh(command.candidate, left_out, workers.loop()).mesh;
+    const auto read = [&](const std::filesystem::path& path) {
+        FaultLog left_out{.of_faces_alone = true};
+        PolygonMesh mesh = read_faulty_mesh(path, left_out, workers.loop()).mesh;
+        require_faces(path, mesh.n_faces(), left_out);
+        return mesh;
+    };
+    const PolygonMesh reference = read(command.reference);
+    const PolygonMesh candidate = read(command.candidate);
 
     Comparison comparison = compare_meshes(reference, candidate, command.direction, workers.loop());
     comparison.reference = command.reference.string();

@@ -7,6 +7,7 @@
 #include "partition/inspection/mesh_inspection.h"
 #include "samples/common/command_line.h"
 #include "samples/common/inspection_text.h"
+#include "samples/common/mesh_results.h"
 #include "samples/common/report_json.h"
 
 using namespace seamflow;
@@ -37,6 +38,7 @@ ExitStatus inspect_file(int argc, char** argv)
         std::cout << inspection_json(input.string(), faults, found);
     else
         print_inspection(std::cout, input.string(), faults, found, most_listed);
+    require_faces(input, mesh.n_faces(), faults);
     return faults.count == faults.n_harmless ? ExitStatus::Success : ExitStatus::UnusableInput;
 }
 

@@ -166,6 +166,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     FaultLog left_out{.of_faces_alone = true};
     MeshFile file = command.options.motion.strict ? read_mesh(command.input, loop)
                                                   : read_faulty_mesh(command.input, left_out, loop);
+    require_faces(command.input, file.mesh.n_faces(), left_out);
     complete_options(command, file.mesh, left_out.faces_left_out, loop, run);
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());

@@ -109,6 +109,7 @@ class RankRun {
         file_ = open_together(talk, command_.input, sharing_, workers_->loop());
         RankSlice slice = file_->read(talk);
         about_file(command_.input, [&] { record_.size = measure(talk, slice); });
+        talk.at_first_rank([&] { require_faces(command_.input, record_.size.faces, file_->faults()); });
         talk.look_together([&] { settle_amount(); });
         const SliceBounds bounds = gather_bounds(talk, slice);
         if (!command_.labels.empty())

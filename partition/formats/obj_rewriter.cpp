@@ -116,6 +116,7 @@ std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
 {
     std::vector<Index> normals;
     std::vector<Index> vertices;
+    std::vector<Index> distinct;
     std::vector<Index> sorted;
     while (scanner.next_line()) {
         const std::string_view keyword = scanner.token();
@@ -129,8 +130,18 @@ std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
             vertices.push_back(index_at_start(corner, static_cast<Index>(counts.n_vertices)));
             normals.push_back(normal_of(corner, static_cast<Index>(counts.n_normals)));
         }
-        if (!are_corners_of_face(vertices, sorted))
-            normals.resize(normals.size() - vertices.size());
+        if (are_corners_of_face(vertices, sorted))
+            continue;
+        // As MeshBuilder::add_face has it.
+        find_distinct_corners(vertices, distinct);
+        const std::size_t first = normals.size() - vertices.size();
+        std::size_t n_left = 0;
+        for (const Index k : distinct) {
+            normals[first + n_left] = normals[first + at(k)];
+            vertices[n_left++] = vertices[at(k)];
+        }
+        vertices.resize(n_left);
+        normals.resize(first + (are_corners_of_face(vertices, sorted) ? n_left : 0));
     }
     return normals;
 }

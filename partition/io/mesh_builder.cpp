@@ -26,6 +26,16 @@ bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sor
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
+void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& positions)
+{
+    positions.clear();
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        if (k == 0 || corners[k] != corners[k - 1])
+            positions.push_back(static_cast<Index>(k));
+    while (positions.size() > 1 && corners[at(positions.back())] == corners.front())
+        positions.pop_back();
+}
+
 MeshBuilder::MeshBuilder(const InputPosition& position, Index first_number)
     : position_(position)
     , first_number_(first_number)
@@ -69,18 +79,18 @@ Index MeshBuilder::refuse_vertex(std::int64_t index, std::int64_t n) const
     return -1;
 }
 
-bool MeshBuilder::is_usable(std::span<const Index> corners)
+void MeshBuilder::refuse_face(std::span<const Index> corners)
 {
-    if (are_corners_of_face(corners, sorted_))
-        return true;
     if (corners.size() < 3)
         position_.harmless_fault(fmt::format("the face has {}, but needs at least 3; remove it or add what is missing",
                                              counted(corners.size(), "corner", "corners")));
-    else
+    else {
+        sorted_.assign(corners.begin(), corners.end());
+        std::ranges::sort(sorted_);
         position_.harmless_fault(
             fmt::format("the face names vertex {} twice; remove the face, or split it at that vertex",
                         std::int64_t{*std::ranges::adjacent_find(sorted_)} + first_number_));
-    return false;
+    }
 }
 
 void MeshBuilder::add_face(std::span<const Index> corners)
@@ -88,9 +98,16 @@ void MeshBuilder::add_face(std::span<const Index> corners)
     const Index number = n_faces_++;
     if (position_.notes_faults() && std::find(corners.begin(), corners.end(), -1) != corners.end())
         return;
-    if (!is_usable(corners)) {
-        position_.leave_out_face(number);
-        return;
+    if (!are_corners_of_face(corners, sorted_)) {
+        find_distinct_corners(corners, distinct_);
+        for (Index& corner : distinct_)
+            corner = corners[at(corner)];
+        if (!are_corners_of_face(distinct_, sorted_)) {
+            refuse_face(corners);
+            position_.leave_out_face(number);
+            return;
+        }
+        corners = distinct_;
     }
     if (corners.size() > most - mesh_.face_vertices.size())
         position_.fail(fmt::format(

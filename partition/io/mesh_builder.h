@@ -14,6 +14,10 @@ namespace seamflow {
 /// @param sorted scratch: receives the corners, sorted, where they may be alike.
 bool are_corners_of_face(std::span<const Index> corners, std::vector<Index>& sorted);
 
+/// Leaves out corners that repeat the one before them, also across the end: some programs write triangles as a b c c.
+/// @param positions those of `corners` that are left.
+void find_distinct_corners(std::span<const Index> corners, std::vector<Index>& positions);
+
 /// Where the elements of one slice of a file belong.
 struct MeshSlice {
     /// Those of the whole file, with room for all, or those from `first_row` on.
@@ -48,7 +52,8 @@ class MeshBuilder {
 
     /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
     /// with.
-    /// @throws InputError for less than three corners and for a vertex named twice, unless such faces are left out (see
+    /// Corners that repeat the one before them count once.
+    /// @throws InputError for less than three corners and for a vertex named twice otherwise, unless such faces are left out (see
     ///         InputPosition::harmless_fault), and for more than 2^31 - 1 corners in
     ///         all.
     void add_face(std::span<const Index> corners);
@@ -71,7 +76,7 @@ class MeshBuilder {
 
   private:
     [[nodiscard]] Index refuse_vertex(std::int64_t index, std::int64_t n) const;
-    [[nodiscard]] bool is_usable(std::span<const Index> corners);
+    void refuse_face(std::span<const Index> corners);
     void leave_out_faces_without_vertices();
 
     const InputPosition& position_;
@@ -86,6 +91,7 @@ class MeshBuilder {
     PolygonMesh own_;
     PolygonMesh& mesh_ = own_;
     std::vector<Index> sorted_;
+    std::vector<Index> distinct_;
 };
 
 }  // namespace seamflow

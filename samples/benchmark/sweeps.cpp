@@ -17,6 +17,7 @@
 #include "samples/benchmark/simulated_ranks.h"
 #include "samples/benchmark/whole_run.h"
 #include "samples/common/meshes.h"
+#include "samples/common/mesh_results.h"
 #include "samples/common/report_text.h"
 #include "solvers/laplacian/degenerate.h"
 
@@ -32,6 +33,7 @@ PolygonMesh load(const BenchmarkCommand& command, Index vertices)
         return make_mesh(command.kind, vertices);
     try {
         PolygonMesh mesh = read_mesh(command.mesh).mesh;
+        require_faces(command.mesh, mesh.n_faces());
         require_sound_geometry(mesh, make_topology(mesh), command.options.flow.laplacian);
         return mesh;
     } catch (const InputError& error) {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "partition/errors.h"
 #include "partition/formats/index_files.h"
+#include "partition/io/input_position.h"
 
 namespace seamflow {
 
@@ -37,6 +39,18 @@ std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bo
         return {};
     return {path.string() + " does not have what the input holds besides the surface: " + list +
             (joined ? "; an output of the input's format has" : "; joined sub-meshes, in the input's format, have")};
+}
+
+void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out)
+{
+    if (n_faces > 0)
+        return;
+    const std::string reason =
+        left_out.messages.empty()
+            ? "vertices alone are no surface; export the mesh with its faces"
+            : fmt::format("{} cannot be used (the first: {})",
+                          counted(left_out.faces_left_out.size(), "face", "faces"), left_out.messages.front());
+    throw InputError(fmt::format("{}: has no faces: {}", path.string(), reason));
 }
 
 std::string remark_on_faces(const FaultLog& faults, const std::filesystem::path& path, bool joined,

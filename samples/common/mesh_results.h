@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ std::vector<std::string> write_state(const std::filesystem::path& path, const Po
 /// @returns remarks for the user.
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
                                            const Loop& loop = run_serially);
+
+/// Checks that there is a surface.
+/// @param left_out what of the file is not among the faces.
+/// @throws InputError
+void require_faces(const std::filesystem::path& path, std::int64_t n_faces, const FaultLog& left_out = {});
 
 /// About what of a file has been left out of the flow.
 /// @param path, joined see remarks_on_losses. @param input the kind of the file.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "partition/formats/mesh_io.h"
+#include "samples/common/mesh_results.h"
 
 namespace seamflow {
 
@@ -26,6 +27,7 @@ FigureMesh read_file(const FigureSource& source, const fs::path& path)
     FigureMesh result;
     result.name = path.filename().string();
     result.mesh = read_mesh(path).mesh;
+    require_faces(path, result.mesh.n_faces());
     result.is_theirs = result.mesh.n_vertices() == source.vertices;
     if (result.is_theirs)
         result.authors = source.authors;

@@ -13,6 +13,7 @@
 #include "partition/errors.h"
 #include "partition/formats/obj.h"
 #include "partition/io/input_file.h"
+#include "partition/io/mesh_builder.h"
 #include "samples/page/texture_images.h"
 
 namespace seamflow {
@@ -151,10 +152,19 @@ void ObjColourReader::read_face()
     if (std::binary_search(left_out_.begin(), left_out_.end(), number))
         return;
     const auto f = static_cast<Index>(result_.material_of_face.size());
-    std::size_t corners = 0;
-    for (; scanner_.has_token(); ++corners)
-        result_.place_of_corner.push_back(read_place());
-    if (f >= mesh_.n_faces() || corners != mesh_.face(f).size())
+    std::vector<Index> vertices;
+    std::vector<Index> places;
+    while (scanner_.has_token()) {
+        std::string_view corner = scanner_.peek();
+        corner.remove_prefix(corner.starts_with('+') ? 1 : 0);
+        std::from_chars(corner.data(), corner.data() + corner.size(), vertices.emplace_back(0));
+        places.push_back(read_place());
+    }
+    std::vector<Index> distinct;
+    find_distinct_corners(vertices, distinct);
+    for (const Index k : distinct)
+        result_.place_of_corner.push_back(places[at(k)]);
+    if (f >= mesh_.n_faces() || distinct.size() != mesh_.face(f).size())
         scanner_.fail("the face is not that of the mesh; leave the file as it is while it is read");
     const auto [entry, is_new] = materials_.try_emplace(material_, static_cast<Index>(names_.size()));
     if (is_new)

@@ -215,11 +215,34 @@ TEST_CASE("to miss a tolerance that nobody asked for is a remark, and no failure
 {
     const Workshop w;
     REQUIRE(w.run(GENERATE " noisy-sphere sphere.ply --vertices 400") == 0);
-    // The sphere shrinks to what rounding leaves of it.
-    const std::string flow = "sphere.ply out.ply --time-step-edges 200 --steps 3 --subdomains 5";
+    const std::string flow = "sphere.ply out.ply --time-step-edges 2 --steps 3 --subdomains 5 --converge-iterations 1";
     CHECK(w.smooth(flow) == 0);
     CHECK(w.said().find("The tolerance was not reached in ") != std::string::npos);
-    CHECK(w.smooth(flow + " --converge 1e-2") == 4);
+    CHECK(w.smooth(flow + " --converge 1e-9") == 4);
+}
+
+TEST_CASE("a file without faces that can flow is refused by all programs in one sentence")
+{
+    const Workshop w;
+    std::ofstream(w.directory / "points.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    std::ofstream(w.directory / "lines.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\nf 3 3 3 1\n";
+    const std::string points = "points.obj: has no faces: vertices alone are no surface";
+    const std::string lines = "lines.obj: has no faces: 2 faces cannot be used (the first: lines.obj:4: the face names "
+                              "vertex 2 twice";
+    for (const std::string options : {"", " --radius 1%", " --time-step 1", " --time-step-edges 1", " --preset cad",
+                                      " --preset fair", " --preset terrain"}) {
+        CAPTURE(options);
+        for (const auto& [file, sentence] : {std::pair{"points.obj", points}, {"lines.obj", lines}}) {
+            CHECK(w.smooth(std::string(file) + " out.obj" + options) == 3);
+            CHECK(w.said().find("smooth: " + sentence) != std::string::npos);
+            CHECK(w.said().find("inf") == std::string::npos);
+            CHECK(!w.has("out.obj"));
+        }
+    }
+    CHECK(w.run(INSPECT " points.obj") == 3);
+    CHECK(w.said().find("inspect: " + points) != std::string::npos);
+    CHECK(w.run(COMPARE " points.obj points.obj") == 3);
+    CHECK(w.said().find("compare: " + points) != std::string::npos);
 }
 
 TEST_CASE("--trace writes which task ran when, and changes nothing else")

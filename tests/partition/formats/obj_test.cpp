@@ -104,7 +104,7 @@ TEST_CASE("OBJ: every complaint names the line")
     CHECK(contains(obj_complaint(three_vertices + "f 1 2\n"), "a.obj:4: the face has 2 corners, but needs at least 3"));
     CHECK(contains(obj_complaint(three_vertices + "f\n"), "a.obj:4: the face has 0 corners"));
     CHECK(contains(obj_complaint(three_vertices + "f 1 2 1\n"), "a.obj:4: the face names vertex 1 twice"));
-    CHECK(contains(obj_complaint(three_vertices + "v 1 1 0\nf 1 2 3 -2\n"), "a.obj:5: the face names vertex 3 twice"));
+    CHECK(contains(obj_complaint(three_vertices + "v 1 1 0\nf 1 2 3 -3\n"), "a.obj:5: the face names vertex 2 twice"));
     CHECK(contains(obj_complaint(three_vertices + "f 0 1 2\n"), "a.obj:4: names vertex 0"));
     CHECK(contains(obj_complaint(three_vertices + "f 1 2 4\n"),
                    "a.obj:4: names vertex 4, but the file has only 3 vertices"));

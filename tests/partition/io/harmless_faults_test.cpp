@@ -74,7 +74,7 @@ TEST_CASE("OFF and PLY: the same")
 {
     const test::TemporaryDirectory directory;
     const std::string vertices = "1 0 0\n0 1 0\n0 0 1\n";
-    const std::string faces = "3 1 1 2\n3 0 1 2\n2 0 1\n4 0 1 2 0\n3 3 2 1\n";
+    const std::string faces = "3 1 1 2\n3 0 1 2\n2 0 1\n4 0 1 2 1\n3 3 2 1\n";
     const Reading off = read_leaving_out(directory, "a.off", "OFF\n4 5 0\n0 0 0\n" + vertices + faces);
     CHECK(off.left_out.faces_left_out == Numbers{0, 2, 3});
     CHECK(rewritten(directory, off, "b.off") == "OFF\n4 5 0\n0 0 5\n" + vertices + faces);
@@ -122,4 +122,34 @@ TEST_CASE("what leaves doubt is thrown, beside faces that are left out, too")
         FaultLog left_out{.of_faces_alone = true};
         CHECK_THROWS_AS(read_faulty_mesh(directory / "a.obj", left_out), InputError);
     }
+}
+
+TEST_CASE("corners that repeat the one before them count once, in all formats, and the file stays as it is")
+{
+    const test::TemporaryDirectory directory;
+    const std::string rows = "1 0 0\n0 1 0\n0 0 1\n";
+    const PolygonMesh expected = test::make_mesh(test::read_text("v.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n").mesh.vertices,
+                                                 {{0, 1, 2}, {1, 2, 3}, {0, 3, 2, 1}, {0, 1, 3}});
+    const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 9 0 0\nvn 0 0 1\nvn 1 0 0\n"
+                            "f 1//1 2//1 3//1 3//2\nf 2 3 3 4 4 2 2\nf 1 4 3 2 -4\nf 1//3 1//2 2//3 4//3\n";
+    const std::string faces = "4 0 1 2 2\n7 1 2 2 3 3 1 1\n5 0 3 2 1 0\n4 0 0 1 3\n";
+    const std::string header = "element vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+                               "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& [name, content] : {std::pair<std::string, std::string>{"a.obj", obj},
+                                        {"a.off", "OFF\n4 4 0\n0 0 0\n" + rows + faces},
+                                        {"a.ply", "ply\nformat ascii 1.0\n" + header + "0 0 0\n" + rows + faces}}) {
+        CAPTURE(name);
+        const auto path = directory.with(name, content);
+        const MeshFile file = read_mesh(path);
+        CHECK(test::identical(file.mesh, expected));
+        write_mesh_like(*file.source, directory / ("b" + name), file.mesh);
+        CHECK(test::content_of(directory / ("b" + name)) == content);
+    }
+    // Normals go with the corners that are left: the first is that of a face, the second nobody's.
+    const MeshFile file = read_mesh(directory / "a.obj");
+    PolygonMesh moved = file.mesh;
+    moved.vertices(2, 2) = 1.0;
+    write_mesh_like(*file.source, directory / "b.obj", moved);
+    const std::string content = test::content_of(directory / "b.obj");
+    CHECK(content.find("vn 0 -0.70710677 0.70710677\nvn 0 0 1\nvn 1 0 0\n") != std::string::npos);
 }
