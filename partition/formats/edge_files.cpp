@@ -99,7 +99,7 @@ void read_ply(TextScanner scanner, const std::filesystem::path& path, std::strin
             throw InputError(fmt::format("{}: the edges have no whole number {}; declare vertex1 and vertex2",
                                          scanner.position_of(element->line), name));
     }
-    with_source(scanner, path, content, header.encoding,
+    with_source(scanner, path, content, header,
                 [&](auto source) { read_ply_edges(std::move(source), header, list); });
 }
 

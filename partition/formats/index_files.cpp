@@ -174,7 +174,7 @@ void read_ply_property(const std::filesystem::path& path, Index n_vertices, std:
     TextScanner scanner(path, file.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_property(scanner, header, n_vertices, property);
-    with_source(scanner, path, file.content(), header.encoding,
+    with_source(scanner, path, file.content(), header,
                 [&](auto source) { read_elements(std::move(source), header, property, take); });
 }
 

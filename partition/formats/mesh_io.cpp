@@ -240,6 +240,8 @@ const Format& require_format(const std::filesystem::path& path)
 {
     if (const Format* const format = format_named_by(path))
         return *format;
+    if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
+        throw Error(fmt::format("{}: is a directory; name a file in it", path.string()));
     throw Error(fmt::format("{}: the extension '{}' is none of {}; give the file the extension of its format",
                             path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
 }
@@ -259,7 +261,7 @@ MeshFile read_open(OpenFile open, const Format* format, const Loop& loop, FaultL
 /// Finds the format and reads; a lack of memory comes out with the name of the file.
 MeshFile read(const std::filesystem::path& path, const Loop& loop, FaultLog* faults)
 {
-    const Format* const format = is_standard_stream(path) ? nullptr : &require_format<InputError>(path);
+    const Format* const format = is_input_stream(path) ? nullptr : &require_format<InputError>(path);
     try {
         return read_open(OpenFile(path), format, loop, faults);
     } catch (const std::bad_alloc&) {

@@ -1,7 +1,9 @@
 #include "partition/formats/obj.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,7 +23,7 @@ namespace {
 
 /// A vertex that a face named before the file defined it.
 struct ForwardReference {
-    Index vertex;
+    std::int64_t vertex;
     std::size_t line;
 };
 
@@ -114,10 +116,9 @@ Index ObjReader::read_corner()
     }
     if (number < 0)
         return static_cast<Index>(number + n);
-    const Index vertex = builder_.vertex(number - 1, std::int64_t{1} << 31);
-    if (vertex >= n && (forward_references_.empty() || vertex > forward_references_.back().vertex))
-        forward_references_.push_back({vertex, scanner_.line()});
-    return vertex;
+    if (number > n && (forward_references_.empty() || number - 1 > forward_references_.back().vertex))
+        forward_references_.push_back({number - 1, scanner_.line()});
+    return static_cast<Index>(std::min<std::int64_t>(number - 1, std::numeric_limits<Index>::max()));
 }
 
 /// The numbers of a texture coordinate and a normal: /t, //n, /t/n, and the empty / and //.
@@ -141,7 +142,7 @@ void ObjReader::require_no_open_reference(Index n) const
             scanner_.fault_at(scanner_.position_of(line),
                               fmt::format("names vertex {}, but the file has only {}; correct the face or export the "
                                           "mesh again",
-                                          std::int64_t{vertex} + 1, counted(at(n), "vertex", "vertices")));
+                                          vertex + 1, counted(at(n), "vertex", "vertices")));
 }
 
 /// @throws InputError if there is any fault, not necessarily naming the line.

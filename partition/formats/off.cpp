@@ -22,6 +22,12 @@ namespace seamflow {
 
 namespace {
 
+void pass_over_numbers(TextScanner& scanner, Index n)
+{
+    for (; n > 0; --n)
+        static_cast<void>(scanner.number_or_nan());
+}
+
 /// Reads a whole file, or a slice of one.
 class OffReader {
   public:
@@ -70,6 +76,8 @@ void OffReader::read(std::int64_t begin, std::int64_t end)
     for (std::int64_t v = begin; v < std::min(end, n_vertices); ++v) {
         next_line("vertices", v, n_vertices);
         builder_.add_vertex(scanner_.coordinates());
+        if (scanner_.crosses_lines())
+            pass_over_numbers(scanner_, header_.n_further_numbers());
     }
     for (std::int64_t f = std::max(begin, n_vertices) - n_vertices; f < end - n_vertices; ++f) {
         next_line("faces", f, header_.n_faces);
@@ -143,16 +151,21 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
 /// @param v, end the first of them and the one behind the last. @param positions from vertex `first` of the file on.
 /// @param normals null: they stay.
 void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const Points& positions, Index first,
-                   const MovedNormals* normals)
+                   const MovedNormals* normals, const OffHeader& header)
 {
     for (; v < end; ++v) {
         scanner.next_line();
         exchange_position(scanner, splicer, positions.row(v - first));
-        if (normals == nullptr)
+        if (normals == nullptr) {
+            if (scanner.crosses_lines())
+                pass_over_numbers(scanner, header.n_further_numbers());
             continue;
+        }
         const WrittenNormal given = read_normal(scanner);
         if (const auto now = normals->around_vertex(v, given.value))
             exchange_normal(splicer, given, *now);
+        if (scanner.crosses_lines())
+            pass_over_numbers(scanner, header.n_further_numbers() - 3);
     }
     splicer.finish();
 }
@@ -207,7 +220,7 @@ class SlicedOff final : public SlicedText {
         const std::string_view bytes = slices.bytes[slice];
         rewrite_slice(Splicer(file, bytes), TextScanner(after_header(), bytes),
                       vertices_before(slices.counts[slice], header_),
-                      vertices_before(slices.counts[slice + 1], header_), positions, first_vertex(slices), nullptr);
+                      vertices_before(slices.counts[slice + 1], header_), positions, first_vertex(slices), nullptr, header_);
     }
 
   private:
@@ -218,13 +231,74 @@ class SlicedOff final : public SlicedText {
 /// The kinds of the numbers after the coordinates, by the keyword of the file.
 void add_extras_of_keyword(std::vector<std::string>& extras, const OffHeader& header)
 {
-    const std::string_view prefix = header.prefix;
-    if (prefix.find("ST") != std::string_view::npos)
+    if (header.has_texture())
         add_once(extras, "texture coordinates");
-    if (prefix.find('C') != std::string_view::npos)
+    if (header.has_colours())
         add_once(extras, "colours");
     if (header.has_normals())
         add_once(extras, "normals");
+}
+
+PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view text, const Slicing& slicing,
+                          FaultLog* faults)
+{
+    TextScanner scanner(path, text);
+    const OffHeader header = read_off_header(scanner);
+    const auto in_one_go = [&] {
+        OffReader reader(scanner, header, faults);
+        reader.read(0, header.n_lines());
+        return reader.finish();
+    };
+    if (text.size() <= slicing.bytes)
+        return in_one_go();
+    const auto in_slices = [&] {
+        const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
+        const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
+        return read_slices(scanner, header, {slices, counts, counts.back()}, slicing.loop);
+    };
+    return read_in_slices_if_faultless(in_slices, in_one_go);
+}
+
+/// The header of a file that can have lines as blanks, which is then read up to its end; nothing if there is none.
+/// Only where all vertices have as many numbers, and faces nothing but corners, is it clear what is what.
+std::optional<OffHeader> read_header_across_lines(TextScanner& scanner)
+{
+    scanner.cross_lines();
+    try {
+        const OffHeader header = read_off_header(scanner);
+        return header.has_colours() ? std::nullopt : std::optional(header);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// Reads a file with lines as blanks; nothing if it cannot be read so.
+std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text)
+{
+    TextScanner scanner(path, text);
+    const auto header = read_header_across_lines(scanner);
+    if (!header)
+        return std::nullopt;
+    try {
+        OffReader reader(scanner, *header, nullptr);
+        reader.read(0, header->n_lines());
+        return reader.finish();
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// Whether a file that can be read has no line for each vertex and face.
+bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
+{
+    TextScanner scanner(path, text);
+    try {
+        const OffHeader header = read_off_header(scanner);
+        const auto slices = scanner.slices(slicing.bytes);
+        return count_lines(scanner, slices, slicing.loop).back() != header.n_lines();
+    } catch (const InputError&) {
+        return true;
+    }
 }
 
 }  // namespace
@@ -243,21 +317,13 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
 {
     if (const auto data = start_of_binary_off(text))
         return read_binary_off(path, text, *data, slicing, faults);
-    TextScanner scanner(path, text);
-    const OffHeader header = read_off_header(scanner);
-    const auto in_one_go = [&] {
-        OffReader reader(scanner, header, faults);
-        reader.read(0, header.n_lines());
-        return reader.finish();
-    };
-    if (text.size() <= slicing.bytes)
-        return in_one_go();
-    const auto in_slices = [&] {
-        const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
-        const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
-        return read_slices(scanner, header, {slices, counts, counts.back()}, slicing.loop);
-    };
-    return read_in_slices_if_faultless(in_slices, in_one_go);
+    try {
+        return read_by_lines(path, text, slicing, faults);
+    } catch (const InputError&) {
+        if (std::optional<PolygonMesh> mesh = read_across_lines(path, text))
+            return *std::move(mesh);
+        throw;
+    }
 }
 
 std::unique_ptr<SlicedText> slice_off_text(const std::filesystem::path& path, std::string_view text)
@@ -291,17 +357,25 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
         return {};
     }
     TextScanner scanner(path, content);
+    const bool crosses_lines = breaks_lines_freely(path, content, slicing);
+    if (crosses_lines)
+        scanner.cross_lines();
     const OffHeader header = read_off_header(scanner);
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (header.has_normals())
         normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.loop);
+    if (crosses_lines) {
+        rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), mesh.vertices, 0,
+                      normals ? &*normals : nullptr, header);
+        return {};
+    }
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
     const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
     file.text(content.substr(0, content.size() - scanner.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
         rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
-                      vertices_before(counts[i + 1], header), mesh.vertices, 0, normals ? &*normals : nullptr);
+                      vertices_before(counts[i + 1], header), mesh.vertices, 0, normals ? &*normals : nullptr, header);
     });
     return {};
 }
@@ -312,8 +386,13 @@ std::vector<std::string> extras_of_off(const std::filesystem::path& path, std::s
     if (start_of_binary_off(content))
         return extras;
     TextScanner scanner(path, content);
+    const bool crosses_lines = breaks_lines_freely(path, content, {});
+    if (crosses_lines)
+        scanner.cross_lines();
     const OffHeader header = read_off_header(scanner);
     add_extras_of_keyword(extras, header);
+    if (crosses_lines)
+        return extras;
     for (std::int64_t v = 0; v < header.n_vertices && scanner.next_line(); ++v)
         if (scanner.pass_over_rest() > 3 && header.prefix.empty())
             add_once(extras, "further numbers of vertices");

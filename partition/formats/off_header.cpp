@@ -20,8 +20,18 @@ void require_known_variant(const TextScanner& scanner, std::string_view prefix)
     if (prefix.find_first_of("4n") != std::string_view::npos)
         scanner.fail(in_quotes(std::string(prefix) + "OFF") +
                      " files, whose vertices have not just three coordinates, cannot be read; convert the mesh to OFF");
-    constexpr std::array<std::string_view, 8> known = {"", "C", "N", "CN", "ST", "STC", "STN", "STCN"};
-    if (std::find(known.begin(), known.end(), prefix) == known.end())
+    constexpr std::array<std::string_view, 3> parts = {"ST", "C", "N"};
+    std::array<int, 3> n_found{};
+    std::string_view left = prefix;
+    for (bool goes_on = true; goes_on && !left.empty();) {
+        goes_on = false;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (left.starts_with(parts[i]) && n_found[i]++ == 0) {
+                left.remove_prefix(parts[i].size());
+                goes_on = true;
+            }
+    }
+    if (!left.empty())
         scanner.fail("the keyword " + in_quotes(std::string(prefix) + "OFF") +
                      " is unknown; convert the mesh to OFF, COFF or NOFF");
 }
@@ -73,7 +83,7 @@ OffHeader read_off_header(TextScanner& scanner)
     header.n_faces = read_count(scanner, size, "the number of faces", 4);
     if (scanner.has_token())
         scanner.integer("the number of edges");
-    if (scanner.has_token())
+    if (scanner.has_token() && !scanner.crosses_lines())
         scanner.fail("expected the end of the line after the numbers of vertices, faces and edges, but found " +
                      in_quotes(scanner.peek()) + "; correct the header");
     return header;

@@ -3,19 +3,26 @@
 #include <cstdint>
 #include <string_view>
 
+#include "partition/index.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
 
 /// The beginning of a text OFF file.
 struct OffHeader {
-    /// What stands before OFF: ST, C, N together mean texture coordinates, colours and normals of the vertices.
+    /// What stands before OFF: ST, C, N, each perhaps, in any order, mean texture coordinates, colours and normals of the
+    /// vertices; their numbers follow the coordinates in the order normals, colours, texture coordinates.
     std::string_view prefix;
     std::int64_t n_vertices = 0;
     std::int64_t n_faces = 0;
 
     [[nodiscard]] std::int64_t n_lines() const { return n_vertices + n_faces; }
-    [[nodiscard]] bool has_normals() const { return prefix.ends_with('N'); }
+    [[nodiscard]] bool has_normals() const { return prefix.find('N') != std::string_view::npos; }
+    [[nodiscard]] bool has_texture() const { return prefix.find("ST") != std::string_view::npos; }
+    [[nodiscard]] bool has_colours() const { return prefix.find('C') != std::string_view::npos; }
+
+    /// How many numbers a vertex has after its coordinates, where it has no colours, whose number differs.
+    [[nodiscard]] Index n_further_numbers() const { return (has_normals() ? 3 : 0) + (has_texture() ? 2 : 0); }
 };
 
 /// Reads from the beginning of the file to the end of the counts.

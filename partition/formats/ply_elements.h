@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "partition/formats/ply_header.h"
@@ -46,12 +47,16 @@ class ElementReader {
   private:
     void read_property(const PlyProperty& property, PlyRole role);
     void read_corners(const PlyProperty& property);
+    void add_strips();
 
     Source& source_;
     MeshBuilder builder_;
     std::int64_t n_vertices_;
     std::array<double, 3> point_{};
     std::vector<Index> corners_;
+    /// In place of a corner.
+    static constexpr Index end_of_strip = -2;
+    bool ends_strips_ = false;
 };
 
 template <class Source>
@@ -60,6 +65,8 @@ void ElementReader<Source>::read(const PlyElement& element, std::uint64_t begin,
     const std::vector<PlyRole> roles = roles_of(element);
     const bool is_vertex = element.name == "vertex";
     const bool is_face = element.name == "face";
+    const bool are_strips = element.name == "tristrips";
+    ends_strips_ = are_strips;
     for (std::uint64_t i = begin; i < end; ++i) {
         source_.begin_element(element, i);
         for (std::size_t p = 0; p < roles.size(); ++p)
@@ -69,6 +76,8 @@ void ElementReader<Source>::read(const PlyElement& element, std::uint64_t begin,
             builder_.add_vertex(point_);
         else if (is_face)
             builder_.add_face(corners_);
+        else if (are_strips)
+            add_strips();
     }
 }
 
@@ -95,7 +104,29 @@ void ElementReader<Source>::read_corners(const PlyProperty& property)
 {
     corners_.clear();
     for (std::int64_t n = read_length(source_, property); n > 0; --n)
-        corners_.push_back(builder_.vertex(source_.integer(property.type), n_vertices_));
+        if (const std::int64_t v = source_.integer(property.type); ends_strips_ && v == -1)
+            corners_.push_back(end_of_strip);
+        else
+            corners_.push_back(builder_.vertex(v, n_vertices_));
+}
+
+/// Every vertex of a strip but the first two makes a triangle with the two before it; every other one is turned. Those
+/// that name a vertex twice bring strips together, and are none.
+template <class Source>
+void ElementReader<Source>::add_strips()
+{
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+        if (corners_[k] == end_of_strip)
+            begin = k + 1;
+        if (k < begin + 2)
+            continue;
+        std::array<Index, 3> triangle{corners_[k - 2], corners_[k - 1], corners_[k]};
+        if ((k - begin) % 2 == 1)
+            std::swap(triangle[0], triangle[1]);
+        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+            builder_.add_face(triangle);
+    }
 }
 
 /// Checks that the elements of a file are a surface that can be read.

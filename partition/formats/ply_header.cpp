@@ -18,7 +18,7 @@ struct NamedType {
     PlyType type;
 };
 
-constexpr std::array<NamedType, 16> named_types = {{{"char", PlyType::Int8},
+constexpr std::array<NamedType, 18> named_types = {{{"char", PlyType::Int8},
                                                     {"int8", PlyType::Int8},
                                                     {"uchar", PlyType::UInt8},
                                                     {"uint8", PlyType::UInt8},
@@ -30,6 +30,8 @@ constexpr std::array<NamedType, 16> named_types = {{{"char", PlyType::Int8},
                                                     {"int32", PlyType::Int32},
                                                     {"uint", PlyType::UInt32},
                                                     {"uint32", PlyType::UInt32},
+                                                    {"int64", PlyType::Int64},
+                                                    {"uint64", PlyType::UInt64},
                                                     {"float", PlyType::Float32},
                                                     {"float32", PlyType::Float32},
                                                     {"double", PlyType::Float64},
@@ -156,6 +158,14 @@ bool is_list_of_corners(std::string_view name)
 
 }  // namespace
 
+std::uint64_t PlyHeader::n_elements() const
+{
+    std::uint64_t n = 0;
+    for (const PlyElement& element : elements)
+        n += element.count;
+    return n;
+}
+
 const PlyElement* PlyHeader::element(std::string_view name) const
 {
     const auto found =
@@ -197,6 +207,8 @@ std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::s
     TextScanner scanner(path, content, ply_syntax);
     std::vector<std::string> extras;
     for (const PlyElement& element : read_ply_header(scanner).elements) {
+        if (element.name == "tristrips")
+            continue;
         const bool of_vertices = element.name == "vertex";
         if (!of_vertices && element.name != "face") {
             add_once(extras, "the element " + printable(element.name));

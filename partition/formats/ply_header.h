@@ -15,8 +15,9 @@ namespace seamflow {
 
 inline constexpr TextSyntax ply_syntax = {.comment = '\0', .first_line_end_decides = true};
 
-/// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64.
-enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+/// The types of numbers in a PLY file: char, uchar, short, ushort, int, uint, float and double, or int8 to float64, and
+/// the whole numbers of 64 bits, which some programs add.
+enum class PlyType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
 /// Calls `act` with a zero of that type.
 auto with_type(PlyType type, const auto& act)
@@ -34,6 +35,10 @@ auto with_type(PlyType type, const auto& act)
         return act(std::int32_t{});
     case PlyType::UInt32:
         return act(std::uint32_t{});
+    case PlyType::Int64:
+        return act(std::int64_t{});
+    case PlyType::UInt64:
+        return act(std::uint64_t{});
     case PlyType::Float32:
         return act(float{});
     case PlyType::Float64:
@@ -78,6 +83,9 @@ struct PlyHeader {
     Encoding encoding = Encoding::Ascii;
     /// In the order in which they follow the header.
     std::vector<PlyElement> elements;
+
+    /// Of all kinds together.
+    [[nodiscard]] std::uint64_t n_elements() const;
 
     /// The element of that name, or null.
     [[nodiscard]] const PlyElement* element(std::string_view name) const;

@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -74,6 +75,23 @@ PolygonMesh read_elements(Source source, const PlyHeader& header, FaultLog* faul
     return reader.finish();
 }
 
+/// Reads a text file that has no line for each element; nothing if it has, or cannot be read so either.
+std::optional<PolygonMesh> read_across_lines(TextScanner after_header, const PlyHeader& header, FaultLog* faults)
+{
+    if (!breaks_lines_freely(after_header, header))
+        return std::nullopt;
+    after_header.cross_lines();
+    FaultLog own = faults != nullptr ? *faults : FaultLog();
+    try {
+        PolygonMesh mesh = read_elements(PlyTextSource(after_header), header, faults != nullptr ? &own : nullptr);
+        if (faults != nullptr)
+            *faults = std::move(own);
+        return mesh;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
 /// @throws InputError if there is any fault, not necessarily naming it.
 PolygonMesh read_binary_slices(const TextScanner& after_header, const std::filesystem::path& path,
                                std::string_view file, const PlyHeader& header, const Slicing& slicing)
@@ -124,8 +142,8 @@ void require_surface(const TextScanner& scanner, const PlyHeader& header)
     const PlyElement* const strips = header.element("tristrips");
     if (faces != nullptr && faces->count > 0)
         require_corners(scanner, *faces);
-    else if (strips != nullptr && strips->count > 0)
-        refuse(scanner, strips->line, "triangle strips cannot be read; export the mesh with faces instead of strips");
+    if (strips != nullptr && strips->count > 0)
+        require_corners(scanner, *strips);
 }
 
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
@@ -134,8 +152,12 @@ MeshFile read_ply(const std::filesystem::path& path, std::string_view file, cons
     const PlyHeader header = read_ply_header(scanner);
     require_surface(scanner, header);
     const auto in_one_go = [&] {
-        return with_source(scanner, path, file, header.encoding,
-                           [&](auto source) { return read_elements(std::move(source), header, faults); });
+        if (header.encoding != Encoding::Ascii)
+            return read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding),
+                                 header, faults);
+        if (std::optional<PolygonMesh> mesh = read_across_lines(scanner, header, faults))
+            return *std::move(mesh);
+        return read_elements(PlyTextSource(scanner), header, faults);
     };
     const FileKind kind{FileFormat::Ply, header.encoding};
     if (scanner.rest().size() <= slicing.bytes)

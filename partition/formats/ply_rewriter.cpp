@@ -33,7 +33,7 @@ bool can_hold(PlyType type, const auto& numbers)
     return with_type(type, [&numbers](auto zero) {
         using Limits = std::numeric_limits<decltype(zero)>;
         return std::all_of(numbers.begin(), numbers.end(), [](double number) {
-            const bool in_range = number >= double{Limits::lowest()} && number <= double{Limits::max()};
+            const bool in_range = number >= static_cast<double>(Limits::lowest()) && number <= static_cast<double>(Limits::max());
             return in_range && (!Limits::is_integer || std::trunc(number) == number);
         });
     });
@@ -211,7 +211,10 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
 {
     const PlyElement* const vertices = header.element("vertex");
     const std::span<const PlyElement> elements(header.elements.data(), vertices + 1);
-    const std::vector<PlySlice> slices = slice_ply(content, after_header, header.encoding, elements, slicing);
+    std::vector<PlySlice> slices = slice_ply(content, after_header, header.encoding, elements, slicing);
+    const bool crosses_lines = header.encoding == Encoding::Ascii && slices.back().end != header.n_elements();
+    if (crosses_lines)
+        slices = {{0, header.n_elements(), after_header.rest()}};
     std::vector<std::uint8_t> rounded(slices.size());
     file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
         // Those that the reader has let pass.
@@ -222,8 +225,11 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
                                  mesh.vertices, 0, normals);
         };
         const auto offset = static_cast<std::size_t>(slices[i].bytes.data() - content.data());
+        TextScanner scanner(after_header, slices[i].bytes);
+        if (crosses_lines)
+            scanner.cross_lines();
         rounded[i] = header.encoding == Encoding::Ascii
-                         ? rewrite(PlyTextSource(TextScanner(after_header, slices[i].bytes)))
+                         ? rewrite(PlyTextSource(scanner))
                          : rewrite(PlyBinarySource(path, content, offset, header.encoding));
     });
     const std::string_view last = slices.back().bytes;

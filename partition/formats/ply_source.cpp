@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "partition/io/slices.h"
+
 namespace seamflow {
 
 void PlyTextSource::begin_element(const PlyElement& element, std::uint64_t i)
@@ -16,9 +18,15 @@ void PlyTextSource::begin_element(const PlyElement& element, std::uint64_t i)
                                   i, element.count, in_quotes(element.name)));
 }
 
+bool breaks_lines_freely(const TextScanner& after_header, const PlyHeader& header)
+{
+    const std::string_view all = after_header.rest();
+    return static_cast<std::uint64_t>(count_lines(after_header, {&all, 1}, run_serially).back()) != header.n_elements();
+}
+
 void PlyTextSource::end_element()
 {
-    if (!scanner_.has_token())
+    if (scanner_.crosses_lines() || !scanner_.has_token())
         return;
     scanner_.harmless_fault("the line goes on with " + in_quotes(scanner_.peek()) +
                             " after all the properties that the header declares; correct the header or the line");

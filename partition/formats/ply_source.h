@@ -118,14 +118,21 @@ void pass_over(Source& source, const PlyElement& element, std::uint64_t i, const
     source.end_element();
 }
 
+/// Whether a text file does not have a line for each element, so that lines can be no more than blanks.
+/// @param after_header stands at the last line of the header.
+bool breaks_lines_freely(const TextScanner& after_header, const PlyHeader& header);
+
 /// Calls `read` with the source of what follows the header.
 /// @param after_header stands at the last line of the header. @param file the whole file.
 auto with_source(const TextScanner& after_header, const std::filesystem::path& path, std::string_view file,
-                 Encoding encoding, const auto& read)
+                 const PlyHeader& header, const auto& read)
 {
-    if (encoding == Encoding::Ascii)
-        return read(PlyTextSource(after_header));
-    return read(PlyBinarySource(path, file, file.size() - after_header.rest().size(), encoding));
+    if (header.encoding != Encoding::Ascii)
+        return read(PlyBinarySource(path, file, file.size() - after_header.rest().size(), header.encoding));
+    TextScanner scanner = after_header;
+    if (breaks_lines_freely(after_header, header))
+        scanner.cross_lines();
+    return read(PlyTextSource(scanner));
 }
 
 }  // namespace seamflow

@@ -92,26 +92,40 @@ std::size_t read_some(const std::filesystem::path& path, int descriptor, std::sp
 
 }  // namespace
 
+bool is_input_stream(const std::filesystem::path& path)
+{
+    const std::string& name = path.native();
+    return is_standard_stream(path) || name == "/dev/stdin" || name.starts_with("/dev/fd/") ||
+           name.starts_with("/proc/self/fd/");
+}
+
 OpenFile::OpenFile(const std::filesystem::path& path)
     : path_(is_standard_stream(path) ? "standard input" : path)
 {
-    if (is_standard_stream(path)) {
-        MemoryFile collected(path_);
-        std::vector<char> piece(std::size_t{1} << 18);
-        while (const std::size_t n = read_some(path_, STDIN_FILENO, piece))
-            collected.append({piece.data(), n});
-        descriptor_ = collected.release();
-        if (size() == 0)
-            throw InputError(path_.string() + ": there is nothing in it; export the mesh again");
-    } else {
+    if (!is_input_stream(path))
         require_regular(path);
-        descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-        if (descriptor_ < 0)
-            fail(path, errno);
-    }
+    descriptor_ = is_standard_stream(path) ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                                           : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0)
+        fail(path_, errno);
+    if (is_input_stream(path))
+        collect();
     std::array<char, 2> begin{};
     if (is_gzip({begin.data(), read(begin.data(), begin.size(), 0)}))
         unpack();
+}
+
+/// Takes what comes through a stream into memory.
+void OpenFile::collect()
+{
+    MemoryFile collected(path_);
+    std::vector<char> piece(std::size_t{1} << 18);
+    while (const std::size_t n = read_some(path_, descriptor_, piece))
+        collected.append({piece.data(), n});
+    ::close(descriptor_);
+    descriptor_ = collected.release();
+    if (size() == 0)
+        throw InputError(path_.string() + ": there is nothing in it; export the mesh again");
 }
 
 void OpenFile::unpack()

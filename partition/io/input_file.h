@@ -13,9 +13,13 @@ inline bool is_standard_stream(const std::filesystem::path& path)
     return path == "-";
 }
 
+/// Whether a path names something that is open already, be it a pipe: `-`, /dev/stdin, or what a shell puts in place of
+/// <(command). It has no name to tell a format by, and can be read once.
+bool is_input_stream(const std::filesystem::path& path);
+
 /// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed. A file
-/// that is compressed by gzip (whatever its name is) is unpacked first, and what comes through standard input is
-/// collected, both in memory.
+/// that is compressed by gzip (whatever its name is) is unpacked first, and what comes through a stream (see
+/// is_input_stream) is collected, both in memory.
 class OpenFile {
   public:
     /// @param path `-` for standard input.
@@ -43,6 +47,7 @@ class OpenFile {
     std::size_t read(char* bytes, std::size_t n, std::size_t offset) const;
 
   private:
+    void collect();
     void unpack();
 
     std::filesystem::path path_;

@@ -143,7 +143,7 @@ void TextScanner::skip_blanks()
     while (true) {
         while (cursor_ < line_end_ && is_blank(*cursor_))
             ++cursor_;
-        if (cursor_ < line_end_ || !continued_ || next_ == end_)
+        if (cursor_ < line_end_ || !(continued_ || crosses_lines_) || next_ == end_)
             break;
         load_line();
     }
@@ -151,6 +151,8 @@ void TextScanner::skip_blanks()
 
 bool TextScanner::next_line()
 {
+    if (crosses_lines_)
+        return has_token();
     while (continued_ && next_ < end_)
         load_line();
     cursor_ = line_end_;

@@ -39,6 +39,10 @@ class TextScanner final : public InputPosition {
     /// @param bytes how long they are, up to the end of a line.
     [[nodiscard]] std::vector<std::string_view> slices(std::size_t bytes) const;
 
+    /// From now on lines are blanks: tokens go on in the next line, and next_line goes nowhere while there are any.
+    void cross_lines() { crosses_lines_ = true; }
+    [[nodiscard]] bool crosses_lines() const { return crosses_lines_; }
+
     /// Goes to the next line with a token, whatever is left of the present one. False at the end of the text.
     bool next_line();
 
@@ -107,6 +111,7 @@ class TextScanner final : public InputPosition {
     const char* next_;
     const char* end_;
     bool continued_ = false;
+    bool crosses_lines_ = false;
     std::size_t line_ = 0;
 };
 

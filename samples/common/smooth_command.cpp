@@ -282,7 +282,7 @@ void require_usable_files(const SmoothCommand& command)
         throw OptionError("OUTPUT and --report are both -: name a file for one of them");
     if (!command.report.empty() && !is_standard_stream(command.report))
         results.push_back(command.report);
-    if (command.edges_from_file && is_standard_stream(command.input))
+    if (command.edges_from_file && is_input_stream(command.input))
         throw OptionError("--edges-from-file reads INPUT a second time: name a file instead of -");
     require_files({command.labels, command.fix, command.edges, command.attach_weights});
     for (const auto& input : {command.input, command.labels, command.fix, command.edges, command.attach_weights}) {

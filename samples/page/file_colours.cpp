@@ -15,7 +15,7 @@ FileColours read_file_colours(const std::filesystem::path& path, const PolygonMe
                               std::span<const Index> left_out)
 {
     // Standard input is gone when the mesh has been read.
-    const auto format = is_standard_stream(path) ? std::nullopt : format_of(path);
+    const auto format = is_input_stream(path) ? std::nullopt : format_of(path);
     if (format != FileFormat::Obj && format != FileFormat::Ply)
         return {};
     try {

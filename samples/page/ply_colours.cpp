@@ -179,7 +179,7 @@ FileColours read_ply_colours(const std::filesystem::path& path, std::string_view
     const PlyHeader header = read_ply_header(scanner);
     const std::string name = texture_file(file.substr(0, file.size() - scanner.rest().size()));
     PlyColourReader reader(mesh, left_out, !name.empty());
-    with_source(scanner, path, file, header.encoding, [&](auto source) { reader.read(std::move(source), header); });
+    with_source(scanner, path, file, header, [&](auto source) { reader.read(std::move(source), header); });
     FileColours colours = reader.finish(path);
     if (colours.place_of_corner.empty())
         return colours;

@@ -218,7 +218,27 @@ TEST_CASE("to miss a tolerance that nobody asked for is a remark, and no failure
     const std::string flow = "sphere.ply out.ply --time-step-edges 2 --steps 3 --subdomains 5 --converge-iterations 1";
     CHECK(w.smooth(flow) == 0);
     CHECK(w.said().find("The tolerance was not reached in ") != std::string::npos);
-    CHECK(w.smooth(flow + " --converge 1e-9") == 4);
+}
+
+TEST_CASE("what a shell puts through a pipe is recognised by its content, and a directory is no file to write")
+{
+    const Workshop w;
+    REQUIRE(w.smooth("mesh.obj alone.obj --radius 2%") == 0);
+    for (const std::string command : {" /dev/stdin piped.obj --radius 2% < mesh.obj", " /dev/fd/0 piped.obj --radius 2% < mesh.obj",
+                                      " - piped.obj --radius 2% < mesh.obj"}) {
+        CAPTURE(command);
+        std::filesystem::remove(w.directory / "piped.obj");
+        CHECK(w.run(SMOOTH + command) == 0);
+        CHECK(test::content_of(w.directory / "piped.obj") == test::content_of(w.directory / "alone.obj"));
+    }
+    CHECK(w.run("cat mesh.obj | " SMOOTH " /dev/stdin piped.ply --radius 2%") == 0);
+    CHECK(w.run(SMOOTH " /dev/stdin piped.ply --radius 2% < /dev/null") == 3);
+    CHECK(w.said().find("/dev/stdin: there is nothing in it") != std::string::npos);
+    for (const std::string output : {".", "./", "folder", "folder/"}) {
+        std::filesystem::create_directory(w.directory / "folder");
+        CHECK(w.smooth("mesh.obj " + output + " --radius 2%") == 2);
+        CHECK(w.said().find("smooth: " + output + ": is a directory; name a file in it") != std::string::npos);
+    }
 }
 
 TEST_CASE("a file without faces that can flow is refused by all programs in one sentence")

@@ -92,7 +92,7 @@ class WholeMeshFile final : public SharedMeshFile {
 std::uint64_t bytes_in(const std::filesystem::path& path)
 {
     std::error_code error;
-    const std::uintmax_t size = is_standard_stream(path) ? 0 : std::filesystem::file_size(path, error);
+    const std::uintmax_t size = is_input_stream(path) ? 0 : std::filesystem::file_size(path, error);
     return error ? 0 : size;
 }
 
@@ -121,7 +121,12 @@ bool is_text(const std::filesystem::path& path, FileFormat format)
         break;
     }
     TextScanner scanner(path, input.content(), ply_syntax);
-    return read_ply_header(scanner).encoding == Encoding::Ascii;
+    const PlyHeader header = read_ply_header(scanner);
+    if (const PlyElement* const strips = header.element("tristrips"); strips != nullptr && strips->count > 0)
+        throw InputError(fmt::format("{}: triangle strips are nothing that ranks can share; let one process smooth the "
+                                     "mesh, or export it with faces instead of strips",
+                                     scanner.position_of(strips->line)));
+    return header.encoding == Encoding::Ascii;
 }
 
 std::unique_ptr<SharedMeshFile> open_sliced(const std::filesystem::path& path, FileFormat format, bool is_text,

@@ -106,6 +106,9 @@ TEST_CASE("OBJ: every complaint names the line")
     CHECK(contains(obj_complaint(three_vertices + "f 1 2 1\n"), "a.obj:4: the face names vertex 1 twice"));
     CHECK(contains(obj_complaint(three_vertices + "v 1 1 0\nf 1 2 3 -3\n"), "a.obj:5: the face names vertex 2 twice"));
     CHECK(contains(obj_complaint(three_vertices + "f 0 1 2\n"), "a.obj:4: names vertex 0"));
+    for (const std::string number : {"2147483648", "2147483649", "4294967298", "123456789012"})
+        CHECK(contains(obj_complaint(three_vertices + "f 1 2 " + number + "\n"),
+                       "a.obj:4: names vertex " + number + ", but the file has only 3 vertices"));
     CHECK(contains(obj_complaint(three_vertices + "f 1 2 4\n"),
                    "a.obj:4: names vertex 4, but the file has only 3 vertices"));
     CHECK(contains(obj_complaint("f 1 2 3\nf 1 2 9\nf 1 2 5\n" + three_vertices),

@@ -160,3 +160,20 @@ TEST_CASE("binary OFF that is cut off, too long, or holds what is no number is r
     CHECK(contains(test::complaint_about("a.off", binary_tetrahedron(std::endian::big, true, nan)),
                    "vertex 0 (numbered from 0), byte 23: a coordinate is not a finite number"));
 }
+
+TEST_CASE("OFF: what vertices have besides coordinates may be named in any order, each once")
+{
+    const std::string data = "3 1 0\n0 0 0 9 9 9 1 0 0 1 .5 .5\n1 0 0 9 9 9 1 0 0 1 .5 .5\n0 1 0 9 9 9 1 0 0 1 .5 .5\n"
+                             "3 0 1 2\n";
+    std::vector<std::string> parts{"C", "N", "ST"};
+    do {
+        const std::string name = parts[0] + parts[1] + parts[2] + "OFF\n";
+        CAPTURE(name);
+        CHECK(read_text("a.off", name + data).mesh.n_faces() == 1);
+        // Normals follow the coordinates, whatever the order of the names.
+        CHECK(contains(rewritten("a.off", name + data, [](Points& p) { p(2, 2) = 1.0; }).content,
+                       "1 0 0 0 -0.70710677 0.70710677 1 0 0 1 .5 .5\n"));
+    } while (std::next_permutation(parts.begin(), parts.end()));
+    for (const char* name : {"CC", "NCN", "STST", "S", "T", "TS", "X", "CNX"})
+        CHECK(contains(complaint_about("a.off", name + ("OFF\n" + data)), "is unknown"));
+}

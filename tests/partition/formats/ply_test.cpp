@@ -231,9 +231,6 @@ TEST_CASE("PLY: faces that are none")
     CHECK(contains(
         ply_complaint(header + "element face 1\nproperty int vertex_index\nend_header\n" + three_ply_vertices + "3\n"),
         "a.ply:8: the corners of a face must be a list"));
-    CHECK(contains(ply_complaint(header + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
-                                 three_ply_vertices + "3 0 1 2\n"),
-                   "a.ply:7: triangle strips cannot be read"));
 }
 
 TEST_CASE("PLY: counts that the file is too short for are refused at once")
@@ -381,4 +378,88 @@ TEST_CASE("PLY: colours of values")
     CHECK(signed_colour(0.0) == Colour{255, 255, 255});
     CHECK(signed_colour(0.5) == Colour{255, 128, 128});
     CHECK(signed_colour(9.0) == Colour{255, 0, 0});
+}
+
+namespace {
+
+std::string text_ply(const std::string& elements, const std::string& data, const std::string& coordinate = "double")
+{
+    return "ply\nformat ascii 1.0\nelement vertex 5\nproperty " + coordinate + " x\nproperty " + coordinate +
+           " y\nproperty " + coordinate + " z\n" + elements + "end_header\n" + data;
+}
+
+const std::string five_vertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
+
+}  // namespace
+
+TEST_CASE("PLY: triangle strips are faces, every other one turned, and stay in the file")
+{
+    const std::string strips = "element tristrips 2\nproperty list int int vertex_indices\n";
+    // The second list has two strips, and one that goes over a vertex twice.
+    const std::string content = text_ply(strips, five_vertices + "5 0 1 2 3 4\n8 1 3 2 -1 2 3 3 4\n");
+    const PolygonMesh mesh = read_text("a.ply", content).mesh;
+    CHECK(mesh.face_vertices == std::vector<Index>{0, 1, 2, 2, 1, 3, 2, 3, 4, 1, 3, 2});
+    CHECK(rewritten("a.ply", content, move_second).content == with(content, "1 0 0\n", "2 0.1 0\n"));
+    CHECK(contains(ply_complaint(text_ply(strips, five_vertices + "3 0 1 5\n3 0 1 2\n")), "names vertex 5"));
+    CHECK(contains(ply_complaint(text_ply(strips, five_vertices + "3 0 1 -2\n3 0 1 2\n")), "names vertex -2"));
+}
+
+TEST_CASE("PLY: whole numbers of 64 bits")
+{
+    const std::string lists = "property int64 id\nelement face 2\nproperty list uint64 int64 vertex_indices\n";
+    const std::string rows = "0 0 0 -9000000000\n1 0 0 1\n0 1 0 2\n1 1 0 3\n0 2 0 4\n";
+    const std::string content = text_ply(lists, rows + "3 0 1 2\n4 2 1 3 4\n");
+    const PolygonMesh expected = read_text("a.ply", content).mesh;
+    CHECK(expected.n_faces() == 2);
+    CHECK(rewritten("a.ply", content, move_second).content == with(content, "1 0 0 1", "2 0.1 0 1"));
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+        std::string binary = with(content.substr(0, content.find("0 0 0 -9")), "format ascii",
+                                  order == std::endian::little ? "format binary_little_endian" : "format binary_big_endian");
+        const auto append = [&](auto value) {
+            const auto bytes = to_bytes(value, order);
+            binary.append(bytes.begin(), bytes.end());
+        };
+        for (Index v = 0; v < 5; ++v) {
+            for (Index k = 0; k < 3; ++k)
+                append(expected.vertices(v, k));
+            append(std::int64_t{v} - 9'000'000'000);
+        }
+        for (Index f = 0; f < 2; ++f) {
+            append(static_cast<std::uint64_t>(expected.face(f).size()));
+            for (const Index corner : expected.face(f))
+                append(std::int64_t{corner});
+        }
+        CHECK(identical(read_text("a.ply", binary).mesh, expected));
+        const std::string again = rewritten("a.ply", binary, [](Points& points) { points(0, 0) = 0.5; }).content;
+        CHECK(again.size() == binary.size());
+        CHECK(read_text("a.ply", again).mesh.vertices(0, 0) == 0.5);
+        CHECK(contains(complaint_about("a.ply", binary.substr(0, binary.size() - 1)), "cut off"));
+    }
+    // No number of a vertex, and not taken for a small one.
+    CHECK(contains(ply_complaint(text_ply(lists, rows + "3 0 1 4294967296\n3 0 1 2\n")), "names vertex 4294967296"));
+}
+
+TEST_CASE("PLY and OFF: lines may break anywhere, and stay as they are")
+{
+    const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
+    const PolygonMesh expected = read_text("a.ply", text_ply(faces, five_vertices + "3 0 1 2\n4 2 1 3 4\n")).mesh;
+    const std::string data = "0 0 0 1 0\n0 0 1 0\n\n1 1 0 0 2 0 3 0 1 2 4\n2 1\n3\n4\n";
+    for (const auto& [name, content] :
+         {std::pair{"a.ply", text_ply(faces, data)}, {"a.off", "OFF\n5\n2 0\n" + data},
+          {"b.off", "NOFF 5 2 0 0 0 0 9 9 9 1 0 0 9 9 9 0 1 0 9 9\n9 1 1 0 9 9 9 0 2 0 9 9 9 3 0 1 2 4 2 1 3 4"},
+          {"c.off", "STOFF 5 2 0 0 0 0 9 9 1 0 0 9 9 0 1 0 9 9\n1 1 0 9 9 0 2 0 9 9 3 0 1 2 4 2 1 3 4"}}) {
+        CAPTURE(name);
+        CHECK(identical(read_text(name, content).mesh, expected));
+        CHECK(rewritten(name, content, stay_put).content == content);
+        const std::string moved = rewritten(name, content, [](Points& points) { points.row(4) << 0, 3.5, 7; }).content;
+        PolygonMesh of_moved = expected;
+        of_moved.vertices.row(4) << 0, 3.5, 7;
+        CHECK(identical(read_text(name, moved).mesh, of_moved));
+    }
+    // What is missing is told of by its line.
+    CHECK(contains(ply_complaint(text_ply(faces, data.substr(0, data.size() - 2))), "a.ply:"));
+    CHECK(!complaint_about("a.off", "OFF\n5 2 0\n" + data.substr(0, data.size() - 2)).empty());
+    // With colours, or with what follows the corners, nobody knows what is what.
+    CHECK(!complaint_about("a.off", "COFF\n5 2 0\n" + data).empty());
+    CHECK(!complaint_about("a.off", "OFF\n5 2 0\n" + data + "255 0 0\n").empty());
 }
