@@ -84,6 +84,16 @@ bool has_few_sub_meshes(const MeshSize& size, const FlowOptions& options)
     return options.cut.subdomains > 0 ? options.cut.subdomains <= 2 : size.vertices < 3 * needs_of_sweeps.vertices;
 }
 
+/// Whether a face has a tenth of the vertices of a sub-mesh or more, all of which are coupled where two rings are.
+bool has_long_faces(const PolygonMesh& mesh)
+{
+    const Index most = needs_of_unsymmetric_sweeps.vertices / 10;
+    for (Index f = 0; f < mesh.n_faces(); ++f)
+        if (mesh.face_offsets[f + 1] - mesh.face_offsets[f] >= most)
+            return true;
+    return false;
+}
+
 bool has_polygons(const PolygonMesh& mesh)
 {
     return mesh.n_corners() != 3 * mesh.n_faces();
@@ -104,8 +114,12 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {};
     if (boundary_moves && !speaks_of_sweeps(options) && (options.cut.subdomains != 1 || !options.cut.labels.empty()))
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
-    if (speaks_of_sweeps(options) || !is_symmetric(options.laplacian) || has_few_sub_meshes(size, options) ||
-        mesh.n_faces() == 0)
+    if (speaks_of_sweeps(options) || mesh.n_faces() == 0)
+        return {};
+    if (traits_of(options.laplacian).reach == Reach::TwoRings && has_long_faces(mesh) &&
+        options.cut.subdomains != 1)
+        return {loose_tolerance, "faces of so many sides reach from one sub-mesh into others"};
+    if (!is_symmetric(options.laplacian) || has_few_sub_meshes(size, options))
         return {};
     if (options.accuracy.approach == Approach::Automatic && !is_plain_flow(options) && !speaks_of_sub_meshes(options))
         return {loose_tolerance, "single sweeps would leave more"};

@@ -1,9 +1,12 @@
+#include <string>
 #include <thread>
 
 #include <doctest/doctest.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "engine/mean_curvature_flow.h"
+#include "engine/tasks/workers.h"
+#include "partition/errors.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 

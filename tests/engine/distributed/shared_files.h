@@ -15,6 +15,10 @@
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/ranks/thread_communicator.h"
+#include "partition/formats/off.h"
+#include "partition/formats/off_header.h"
+#include "partition/formats/ply_source.h"
+#include "partition/io/slices.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 
@@ -164,6 +168,27 @@ inline void check_fault_as_on_one_machine(const std::filesystem::path& file, con
     CHECK(!std::filesystem::exists(result));
 }
 
+/// Whether one machine reads a text file whose lines are no more than blanks, which slices cannot be.
+inline bool crosses_lines(const std::filesystem::path& file)
+{
+    const std::string content = content_of(file);
+    try {
+        if (file.extension() == ".ply") {
+            TextScanner scanner(file, content, ply_syntax);
+            const PlyHeader header = read_ply_header(scanner);
+            return header.encoding == Encoding::Ascii && breaks_lines_freely(scanner, header);
+        }
+        if (file.extension() != ".off" || start_of_binary_off(content))
+            return false;
+        TextScanner scanner(file, content);
+        const OffHeader header = read_off_header(scanner);
+        const std::string_view rest = scanner.rest();
+        return count_lines(scanner, {&rest, 1}, run_serially).back() != header.n_lines();
+    } catch (const InputError&) {
+        return true;
+    }
+}
+
 /// Checks that ranks do with a file in slices what one machine does, whether it has a fault or none.
 /// @returns whether it has.
 inline bool check_content_as_on_one_machine(const std::filesystem::path& file, const std::string& content)
@@ -174,6 +199,8 @@ inline bool check_content_as_on_one_machine(const std::filesystem::path& file, c
     const bool is_faulty = !pass_through_alone(file, result).fault.empty();
     if (is_faulty)
         check_fault_as_on_one_machine(file, content);
+    else if (crosses_lines(file))
+        CHECK(!pass_through(file, result, 3, sliced).fault.empty());
     else
         check_as_on_one_machine(file, result, sliced, 0);
     std::filesystem::remove(result);

@@ -1,5 +1,8 @@
+#include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -259,4 +262,39 @@ TEST_CASE("what was chosen for few steps stays for more")
     FlowOptions undecomposed = options;
     undecomposed.accuracy.approach = Approach::Undecomposed;
     CHECK(test::same_bits(resumed.vertices, test::flowed(mesh, undecomposed)));
+}
+
+TEST_CASE("on faces of many sides the Laplacian of two rings takes the undecomposed step, not a sweep")
+{
+    for (const Index sides : {100, 400}) {
+        CAPTURE(sides);
+        PolygonMesh prism;
+        prism.vertices.resize(6 * sides, 3);
+        for (Index ring = 0; ring < 6; ++ring)
+            for (Index i = 0; i < sides; ++i) {
+                const double angle = 2.0 * std::numbers::pi * i / sides;
+                prism.vertices.row(ring * sides + i) << std::cos(angle), std::sin(angle), 0.2 * ring;
+            }
+        std::vector<Index> bottom;
+        std::vector<Index> top;
+        for (Index i = 0; i < sides; ++i) {
+            bottom.push_back(sides - 1 - i);
+            top.push_back(5 * sides + i);
+            for (Index ring = 0; ring < 5; ++ring)
+                prism.add_face(std::array{ring * sides + i, ring * sides + (i + 1) % sides,
+                                          (ring + 1) * sides + (i + 1) % sides, (ring + 1) * sides + i});
+        }
+        prism.add_face(bottom);
+        prism.add_face(top);
+        FlowOptions options;
+        options.laplacian = Laplacian::PtackovaVelho;
+        options.time_step = 1e-4;
+        options.report.reference = true;
+        PolygonMesh mesh = prism;
+        const FlowReport report = mean_curvature_flow(mesh, options);
+        CHECK(report.convergence.approach != Approach::Sweep);
+        CHECK(report.steps.front().distance.value().max < 0.01);
+        const Points rings = mesh.vertices - prism.vertices;
+        CHECK(rings.rowwise().norm().maxCoeff() < 0.01);
+    }
 }
