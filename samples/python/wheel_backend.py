@@ -33,31 +33,48 @@ def run(*command):
     subprocess.run([str(word) for word in command], check=True)
 
 
-def build_package(target):
-    """Builds in build-wheel-…/, so that the next time takes less."""
-    build = ROOT / f"build-wheel-{sys.implementation.cache_tag}"
-    generator = ["-G", "Ninja"] if not (build / "CMakeCache.txt").exists() else []
-    run("cmake", "-S", ROOT, "-B", build, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF",
-        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12", "-DSEAMFLOW_BUILD_TESTS=OFF",
+def build_package(build, target):
+    run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF",
+        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=40", "-DSEAMFLOW_BUILD_TESTS=OFF",
         "-DSEAMFLOW_PAGE=OFF", "-DSEAMFLOW_PYTHON=REQUIRED", "-DSEAMFLOW_PYTHON_DIR=.",
         f"-DPython_EXECUTABLE={sys.executable}")
     run("cmake", "--build", build, "--target", "seamflow_python")
     run("cmake", "--install", build, "--component", "python", "--prefix", target)
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+def describe():
+    """The tag of the wheel, the name of the folder of its metadata, and the files in there."""
     version = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
     tag = f"{python}-{python}-{platform}"
-    name = f"seamflow-{version}-{tag}.whl"
-    info = f"seamflow-{version}.dist-info"
+    return tag, f"seamflow-{version}.dist-info", {
+        "METADATA": METADATA.format(version=version).encode(),
+        "WHEEL": WHEEL.format(tag=tag).encode(),
+    }
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Nothing needs to be built for that."""
+    _, info, files = describe()
+    folder = pathlib.Path(metadata_directory) / info
+    folder.mkdir()
+    for name, content in files.items():
+        (folder / name).write_bytes(content)
+    return info
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """Builds outside the tree."""
+    tag, info, metadata = describe()
+    name = f"{info.removesuffix('.dist-info')}-{tag}.whl"
     with tempfile.TemporaryDirectory() as folder:
-        build_package(folder)
-        paths = sorted(path for path in pathlib.Path(folder).rglob("*") if path.is_file())
-        files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
-    files[f"{info}/METADATA"] = METADATA.format(version=version).encode()
-    files[f"{info}/WHEEL"] = WHEEL.format(tag=tag).encode()
+        package = pathlib.Path(folder) / "package"
+        build_package(pathlib.Path(folder) / "build", package)
+        paths = sorted(path for path in package.rglob("*") if path.is_file())
+        files = {path.relative_to(package).as_posix(): path.read_bytes() for path in paths}
+    for of_metadata, content in metadata.items():
+        files[f"{info}/{of_metadata}"] = content
     record = []
     for path, content in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()

@@ -1,5 +1,7 @@
 """The Python package, beside the programs: python3 python_test.py SMOOTH GENERATE, with the package on PYTHONPATH."""
 
+import inspect
+import json
 import os
 import pathlib
 import signal
@@ -72,7 +74,7 @@ class SameBits(WithFolder):
                 smoothed, report = seamflow.smooth(V, np.array(F), **keywords)
                 np.testing.assert_array_equal(smoothed, self.smooth_file(*words))
                 self.assertEqual(report["vertices"], len(V))
-                self.assertEqual(report["labels"].max() + 1, report["subdomains"])
+                self.assertEqual(max(report["labels"]) + 1, report["subdomains"])
 
     def test_polygons_and_arrays(self):
         V, F = self.generate("mixed", "--vertices", "1500")
@@ -85,7 +87,7 @@ class SameBits(WithFolder):
         for name, lines in (("fix", numbers), ("labels", labels), ("weights", [repr(w) for w in weights.tolist()])):
             (self.folder / name).write_text("".join(f"{line}\n" for line in lines))
         fixed = self.smooth_file("--radius", "3%", "--fix", self.folder / "fix")
-        for keyword, value in (("fixed", mask), ("fixed", numbers), ("fix", mask)):
+        for keyword, value in (("fixed", mask), ("fixed", numbers), ("fix", mask), ("fixed", mask.astype(np.uint8))):
             smoothed, _ = seamflow.smooth(V, F, radius="3%", **{keyword: value})
             np.testing.assert_array_equal(smoothed, fixed)
         np.testing.assert_array_equal(fixed[mask], V[mask])
@@ -114,6 +116,22 @@ class SameBits(WithFolder):
             self.assertEqual(smoothed.dtype, np.float64)
             np.testing.assert_array_equal(smoothed, seamflow.smooth(V, F, radius="2%")[0])
         np.testing.assert_array_equal(V, before)
+        for faces in (F.astype(np.float64), F.astype(np.float32), [[float(v) for v in face] for face in F]):
+            np.testing.assert_array_equal(seamflow.smooth(V, faces, radius="2%")[0], smoothed)
+        # Few small numbers are numbers, whatever their type.
+        for numbers in (np.array([1, 0], np.uint8), np.array([2] * len(V), np.uint8)):
+            held, _ = seamflow.smooth(V, F, radius="2%", fixed=numbers)
+            np.testing.assert_array_equal(held, seamflow.smooth(V, F, radius="2%", fixed=numbers.astype(int))[0])
+
+    def test_report_and_signature(self):
+        V, F = np.array(CUBE, float), SIDES
+        _, report = seamflow.smooth(V, F, radius=0.5)
+        self.assertEqual(json.loads(json.dumps(report)), report)
+        self.assertEqual(len(report["labels"]), len(F))
+        keywords = inspect.signature(seamflow.smooth).parameters
+        for keyword in ("V", "F", "fixed", "labels", "radius", "keep_edges", "threads", "converge"):
+            self.assertIn(keyword, keywords)
+        self.assertNotIn("options", keywords)
 
     def test_mesh_objects(self):
         V, F = np.array(CUBE, float), SIDES
@@ -160,7 +178,12 @@ class WrongInput(unittest.TestCase):
             (ValueError, "--overlap is for --conditions schwarz", (V, SIDES), {"overlap": 2, "radius": 1}),
             (ValueError, "--fix holds some", (V, SIDES), {"fixed": [0], "rescale": "area", "radius": 1}),
             (ValueError, "--labels", (V, SIDES), {"labels": [0] * 6, "subdomains": 2, "radius": 1}),
-            (TypeError, "no keyword radios; there are .*labels.*radius", (V, SIDES), {"radios": 1}),
+            (TypeError, r"no keyword radios, did you mean radius\?", (V, SIDES), {"radios": 1}),
+            (TypeError, "no keyword qqqqqq; there are .*labels.*radius", (V, SIDES), {"qqqqqq": 1}),
+            (ValueError, "threads is 65537, but must be at least 0 and at most 1024", (V, SIDES), {"threads": 65537, "radius": 1}),
+            (ValueError, "F has to be whole numbers", (V, np.array(SIDES) + 0.5), {"radius": 1}),
+            (ValueError, "face 1 .* list of whole numbers", (V, [[0, 1, 2], [0.5, 1, 2]]), {"radius": 1}),
+            (ValueError, "F has to be whole numbers", (V, np.array(SIDES) * np.nan), {"radius": 1}),
             (TypeError, "no keyword fix_property", (V, SIDES), {"fix_property": "a"}),
             (TypeError, "plain is True or False", (V, SIDES), {"plain": 1}),
             (TypeError, "radius is a number or a text", (V, SIDES), {"radius": [1]}),
@@ -175,7 +198,6 @@ class WrongInput(unittest.TestCase):
             (ValueError, r"V has to be real numbers, \(#V, 3\), but is float64, \(8, 2\)", (V[:, :2], SIDES), {}),
             (ValueError, "mesh: vertex 5 .* not a finite number", (nan, SIDES), {}),
             (ValueError, "mesh: has no vertices", (np.zeros((0, 3)), []), {}),
-            (ValueError, "F has to be whole numbers, but is float64", (V, np.array(SIDES, float)), {}),
             (ValueError, "mesh: face 1 .* names vertex 8, but the mesh has 8", (V, [[0, 1, 2], [0, 8, 1]]), {}),
             (ValueError, f"mesh: face 1 .* names vertex {2**40}", (V, np.array([[0, 1, 2], [0, 1, 2**40]])), {}),
             (ValueError, "mesh: face 0 .* names vertex -1", (V, [[0, 1, -1]]), {}),

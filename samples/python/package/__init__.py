@@ -1,5 +1,7 @@
 """Smooths polygonal surface meshes by mean curvature flow: seamflow.smooth(V, F, radius="1%")."""
 
+import difflib
+import inspect
 import json
 import numbers
 import warnings
@@ -35,14 +37,14 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh that has .vertices and .faces (trimesh) or
         .points and .cells (meshio).
     F: faces, (#F, 3) or (#F, 4) and so on, with the vertices of each numbered from 0; or a list of polygons.
-    fixed: vertices that stay where they are, as a mask (#V, bool) or by their numbers.
+    fixed: vertices that stay where they are, as a mask (#V, bool or uint8) or by their numbers.
     labels: the sub-mesh of every face, (#F,), at least 0.
     edges: edges that are kept, however little they bend, by their vertices, (#E, 2); with keep_edges or preset="cad".
     attach_weights: how strongly each vertex is pulled back to where it was, (#V,), in 1/length².
     progress: called with a Progress a few times a second, in the calling thread; what it raises stops the flow.
 
     Returns the positions, in the type of V (float32, or else float64), and a dict with what `smooth --report` writes,
-    and with "labels", the sub-mesh of every face.
+    and with "labels", a list of the sub-mesh of every face. json.dumps takes it.
 
     Raises ValueError for a mesh or an option that cannot be used, TypeError for a keyword that there is not,
     RuntimeError where the computation fails, MemoryError, and KeyboardInterrupt after Ctrl-C, which stops the flow.
@@ -86,7 +88,7 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
     report = json.loads(report)
     for of_files in ("input", "output"):
         del report[of_files]
-    report["labels"] = parts
+    report["labels"] = parts.tolist()
     return positions.astype(np.float32 if V.dtype == np.float32 else np.float64, copy=False), report
 
 
@@ -97,6 +99,14 @@ def _describe_options():
     return "\n".join(lines)
 
 
+def _signature():
+    """That of smooth with all its keywords."""
+    own = [p for p in inspect.signature(smooth).parameters.values() if p.kind is not p.VAR_KEYWORD]
+    further = [inspect.Parameter(keyword, inspect.Parameter.KEYWORD_ONLY, default=None) for keyword in _OPTIONS]
+    return inspect.Signature(own + further)
+
+
+smooth.__signature__ = _signature()
 if smooth.__doc__:
     smooth.__doc__ += "\n" + _describe_options() + "\n"
 
@@ -116,6 +126,13 @@ def _of_mesh(mesh):
     return mesh.points, [face for _, data in blocks for face in data]
 
 
+def _whole(array):
+    """Floats that are whole numbers, which some libraries have in place of these; all else as it is."""
+    if array.dtype.kind == "f" and np.all(np.abs(array) < 2**53) and np.all(array == np.floor(array)):
+        return array.astype(np.int64)
+    return array
+
+
 def _faces(F):
     """The corners of all faces one after the other, and where those of each begin, and the last ends."""
     if not isinstance(F, np.ndarray) or F.ndim != 2:
@@ -123,12 +140,14 @@ def _faces(F):
         if not polygons:
             return np.zeros(0, np.int32), np.zeros(1, np.int64)
         for f, face in enumerate(polygons):
+            face = polygons[f] = _whole(face)
             if face.ndim != 1 or (face.size > 0 and face.dtype.kind not in "iu"):
                 raise ValueError(f"face {f} (numbered from 0) has to be a list of whole numbers, its vertices")
         offsets = np.zeros(len(polygons) + 1, np.int64)
         np.cumsum([len(face) for face in polygons], out=offsets[1:])
         F = np.concatenate(polygons)
     else:
+        F = _whole(F)
         if F.dtype.kind not in "iu":
             raise ValueError(f"F has to be whole numbers, but is {F.dtype}")
         offsets = np.arange(len(F) + 1, dtype=np.int64) * F.shape[1]
@@ -156,6 +175,8 @@ def _fixed(value, count):
     array = np.asarray(value)
     if array.dtype.kind == "b":
         return np.flatnonzero(_array_of("fixed", array, count, "b", "a mask or numbers of vertices"))
+    if array.dtype == np.uint8 and array.shape == (count,) and (count == 0 or array.max() <= 1):
+        return np.flatnonzero(array)
     if array.size == 0:
         return []
     if array.ndim != 1 or array.dtype.kind not in "iu":
@@ -186,7 +207,9 @@ def _words(keyword, value):
     """A keyword as on a command line; nothing where it is None or False."""
     if keyword not in _OPTIONS:
         known = sorted({*_OPTIONS, "fixed", "labels", "edges", "attach_weights", "progress"})
-        raise TypeError(f"smooth() has no keyword {keyword}; there are {', '.join(known)}")
+        nearest = difflib.get_close_matches(keyword, known, 1)
+        meant = f", did you mean {nearest[0]}?" if nearest else f"; there are {', '.join(known)}"
+        raise TypeError(f"smooth() has no keyword {keyword}{meant}")
     name, _, _, is_flag = _OPTIONS[keyword]
     if is_flag:
         if value is not None and not isinstance(value, (bool, np.bool_)):
