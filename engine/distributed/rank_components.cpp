@@ -102,9 +102,8 @@ void list(std::vector<Member> all, const RankMesh& mesh, SmallComponents& small)
     const auto& known = mesh.part.vertex_numbers;
     for (const Member& member : all) {
         const auto found = std::ranges::lower_bound(known, member.vertex);
-        small.vertices.push_back(found != known.end() && *found == member.vertex
-                                     ? static_cast<Index>(found - known.begin())
-                                     : Index{-1});
+        small.vertices.push_back(
+            found != known.end() && *found == member.vertex ? static_cast<Index>(found - known.begin()) : Index{-1});
     }
 }
 

@@ -116,8 +116,7 @@ ToleranceChoice choose_tolerance(const PolygonMesh& mesh, const MeshSize& size, 
         return {loose_tolerance, "sub-meshes that share a free boundary need it"};
     if (speaks_of_sweeps(options) || mesh.n_faces() == 0)
         return {};
-    if (traits_of(options.laplacian).reach == Reach::TwoRings && has_long_faces(mesh) &&
-        options.cut.subdomains != 1)
+    if (traits_of(options.laplacian).reach == Reach::TwoRings && has_long_faces(mesh) && options.cut.subdomains != 1)
         return {loose_tolerance, "faces of so many sides reach from one sub-mesh into others"};
     if (!is_symmetric(options.laplacian) || has_few_sub_meshes(size, options))
         return {};

@@ -41,8 +41,8 @@ class Stepper {
     /// @param image #V by 3: what the similarity makes of positions(); vertices without faces stay.
     virtual void go_on_from(const Points& image, const Similarity& similarity) = 0;
 
-    /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates and
-    /// errors stays.
+    /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
+    /// and errors stays.
     /// @param vertices those below 0 are passed over. @param to #vertices by 3.
     virtual void move(std::span<const Index> vertices, const Points& to) = 0;
 

@@ -18,8 +18,8 @@ namespace seamflow {
 
 namespace {
 
-/// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K, and
-/// what the scaling leaves out, the square of what is left of the shape, is the ten-billionth part of it.
+/// dt over the squared diagonal of a component from which on it is small: masses have eleven digits left beside dt K,
+/// and what the scaling leaves out, the square of what is left of the shape, is the ten-billionth part of it.
 constexpr double small_by_steps = 1e5;
 /// A component whose diagonal has fewer digits than this leaves of its coordinates is a point.
 constexpr double point_in_coordinates = 1e6 * std::numeric_limits<double>::epsilon();
@@ -132,8 +132,8 @@ VanishingComponents::VanishingComponents(const FlowOptions& options, const Point
     if (options.scheme == Scheme::BackwardEuler && !options.keep_edges && options.laplacian != Laplacian::Uniform)
         extent_ = std::sqrt(options.time_step / small_by_steps);
     is_attached_ = options.motion.attachment > 0.0 || !options.motion.attachment_weights.empty();
-    has_kept_lengths_ = options.flow == FlowEquation::Conformalized &&
-                        traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
+    has_kept_lengths_ =
+        options.flow == FlowEquation::Conformalized && traits_of(options.laplacian).divisor == Divisor::EdgeLengths;
     if (extent_ > 0.0 && (is_attached_ || has_kept_lengths_))
         first_ = first;
 }
@@ -180,8 +180,7 @@ VanishingComponents::Pose VanishingComponents::pose(std::span<const Index> rows,
     const double diagonal = box.diagonal().norm();
     const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
     // M goes with lengths, and K, which is kept, with those of the first surface.
-    const double wanted =
-        has_kept_lengths_ ? extent_ * (extent_ / box_of(first, rows).diagonal().norm()) : extent_;
+    const double wanted = has_kept_lengths_ ? extent_ * (extent_ / box_of(first, rows).diagonal().norm()) : extent_;
     Pose pose{.centre = mean_of(table, rows)};
     if (diagonal > point_in_coordinates * farthest) {
         pose.scale = std::max(wanted / diagonal, 1.0);

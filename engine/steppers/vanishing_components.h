@@ -39,11 +39,10 @@ bool is_smaller(const Points& positions, std::span<const Index> vertices, double
 FindSmallComponents find_small_components(const PolygonMesh& mesh, const Topology& topology);
 
 /// Takes steps of surfaces whose components differ much in size. A backward Euler step makes of a component that is
-/// small against √dt about a point: its centroid, which stays. But beside dt K its masses are then lost to rounding, and
-/// with them where it is. Such a component is scaled up about its centroid before the step, and what the
-/// step makes of it is scaled back: of all but the centroid about 1 / (dt λ) is left, where λ are the eigenvalues of
-/// M⁻¹ K, which go with the square of lengths. A component that its coordinates do not resolve any more is a point, and
-/// stays.
+/// small against √dt about a point: its centroid, which stays. But beside dt K its masses are then lost to rounding,
+/// and with them where it is. Such a component is scaled up about its centroid before the step, and what the step makes
+/// of it is scaled back: of all but the centroid about 1 / (dt λ) is left, where λ are the eigenvalues of M⁻¹ K, which
+/// go with the square of lengths. A component that its coordinates do not resolve any more is a point, and stays.
 class VanishingComponents {
   public:
     /// @param first #V by 3: what an attachment attaches to.

@@ -18,7 +18,7 @@ namespace seamflow {
 
 namespace {
 
-std::string counted(std::int64_t n, std::string_view thing)
+std::string number_of(std::int64_t n, std::string_view thing)
 {
     return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
@@ -40,7 +40,7 @@ void require_labels(const PolygonMesh& mesh, std::span<const Index> labels)
 {
     if (labels.size() != at(mesh.n_faces()))
         throw InputError(fmt::format("there are {} labels for {}: give one label for each face", labels.size(),
-                                     counted(mesh.n_faces(), "face")));
+                                     number_of(mesh.n_faces(), "face")));
     const auto negative = std::find_if(labels.begin(), labels.end(), [](Index label) { return label < 0; });
     if (negative != labels.end())
         throw InputError(fmt::format("face {} (numbered from 0) has the label {}: labels must be at least 0",
@@ -60,11 +60,12 @@ std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index
         return {};
     std::string reason = "some parts came out empty or were merged to make manifolds";
     if (n_parts > k)
-        reason = fmt::format("it has {} and a part cannot span several", counted(n_components, "connected component"));
+        reason =
+            fmt::format("it has {} and a part cannot span several", number_of(n_components, "connected component"));
     else if (sensible_parts(n_faces, k) < k)
         reason = fmt::format("its {} are too few for so many: a part should have about {} faces or more",
-                             counted(n_faces, "face"), min_faces_per_part);
-    return fmt::format("The mesh was cut into {} instead of {}, because {}.", counted(n_parts, "part"), k, reason);
+                             number_of(n_faces, "face"), min_faces_per_part);
+    return fmt::format("The mesh was cut into {} instead of {}, because {}.", number_of(n_parts, "part"), k, reason);
 }
 
 Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop, const Alongside& alongside)
@@ -111,11 +112,11 @@ std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::in
         remarks.push_back(
             fmt::format("The labels had gaps and were renumbered from 0 to {} in the same order.", n_given - 1));
     if (repaired_faces > 0)
-        remarks.push_back(counted(repaired_faces, "face") +
+        remarks.push_back(number_of(repaired_faces, "face") +
                           " had to change parts so that every part is connected and a manifold with boundary.");
     if (n_parts != n_given)
         remarks.push_back(
-            fmt::format("The labels name {}; after this there are {}.", counted(n_given, "part"), n_parts));
+            fmt::format("The labels name {}; after this there are {}.", number_of(n_given, "part"), n_parts));
     return remarks;
 }
 

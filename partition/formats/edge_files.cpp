@@ -87,7 +87,7 @@ void read_ply_edges(Source source, const PlyHeader& header, EdgeList& list)
     }
 }
 
-void read_ply(TextScanner scanner, const std::filesystem::path& path, std::string_view content, EdgeList& list)
+void read_edges_of_ply(TextScanner scanner, const std::filesystem::path& path, std::string_view content, EdgeList& list)
 {
     const PlyHeader header = read_ply_header(scanner);
     const PlyElement* const element = header.element("edge");
@@ -99,8 +99,7 @@ void read_ply(TextScanner scanner, const std::filesystem::path& path, std::strin
             throw InputError(fmt::format("{}: the edges have no whole number {}; declare vertex1 and vertex2",
                                          scanner.position_of(element->line), name));
     }
-    with_source(scanner, path, content, header,
-                [&](auto source) { read_ply_edges(std::move(source), header, list); });
+    with_source(scanner, path, content, header, [&](auto source) { read_ply_edges(std::move(source), header, list); });
 }
 
 void read_pairs(TextScanner scanner, EdgeList& list)
@@ -128,7 +127,7 @@ std::vector<Edge> read_edges(const std::filesystem::path& path, Index n_vertices
     if (format == FileFormat::Obj)
         read_obj_lines(TextScanner(path, file.content(), obj_syntax), list);
     else if (format == FileFormat::Ply)
-        read_ply(TextScanner(path, file.content(), ply_syntax), path, file.content(), list);
+        read_edges_of_ply(TextScanner(path, file.content(), ply_syntax), path, file.content(), list);
     else
         read_pairs(TextScanner(path, file.content()), list);
     std::vector<Edge> edges = list.take();

@@ -128,7 +128,8 @@ struct Format {
                      FaultLog* faults);
     /// Throws OutputError for a mesh that the format cannot hold, and says what a user should know; null: it holds all
     /// of them.
-    std::vector<std::string> (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
+    std::vector<std::string> (*require_fits)(const std::filesystem::path& path, const PolygonMesh& mesh,
+                                             Encoding encoding);
     void (*write)(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, const Slicing& slicing);
     /// See write_mesh_like.
     std::vector<std::string> (*rewrite)(OutputFile& file, const std::filesystem::path& path, std::string_view content,

@@ -106,8 +106,8 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
 /// the digits of every coordinate that is the same, bit for bit. Normals become those of the surface as it is now where
 /// they can: normals of the vertices of PLY and OFF files, and those of an OBJ file that belong to one vertex or to one
-/// face. Kind and types are those of the file: floats in a binary file mean rounding; whole numbers become doubles. Facets
-/// of STL files that become lines by that stay. The file may be written over itself.
+/// face. Kind and types are those of the file: floats in a binary file mean rounding; whole numbers become doubles.
+/// Facets of STL files that become lines by that stay. The file may be written over itself.
 /// @param mesh with as many vertices as the file and the same faces.
 /// @returns what else a user should know, in sentences: normals that could not be made new, rounding.
 /// @throws OutputError naming the file; also if the mesh does not fit the file that was read.

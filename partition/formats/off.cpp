@@ -218,9 +218,9 @@ class SlicedOff final : public SlicedText {
     void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const override
     {
         const std::string_view bytes = slices.bytes[slice];
-        rewrite_slice(Splicer(file, bytes), TextScanner(after_header(), bytes),
-                      vertices_before(slices.counts[slice], header_),
-                      vertices_before(slices.counts[slice + 1], header_), positions, first_vertex(slices), nullptr, header_);
+        rewrite_slice(
+            Splicer(file, bytes), TextScanner(after_header(), bytes), vertices_before(slices.counts[slice], header_),
+            vertices_before(slices.counts[slice + 1], header_), positions, first_vertex(slices), nullptr, header_);
     }
 
   private:

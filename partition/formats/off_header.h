@@ -10,8 +10,8 @@ namespace seamflow {
 
 /// The beginning of a text OFF file.
 struct OffHeader {
-    /// What stands before OFF: ST, C, N, each perhaps, in any order, mean texture coordinates, colours and normals of the
-    /// vertices; their numbers follow the coordinates in the order normals, colours, texture coordinates.
+    /// What stands before OFF: ST, C, N, each perhaps, in any order, mean texture coordinates, colours and normals of
+    /// the vertices; their numbers follow the coordinates in the order normals, colours, texture coordinates.
     std::string_view prefix;
     std::int64_t n_vertices = 0;
     std::int64_t n_faces = 0;

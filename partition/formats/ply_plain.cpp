@@ -98,7 +98,8 @@ std::vector<PlyRole> roles_of(const PlyElement& element)
                    : property.name == "y" ? PlyRole::Y
                    : property.name == "z" ? PlyRole::Z
                                           : PlyRole::Other;
-        else if ((element.name == "face" || element.name == "tristrips") && (property.name == "vertex_indices" || property.name == "vertex_index"))
+        else if ((element.name == "face" || element.name == "tristrips") &&
+                 (property.name == "vertex_indices" || property.name == "vertex_index"))
             role = PlyRole::Corners;
         roles.push_back(role);
     }

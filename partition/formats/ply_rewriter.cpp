@@ -33,7 +33,8 @@ bool can_hold(PlyType type, const auto& numbers)
     return with_type(type, [&numbers](auto zero) {
         using Limits = std::numeric_limits<decltype(zero)>;
         return std::all_of(numbers.begin(), numbers.end(), [](double number) {
-            const bool in_range = number >= static_cast<double>(Limits::lowest()) && number <= static_cast<double>(Limits::max());
+            const bool in_range =
+                number >= static_cast<double>(Limits::lowest()) && number <= static_cast<double>(Limits::max());
             return in_range && (!Limits::is_integer || std::trunc(number) == number);
         });
     });

@@ -24,8 +24,8 @@ namespace seamflow {
 /// Reads STL, as binary if the size of the file is the one that the count of facets in a binary file calls for,
 /// whatever it begins with; as text, if it begins with the word `solid` and holds no byte 0 early on; else as binary.
 /// Corners with equal coordinates become one vertex, numbered in order of appearance; normals, names and attributes are
-/// passed over (see StlForm), and several solids become one mesh. After the facets of a binary file only padding (zeros, blanks, line
-/// ends) is accepted.
+/// passed over (see StlForm), and several solids become one mesh. After the facets of a binary file only padding
+/// (zeros, blanks, line ends) is accepted.
 /// @param path for messages only. @param faults where to note them instead of throwing, if not null.
 /// @throws InputError naming line, or facet and byte; also for a facet of which two corners coincide.
 MeshFile read_stl(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
@@ -121,13 +121,13 @@ bool is_text_stl(std::string_view file);
 bool is_stl(std::string_view file);
 
 /// Checks that STL can hold the mesh: triangles only, no vertex without faces, and for the binary encoding all
-/// coordinates within single precision. Facets of which corners come to the same place are written, too: they are lines,
-/// which readers pass over.
-/// Vertices that coincide without having a face in common are one vertex when the file is read again: STL has points
-/// only, and no numbers for them.
+/// coordinates within single precision. Facets of which corners come to the same place are written, too: they are
+/// lines, which readers pass over. Vertices that coincide without having a face in common are one vertex when the file
+/// is read again: STL has points only, and no numbers for them.
 /// @returns a remark on these.
 /// @throws OutputError naming the face or vertex, and the remedy.
-std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh, Encoding encoding);
+std::vector<std::string> require_fits_stl(const std::filesystem::path& path, const PolygonMesh& mesh,
+                                          Encoding encoding);
 
 /// The corners of a facet.
 using StlFacet = std::array<Point, 3>;

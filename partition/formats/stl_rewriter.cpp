@@ -216,7 +216,8 @@ std::vector<std::string> extras_of_stl(const std::filesystem::path& path, std::s
             extras.emplace_back("names of solids");
         return extras;
     }
-    if (form.begin().find("COLOR=") != std::string_view::npos || form.begin().find("MATERIAL=") != std::string_view::npos)
+    if (form.begin().find("COLOR=") != std::string_view::npos ||
+        form.begin().find("MATERIAL=") != std::string_view::npos)
         extras.emplace_back("colours of the header");
     const std::string_view facets = form.facets();
     for (std::size_t end = stl_facet_bytes; end <= facets.size(); end += stl_facet_bytes)

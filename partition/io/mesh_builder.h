@@ -53,7 +53,8 @@ class MeshBuilder {
     /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
     /// with.
     /// Corners that repeat the one before them count once.
-    /// @throws InputError for less than three corners and for a vertex named twice otherwise, unless such faces are left out (see
+    /// @throws InputError for less than three corners and for a vertex named twice otherwise, unless such faces are
+    /// left out (see
     ///         InputPosition::harmless_fault), and for more than 2^31 - 1 corners in
     ///         all.
     void add_face(std::span<const Index> corners);

@@ -1,13 +1,16 @@
 #include "samples/common/command_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/io/input_position.h"
 #include "partition/version.h"
 #include "samples/common/command_help.h"
 
@@ -116,6 +119,48 @@ auto integer_from(int least)
     };
 }
 
+/// How many letters have to be put in, left out or exchanged to make one word of the other (Levenshtein, 1966).
+std::size_t edits_between(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t k = 0; k < b.size(); ++k) {
+            const std::size_t exchanged = diagonal + (a[i] == b[k] ? 0 : 1);
+            diagonal = row[k + 1];
+            row[k + 1] = std::min({row[k] + 1, row[k + 1] + 1, exchanged});
+        }
+    }
+    return row.back();
+}
+
+/// About the first argument that the program does not know; empty if there is none.
+std::string complaint_of_surplus(const CLI::App& app)
+{
+    const std::vector<std::string> left = app.remaining();
+    const auto option = std::ranges::find_if(left, [](const std::string& word) { return word.starts_with("--"); });
+    if (left.empty())
+        return {};
+    if (option == left.end())
+        return in_quotes(left.front()) + " is one argument too many";
+    const std::string name = option->substr(0, option->find('='));
+    std::string nearest;
+    std::size_t fewest = std::max<std::size_t>(name.size() / 3, 2);
+    std::vector<const CLI::Option*> all = app.get_options();
+    for (const CLI::App* const group : app.get_subcommands({})) {
+        const auto more = group->get_options();
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    for (const CLI::Option* const known : all)
+        for (const std::string& word : known->get_lnames())
+            if (const std::size_t edits = edits_between(name, "--" + word); edits <= fewest) {
+                fewest = edits - (edits > 0 ? 1 : 0);
+                nearest = "--" + word;
+            }
+    return fmt::format("there is no option {}{}", name, nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
 }  // namespace
 
 CLI::Option* add_integer(CLI::App& app, const std::string& names, int& target, int least,
@@ -153,7 +198,12 @@ std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** arg
         app.parse(argc, argv);
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? ExitStatus::Success : ExitStatus::WrongUsage;
+        if (error.get_exit_code() == 0)
+            return app.exit(error) == 0 ? ExitStatus::Success : ExitStatus::WrongUsage;
+        const std::string surplus = complaint_of_surplus(app);
+        std::cerr << app.get_name() << ": " << (surplus.empty() ? error.what() : surplus)
+                  << " (--help lists all options)\n";
+        return ExitStatus::WrongUsage;
     }
 }
 

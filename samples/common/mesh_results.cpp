@@ -48,8 +48,8 @@ void require_faces(const std::filesystem::path& path, std::int64_t n_faces, cons
     const std::string reason =
         left_out.messages.empty()
             ? "vertices alone are no surface; export the mesh with its faces"
-            : fmt::format("{} cannot be used (the first: {})",
-                          counted(left_out.faces_left_out.size(), "face", "faces"), left_out.messages.front());
+            : fmt::format("{} cannot be used (the first: {})", counted(left_out.faces_left_out.size(), "face", "faces"),
+                          left_out.messages.front());
     throw InputError(fmt::format("{}: has no faces: {}", path.string(), reason));
 }
 

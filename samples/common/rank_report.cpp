@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/options/option_names.h"
+#include "partition/io/input_position.h"
 #include "samples/common/smoothing_request.h"
 
 namespace seamflow {
@@ -14,11 +15,6 @@ namespace seamflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string counted_as(std::int64_t n, const char* one, const char* several)
-{
-    return fmt::format("{} {}", n, n == 1 ? one : several);
-}
 
 double seconds_of_steps(const RankReport& report)
 {
@@ -93,11 +89,11 @@ void print_distributed_result(std::ostream& out, const DistributedRecord& record
     for (std::size_t i = 0; i < record.choices.size(); ++i)
         out << (i == 0 ? "chosen     " : " ") << record.choices[i] << (i + 1 == record.choices.size() ? "\n" : "");
     out << fmt::format("cut        {} in {}, {}; {} of {} vertices{}\n",
-                       counted_as(report.sub_meshes, "sub-mesh", "sub-meshes"),
-                       counted_as(report.colours, "colour", "colours"),
-                       counted_as(report.interface_vertices, "interface vertex", "interface vertices"),
-                       counted_as(static_cast<std::int64_t>(record.ranks.size()), "rank", "ranks"),
-                       range_of(record.ranks, &RankRecord::vertices), record.ranks.size() == 1 ? "" : " each");
+                       counted(report.sub_meshes, "sub-mesh", "sub-meshes"),
+                       counted(report.colours, "colour", "colours"),
+                       counted(report.interface_vertices, "interface vertex", "interface vertices"),
+                       counted(record.ranks.size(), "rank", "ranks"), range_of(record.ranks, &RankRecord::vertices),
+                       record.ranks.size() == 1 ? "" : " each");
     const auto largest = std::ranges::max(record.ranks, {}, &RankRecord::peak_memory_bytes).peak_memory_bytes;
     out << fmt::format(
         "time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; threads of a rank: {}, MB at "

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "partition/io/input_position.h"
 #include "samples/common/peak_memory.h"
 #include "samples/common/smoothing_request.h"
 
@@ -18,11 +19,6 @@ namespace {
 std::string digits(double value, int significant = 6)
 {
     return fmt::format("{:.{}g}", value, significant);
-}
-
-std::string counted(std::int64_t count, const std::string& singular, const std::string& plural)
-{
-    return fmt::format("{} {}", count, count == 1 ? singular : plural);
 }
 
 void print_cut(std::ostream& out, const FlowReport& report)
@@ -202,7 +198,7 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
     const LengthStatistics& moved = run.surface.moved;
     if (before.self_intersections && after.self_intersections)
         out << fmt::format("crossing   {} of faces -> {}\n",
-                           counted(static_cast<std::int64_t>(*before.self_intersections), "pair", "pairs"),
+                           counted(static_cast<std::uint64_t>(*before.self_intersections), "pair", "pairs"),
                            *after.self_intersections);
     const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
     out << fmt::format(

@@ -9,7 +9,7 @@ namespace seamflow {
 
 namespace {
 
-Index place_in(std::span<const Index> columns, Index v)
+Index column_of(std::span<const Index> columns, Index v)
 {
     return static_cast<Index>(std::lower_bound(columns.begin(), columns.end(), v) - columns.begin());
 }
@@ -48,10 +48,10 @@ DerivativeStencils make_derivative_stencils(const SubMesh& sub_mesh)
         sort_unique(columns);
         for (const Index f : interface.own_faces[i])
             for (const Index v : sub_mesh.face_vertices[f])
-                stencils.corner_places.values.push_back(place_in(columns, v));
-        stencils.centre.push_back(place_in(columns, interface.vertices[i]));
-        stencils.before.push_back(place_in(columns, interface.before[i]));
-        stencils.after.push_back(place_in(columns, interface.after[i]));
+                stencils.corner_places.values.push_back(column_of(columns, v));
+        stencils.centre.push_back(column_of(columns, interface.vertices[i]));
+        stencils.before.push_back(column_of(columns, interface.before[i]));
+        stencils.after.push_back(column_of(columns, interface.after[i]));
         stencils.columns.values.insert(stencils.columns.values.end(), columns.begin(), columns.end());
         stencils.columns.close();
         stencils.corner_places.close();

@@ -224,8 +224,9 @@ TEST_CASE("what a shell puts through a pipe is recognised by its content, and a 
 {
     const Workshop w;
     REQUIRE(w.smooth("mesh.obj alone.obj --radius 2%") == 0);
-    for (const std::string command : {" /dev/stdin piped.obj --radius 2% < mesh.obj", " /dev/fd/0 piped.obj --radius 2% < mesh.obj",
-                                      " - piped.obj --radius 2% < mesh.obj"}) {
+    for (const std::string command :
+         {" /dev/stdin piped.obj --radius 2% < mesh.obj", " /dev/fd/0 piped.obj --radius 2% < mesh.obj",
+          " - piped.obj --radius 2% < mesh.obj"}) {
         CAPTURE(command);
         std::filesystem::remove(w.directory / "piped.obj");
         CHECK(w.run(SMOOTH + command) == 0);

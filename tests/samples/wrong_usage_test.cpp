@@ -1,6 +1,7 @@
 // Command lines that mean nothing.
 
 #include <string>
+#include <utility>
 
 #include "tests/samples/workshop.h"
 
@@ -137,5 +138,24 @@ TEST_CASE("smooth is refused as one of several processes of a launcher, which on
         CHECK_FALSE(w.has("out.obj"));
         CHECK(w.run(as_process("0", "1")) == 0);
         CHECK(w.run("rm out.obj") == 0);
+    }
+}
+
+TEST_CASE("usage errors begin with the name of the program, and an option mistyped is answered with the nearest one")
+{
+    const Workshop w;
+    for (const auto& [arguments, sentence] :
+         {std::pair{"mesh.obj out.obj --radus 1%", "smooth: there is no option --radus; did you mean --radius?"},
+          {"mesh.obj out.obj --approch=cg --radius 1%",
+           "smooth: there is no option --approch; did you mean --approach?"},
+          {"mesh.obj out.obj --keep-edge 3", "smooth: there is no option --keep-edge; did you mean --keep-edges?"},
+          {"mesh.obj out.obj --qwertyuiop", "smooth: there is no option --qwertyuiop (--help"},
+          {"mesh.obj out.obj more.obj --radius 1%", "smooth: 'more.obj' is one argument too many"},
+          {"mesh.obj --radius 1%", "smooth: OUTPUT is required"},
+          {"mesh.obj out.obj --steps 1.5 --radius 1%", "smooth: --steps: "}}) {
+        CAPTURE(arguments);
+        CHECK(w.smooth(arguments) == 2);
+        CHECK(w.said().starts_with(sentence));
+        CHECK(!w.has("out.obj"));
     }
 }

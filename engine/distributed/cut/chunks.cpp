@@ -172,10 +172,10 @@ void find_shared_vertices(Conversation& talk, const SliceBounds& bounds, std::ve
 }
 
 /// The ends of an edge in the whole mesh.
-struct VertexPair {
+struct EdgeEnds {
     Number low;
     Number high;
-    friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
+    friend auto operator<=>(const EdgeEnds&, const EdgeEnds&) = default;
 };
 
 /// The half-edges of a chunk whose ends are both shared.
@@ -188,7 +188,7 @@ std::vector<Index> halfedges_at_others(const Chunk& chunk)
     });
 }
 
-VertexPair edge_of(const Chunk& chunk, Index h)
+EdgeEnds edge_of(const Chunk& chunk, Index h)
 {
     const PolygonMesh& mesh = chunk.part.mesh;
     const Number one = chunk.part.vertex_numbers[mesh.face_vertices[h]];
@@ -199,13 +199,12 @@ VertexPair edge_of(const Chunk& chunk, Index h)
 /// Finds the edges to other chunks, and leaves no twins at edges that have a third face there.
 void match_edges(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks)
 {
-    std::vector<VertexPair> edges;
+    std::vector<EdgeEnds> edges;
     for (const Chunk& chunk : chunks)
         for (const Index h : halfedges_at_others(chunk))
             edges.push_back(edge_of(chunk, h));
     const std::vector<std::uint8_t> n_faces = ask_homes(
-        talk, edges, [&](const VertexPair& edge) { return stretch_of(bounds.vertices, edge.low); },
-        counts_of<VertexPair>);
+        talk, edges, [&](const EdgeEnds& edge) { return stretch_of(bounds.vertices, edge.low); }, counts_of<EdgeEnds>);
     auto next = n_faces.begin();
     for (Chunk& chunk : chunks)
         for (const Index h : halfedges_at_others(chunk)) {

@@ -65,8 +65,8 @@ class SlicedStlFile final : public SharedMeshFile {
         slice.vertices = vertices;
         const SliceBounds bounds = gather_bounds(talk, slice);
         if (encoding_ != Encoding::Ascii)
-            check_together(
-                talk, [&] { require_floats(path, vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
+            check_together(talk,
+                           [&] { require_floats(path, vertices, static_cast<Index>(bounds.vertices[talk.rank()])); });
         const CornerPositions positions(talk, slice, bounds);
         const StlForm form(file_.path(), input.content());
         constexpr std::size_t piece_bytes = std::size_t{1} << 18;

@@ -411,8 +411,9 @@ TEST_CASE("a failure on one rank ends all with one message")
 TEST_CASE("ranks find the bits of one machine: components that vanish, in one sub-mesh or several")
 {
     for (const double size : {1e-6, 1e-12}) {
-        PolygonMesh mesh = test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 300), test::ball(size, {3.0, 0.0, 0.0}, 100),
-                                               test::ball(2.0 * size, {-2.0, 1.0, 0.0}, 120)});
+        PolygonMesh mesh =
+            test::together({test::ball(1.0, {0.0, 0.0, 0.0}, 300), test::ball(size, {3.0, 0.0, 0.0}, 100),
+                            test::ball(2.0 * size, {-2.0, 1.0, 0.0}, 120)});
         Example example{"small", mesh, by_sweeps(Laplacian::Fujiwara, 0.002)};
         check_bits(example, 6, some_numbers_of_ranks);
         // Through the small ones, too.

@@ -62,8 +62,7 @@ TEST_CASE("components a million times smaller stay where they are, whatever the 
     const PolygonMesh large = ball(1.0, {0.0, 0.0, 0.0}, n);
     for (const double size : {1e-5, 1e-6, 1e-9, 1e-12}) {
         const std::vector<Point> centres{{3.0, 0.0, 0.0}, {-2.0, 5.0, 1.0}};
-        const PolygonMesh both =
-            together({large, ball(size, centres.front(), 100), ball(size, centres.back(), 100)});
+        const PolygonMesh both = together({large, ball(size, centres.front(), 100), ball(size, centres.back(), 100)});
         const Index n_large = large.n_vertices();
         const Index n_small = (both.n_vertices() - n_large) / 2;
         const Points begun = both.vertices;

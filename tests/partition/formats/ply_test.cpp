@@ -413,8 +413,9 @@ TEST_CASE("PLY: whole numbers of 64 bits")
     CHECK(expected.n_faces() == 2);
     CHECK(rewritten("a.ply", content, move_second).content == with(content, "1 0 0 1", "2 0.1 0 1"));
     for (const std::endian order : {std::endian::little, std::endian::big}) {
-        std::string binary = with(content.substr(0, content.find("0 0 0 -9")), "format ascii",
-                                  order == std::endian::little ? "format binary_little_endian" : "format binary_big_endian");
+        std::string binary =
+            with(content.substr(0, content.find("0 0 0 -9")), "format ascii",
+                 order == std::endian::little ? "format binary_little_endian" : "format binary_big_endian");
         const auto append = [&](auto value) {
             const auto bytes = to_bytes(value, order);
             binary.append(bytes.begin(), bytes.end());
@@ -445,7 +446,8 @@ TEST_CASE("PLY and OFF: lines may break anywhere, and stay as they are")
     const PolygonMesh expected = read_text("a.ply", text_ply(faces, five_vertices + "3 0 1 2\n4 2 1 3 4\n")).mesh;
     const std::string data = "0 0 0 1 0\n0 0 1 0\n\n1 1 0 0 2 0 3 0 1 2 4\n2 1\n3\n4\n";
     for (const auto& [name, content] :
-         {std::pair{"a.ply", text_ply(faces, data)}, {"a.off", "OFF\n5\n2 0\n" + data},
+         {std::pair{"a.ply", text_ply(faces, data)},
+          {"a.off", "OFF\n5\n2 0\n" + data},
           {"b.off", "NOFF 5 2 0 0 0 0 9 9 9 1 0 0 9 9 9 0 1 0 9 9\n9 1 1 0 9 9 9 0 2 0 9 9 9 3 0 1 2 4 2 1 3 4"},
           {"c.off", "STOFF 5 2 0 0 0 0 9 9 1 0 0 9 9 0 1 0 9 9\n1 1 0 9 9 0 2 0 9 9 3 0 1 2 4 2 1 3 4"}}) {
         CAPTURE(name);

@@ -226,8 +226,8 @@ TEST_CASE("STL: names, colours, digits and facets that are lines stay when posit
         read.mesh.vertices(5, 2) = -1.0;
         CHECK(write_mesh_like(*read.source, folder / "b.stl", read.mesh).empty());
         const std::string triangle = "facet normal 0 0 0" + end + "outer loop" + end + "vertex 1.50 0 0";
-        CHECK(content_of(folder / "b.stl") ==
-              with(with(text, triangle, with(triangle, "normal 0 0 0", "normal 0 1 0")), "vertex 1 1 0", "vertex 1 0 -1"));
+        CHECK(content_of(folder / "b.stl") == with(with(text, triangle, with(triangle, "normal 0 0 0", "normal 0 1 0")),
+                                                   "vertex 1 1 0", "vertex 1 0 -1"));
         CHECK(extras_of(*read.source) == std::vector<std::string>{"names of solids"});
         // One that becomes a line is told of.
         read.mesh.vertices.row(5) = read.mesh.vertices.row(4);

@@ -128,8 +128,9 @@ TEST_CASE("corners that repeat the one before them count once, in all formats, a
 {
     const test::TemporaryDirectory directory;
     const std::string rows = "1 0 0\n0 1 0\n0 0 1\n";
-    const PolygonMesh expected = test::make_mesh(test::read_text("v.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n").mesh.vertices,
-                                                 {{0, 1, 2}, {1, 2, 3}, {0, 3, 2, 1}, {0, 1, 3}});
+    const PolygonMesh expected =
+        test::make_mesh(test::read_text("v.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n").mesh.vertices,
+                        {{0, 1, 2}, {1, 2, 3}, {0, 3, 2, 1}, {0, 1, 3}});
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 9 0 0\nvn 0 0 1\nvn 1 0 0\n"
                             "f 1//1 2//1 3//1 3//2\nf 2 3 3 4 4 2 2\nf 1 4 3 2 -4\nf 1//3 1//2 2//3 4//3\n";
     const std::string faces = "4 0 1 2 2\n7 1 2 2 3 3 1 1\n5 0 3 2 1 0\n4 0 0 1 3\n";
