@@ -90,8 +90,9 @@ void list(std::vector<Member> all, const RankMesh& mesh, SmallComponents& small)
     std::ranges::sort(all, [](const Member& a, const Member& b) {
         return a.vertex != b.vertex ? a.vertex < b.vertex : a.component < b.component;
     });
-    const auto repeated = std::ranges::unique(all, {}, &Member::vertex);
-    all.erase(repeated.begin(), repeated.end());
+    all.erase(
+        std::unique(all.begin(), all.end(), [](const Member& a, const Member& b) { return a.vertex == b.vertex; }),
+        all.end());
     std::unordered_map<std::int64_t, Index> place;
     for (const Member& member : all)
         place.emplace(member.component, static_cast<Index>(place.size()));

@@ -144,7 +144,7 @@ TEST_CASE("smooth is refused as one of several processes of a launcher, which on
 TEST_CASE("usage errors begin with the name of the program, and an option mistyped is answered with the nearest one")
 {
     const Workshop w;
-    for (const auto& [arguments, sentence] :
+    for (const auto& example :
          {std::pair{"mesh.obj out.obj --radus 1%", "smooth: there is no option --radus; did you mean --radius?"},
           {"mesh.obj out.obj --approch=cg --radius 1%",
            "smooth: there is no option --approch; did you mean --approach?"},
@@ -153,6 +153,8 @@ TEST_CASE("usage errors begin with the name of the program, and an option mistyp
           {"mesh.obj out.obj more.obj --radius 1%", "smooth: 'more.obj' is one argument too many"},
           {"mesh.obj --radius 1%", "smooth: OUTPUT is required"},
           {"mesh.obj out.obj --steps 1.5 --radius 1%", "smooth: --steps: "}}) {
+        const auto& arguments = example.first;
+        const auto& sentence = example.second;
         CAPTURE(arguments);
         CHECK(w.smooth(arguments) == 2);
         CHECK(w.said().starts_with(sentence));

@@ -445,11 +445,13 @@ TEST_CASE("PLY and OFF: lines may break anywhere, and stay as they are")
     const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
     const PolygonMesh expected = read_text("a.ply", text_ply(faces, five_vertices + "3 0 1 2\n4 2 1 3 4\n")).mesh;
     const std::string data = "0 0 0 1 0\n0 0 1 0\n\n1 1 0 0 2 0 3 0 1 2 4\n2 1\n3\n4\n";
-    for (const auto& [name, content] :
+    for (const auto& example :
          {std::pair{"a.ply", text_ply(faces, data)},
           {"a.off", "OFF\n5\n2 0\n" + data},
           {"b.off", "NOFF 5 2 0 0 0 0 9 9 9 1 0 0 9 9 9 0 1 0 9 9\n9 1 1 0 9 9 9 0 2 0 9 9 9 3 0 1 2 4 2 1 3 4"},
           {"c.off", "STOFF 5 2 0 0 0 0 9 9 1 0 0 9 9 0 1 0 9 9\n1 1 0 9 9 0 2 0 9 9 3 0 1 2 4 2 1 3 4"}}) {
+        const auto& name = example.first;
+        const auto& content = example.second;
         CAPTURE(name);
         CHECK(identical(read_text(name, content).mesh, expected));
         CHECK(rewritten(name, content, stay_put).content == content);

@@ -136,9 +136,11 @@ TEST_CASE("corners that repeat the one before them count once, in all formats, a
     const std::string faces = "4 0 1 2 2\n7 1 2 2 3 3 1 1\n5 0 3 2 1 0\n4 0 0 1 3\n";
     const std::string header = "element vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
                                "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
-    for (const auto& [name, content] : {std::pair<std::string, std::string>{"a.obj", obj},
-                                        {"a.off", "OFF\n4 4 0\n0 0 0\n" + rows + faces},
-                                        {"a.ply", "ply\nformat ascii 1.0\n" + header + "0 0 0\n" + rows + faces}}) {
+    for (const auto& example : {std::pair<std::string, std::string>{"a.obj", obj},
+                                {"a.off", "OFF\n4 4 0\n0 0 0\n" + rows + faces},
+                                {"a.ply", "ply\nformat ascii 1.0\n" + header + "0 0 0\n" + rows + faces}}) {
+        const auto& name = example.first;
+        const auto& content = example.second;
         CAPTURE(name);
         const auto path = directory.with(name, content);
         const MeshFile file = read_mesh(path);
