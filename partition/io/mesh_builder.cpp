@@ -81,10 +81,10 @@ Index MeshBuilder::refuse_vertex(std::int64_t index, std::int64_t n) const
 
 void MeshBuilder::refuse_face(std::span<const Index> corners)
 {
-    if (corners.size() < 3)
+    if (corners.size() < 3) {
         position_.harmless_fault(fmt::format("the face has {}, but needs at least 3; remove it or add what is missing",
                                              counted(corners.size(), "corner", "corners")));
-    else {
+    } else {
         sorted_.assign(corners.begin(), corners.end());
         std::ranges::sort(sorted_);
         position_.harmless_fault(

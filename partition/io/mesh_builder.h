@@ -50,13 +50,11 @@ class MeshBuilder {
     /// @throws InputError if there are 2^31 - 1 vertices already.
     void add_vertex(const std::array<double, 3>& position);
 
+    /// Corners that repeat the one before them count once.
     /// @param corners vertices from 0, that need not have been added yet, or -1 for those that `vertex` found fault
     /// with.
-    /// Corners that repeat the one before them count once.
     /// @throws InputError for less than three corners and for a vertex named twice otherwise, unless such faces are
-    /// left out (see
-    ///         InputPosition::harmless_fault), and for more than 2^31 - 1 corners in
-    ///         all.
+    ///         left out (see InputPosition::harmless_fault), and for more than 2^31 - 1 corners in all.
     void add_face(std::span<const Index> corners);
 
     /// How many there are so far, those before the slice included.
