@@ -68,7 +68,7 @@ install(FILES ${PROJECT_BINARY_DIR}/seamflow.pc DESTINATION ${CMAKE_INSTALL_LIBD
 
 if(SEAMFLOW_BUILD_SAMPLES)
     cmake_path(RELATIVE_PATH CMAKE_INSTALL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_BINDIR} OUTPUT_VARIABLE to_libraries)
-    set(installed_programs smooth compare generate inspect)
+    set(installed_programs smooth compare generate inspect figures benchmark)
     if(TARGET smooth-distributed)
         list(APPEND installed_programs smooth-distributed)
     endif()

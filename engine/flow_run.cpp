@@ -14,6 +14,7 @@
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
+#include "partition/metrics/surface_distance.h"
 
 namespace seamflow {
 
@@ -213,15 +214,14 @@ void FlowRun::compare_with_reference(int step, const Rescaling& rescaling, Vanis
             rescale(*reference_, rescaling);
     });
     of_step.reference_seconds = watch.lap();
-    if (mesh_.n_copies() == 0) {
-        of_step.distance = vertex_distance(mesh_.mesh(), reference_->positions(), stepper_->positions());
-        return;
-    }
-    Points undecomposed = reference_->positions();
-    Points decomposed = stepper_->positions();
-    mesh_.take_along(undecomposed);
-    mesh_.take_along(decomposed);
-    of_step.distance = vertex_distance(mesh_.mesh(), undecomposed, decomposed);
+    PolygonMesh undecomposed = mesh_.mesh();
+    undecomposed.vertices = reference_->positions();
+    PolygonMesh decomposed = mesh_.mesh();
+    decomposed.vertices = stepper_->positions();
+    mesh_.take_along(undecomposed.vertices);
+    mesh_.take_along(decomposed.vertices);
+    of_step.distance = vertex_distance(undecomposed, undecomposed.vertices, decomposed.vertices);
+    of_step.surface_distance = surface_distance(undecomposed, decomposed);
 }
 
 /// An observer sees everything where the given mesh lies.

@@ -44,7 +44,23 @@ std::vector<Claim> run_many(const FiguresCommand& command)
         if (const Experiment many = with_many_sub_meshes(experiment); many.variants.back().cut == CutKind::Metis)
             tables.push_back(run_experiment(many, {.meshes = command.meshes, .out = {}}, std::cout));
     write_csv(command.out / (std::string(many_sub_meshes) + ".csv"), tables);
+    write_text(command.out / (std::string(many_sub_meshes) + "-curves.svg"), curves_of_many(tables));
+    write_text(command.out / (std::string(many_sub_meshes) + "-width.svg"), curves_over_width(tables));
     return claims_of_many(tables);
+}
+
+/// The names of what is wanted from one on, in the order in which it is made; empty where that is none.
+std::string to_come(const FiguresCommand& command, std::string_view from)
+{
+    std::string names;
+    const auto add = [&](std::string_view name) {
+        if ((!names.empty() || name == from) && command.wants(name))
+            names.append(names.empty() ? "" : ", ").append(name);
+    };
+    for (const Experiment& experiment : experiments())
+        add(experiment.name);
+    add(many_sub_meshes);
+    return names;
 }
 
 ExitStatus figures(int argc, char** argv)
@@ -55,15 +71,24 @@ ExitStatus figures(int argc, char** argv)
     const Stopwatch watch;
     std::vector<FigureResult> results;
     std::vector<Claim> claims;
+    std::vector<Claim> many;
+    // What there is can be looked at while the rest is made.
+    const auto write_index = [&](std::string_view begun) {
+        write_claims(command.out / "claims.csv", claims);
+        write_text(command.out / "index.html", index_html(results, many, command.html, to_come(command, begun)));
+    };
     for (const Experiment& experiment : experiments())
         if (command.wants(experiment.name)) {
+            write_index(experiment.name);
             results.push_back(run_figure(experiment, command));
             claims.insert(claims.end(), results.back().claims.begin(), results.back().claims.end());
         }
-    const std::vector<Claim> many = command.wants(many_sub_meshes) ? run_many(command) : std::vector<Claim>{};
-    claims.insert(claims.end(), many.begin(), many.end());
-    write_claims(command.out / "claims.csv", claims);
-    write_text(command.out / "index.html", index_html(results, many, command.html));
+    if (command.wants(many_sub_meshes)) {
+        write_index(many_sub_meshes);
+        many = run_many(command);
+        claims.insert(claims.end(), many.begin(), many.end());
+    }
+    write_index({});
     print_claims(std::cout, claims);
     std::cout << (command.out / "index.html").string() << " shows it all; done in " << watch.seconds() << " s"
               << std::endl;

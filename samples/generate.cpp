@@ -41,6 +41,9 @@ ExitStatus generate(int argc, char** argv)
     auto* seed_option = add_integer(app, "--seed", seed, 0, "of everything drawn at random [1]");
     add_real(app, "--amplitude", variation.amplitude, any, "height of the waves [that of the kind]");
     add_real(app, "--noise", variation.noise, not_negative, "in mean vertex distances [that of the kind]");
+    app.footer("generate triangles waves.ply --vertices 100000     a wavy height field of triangles\n"
+               "generate noisy-sphere ball.obj --noise 0.2         a bumpy sphere with noise\n"
+               "generate gear gear.stl                             a part with sharp edges\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return *end;
     if (seed_option->count() > 0)

@@ -26,6 +26,9 @@ ExitStatus inspect_file(int argc, char** argv)
         ->type_name("");
     app.add_flag("--json", as_json, "write everything as JSON, with all elements");
     add_integer(app, "--list", most_listed, 0, "how many elements of each kind are named without --json [10]");
+    app.footer("inspect scan.ply                    what it is made of and what is wrong with it\n"
+               "inspect scan.ply --list 1000        with the numbers of up to 1000 elements of each kind\n"
+               "inspect scan.ply --json > found.json   for other programs, with all elements\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return *end;
 

@@ -9,8 +9,9 @@ set -euo pipefail
 # shellcheck source=samples/common/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common/setup.sh"
 
+echo "The first time this takes some five minutes, most of it for building; later some seconds."
 install_packages
-build release generate smooth compare
+build release generate smooth compare inspect figures
 
 readonly bin=build/bin
 readonly out=output

@@ -121,6 +121,8 @@ void write_reports(const SmoothCommand& command, const RunRecord& run, FlowRepor
         report.remarks.push_back(page->remark());
     if (!command.report.empty())
         write_text(command.report, smooth_report_json(run, report));
+    if (!command.csv.empty())
+        write_text(command.csv, steps_csv(smooth_report_json(run, report)));
     if (!command.trace.empty())
         write_schedule_trace(command.trace, report);
     if (!command.task_graph.empty())
@@ -208,8 +210,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         throw;
     }
     long_run.end();
-    if (!run.remark_on_amount.empty())
-        report.remarks.insert(report.remarks.begin(), run.remark_on_amount);
+    report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
     // A run that goes on from its last step has nothing to observe.
     if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
         page->add_step(command.options.steps, file.mesh.vertices, nullptr);
@@ -221,7 +222,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     if (change) {
         run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, loop);
         remark_on_loss(command.options, run.surface, report.remarks);
-        remark_on_folds(run.surface, report.remarks);
+        remark_on_folds(command.options, run.surface, report.remarks);
     }
     run.seconds = whole.seconds();
     write_reports(command, run, report, page);

@@ -98,7 +98,10 @@ class RankRun {
 
   private:
     /// Whether anybody sees what is measured.
-    [[nodiscard]] bool tells_measures() const { return !command_.quiet || !command_.report.empty(); }
+    [[nodiscard]] bool tells_measures() const
+    {
+        return !command_.quiet || !command_.report.empty() || !command_.csv.empty();
+    }
 
     /// Reads, cuts, and deals the sub-meshes to the ranks.
     void begin(Conversation& talk)
@@ -339,7 +342,7 @@ class RankRun {
     void note_flow()
     {
         std::vector<std::string> all = of_cut_;
-        for (const auto& remarks : {record_.report.remarks, record_.remarks})
+        for (const auto& remarks : {record_.run.remarks, record_.report.remarks, record_.remarks})
             for (const std::string& remark : remarks)
                 if (std::ranges::find(all, remark) == all.end())
                     all.push_back(remark);
@@ -394,8 +397,11 @@ class RankRun {
         }
         record_.ranks = talk.gather_all(std::vector<RankRecord>{own});
         talk.at_first_rank([&] {
+            const std::string report = distributed_report_json(record_, command_.options);
             if (!command_.report.empty())
-                write_text(command_.report, distributed_report_json(record_, command_.options));
+                write_text(command_.report, report);
+            if (!command_.csv.empty())
+                write_text(command_.csv, steps_csv(report));
         });
         print_distributed_result(out_, record_);
     }

@@ -198,15 +198,16 @@ CountedVertices count_vertices(Conversation& talk, const RankMesh& mesh, Holds&&
 
 /// Holds the vertices at which the Laplacian is not defined.
 /// @throws InputError if none of the whole mesh is left to move, for that is why.
-void hold_undefined(Conversation& talk, Laplacian laplacian, RankMesh& mesh)
+void hold_undefined(Conversation& talk, const FlowOptions& options, RankMesh& mesh)
 {
+    const Laplacian laplacian = options.laplacian;
     const auto undefined = vertices_without_row(mesh.part.mesh, mesh.topology, laplacian, run_in_parallel);
     const CountedVertices moving = count_vertices(talk, mesh, [&](Index v) { return mesh.topology.moves(v); });
     const CountedVertices held =
         count_vertices(talk, mesh, [&](Index v) { return std::ranges::binary_search(undefined, v); });
     hold(mesh.topology, undefined);
     if (moving.n == 0)
-        mesh.remarks.push_back(remark_on_unmoving_mesh());
+        mesh.remarks.push_back(remark_on_unmoving_mesh(options.motion.boundary));
     if (held.n == 0)
         return;
     mesh.remarks.push_back(remark_on_undefined_vertices(held.n, held.lowest, laplacian));
@@ -323,7 +324,7 @@ RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& of
         free_boundary(mesh.topology);
     hold(mesh.topology,
          select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
-    hold_undefined(talk, options.laplacian, mesh);
+    hold_undefined(talk, options, mesh);
     if (options.accuracy.approach == Approach::Sweep)
         talk.look_together([&] {
             std::vector<Index> rim = moving_boundary(mesh.part.mesh, mesh.topology);

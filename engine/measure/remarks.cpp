@@ -31,10 +31,10 @@ std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Lap
         lengths ? "edges without length" : "faces without area", first);
 }
 
-std::string remark_on_unmoving_mesh()
+std::string remark_on_unmoving_mesh(Boundary boundary)
 {
-    return "No vertex can move: each is fixed, on the boundary, or where the mesh is not manifold. A boundary that is "
-           "free would move.";
+    const std::string why = "No vertex can move: each is fixed, on the boundary, or where the mesh is not manifold.";
+    return boundary == Boundary::Free ? why : why + " A boundary that is free would move.";
 }
 
 void remark_on_drift(const FlowOptions& options, FlowReport& report)
@@ -45,8 +45,8 @@ void remark_on_drift(const FlowOptions& options, FlowReport& report)
         fmt::format("The result is, by estimate, up to {:.2g} mean edge lengths away from the undecomposed flow: {}",
                     *report.steps.back().estimated_v_max,
                     options.accuracy.tolerance ? "a smaller tolerance brings it closer."
-                                               : "fewer sub-meshes bring it closer; --converge "
-                                                 "(AccuracyOptions::tolerance) gives the undecomposed step itself."));
+                                               : "fewer sub-meshes bring it closer; --converge gives "
+                                                 "the undecomposed step itself."));
 }
 
 void remark_on_near_singularity(std::span<const Index> n_nearly_singular, FlowReport& report)

@@ -22,7 +22,7 @@ std::string remark_on_non_manifold_vertices(std::int64_t n);
 std::string remark_on_undefined_vertices(std::int64_t n, std::int64_t first, Laplacian laplacian);
 
 /// On a mesh none of whose vertices can move.
-std::string remark_on_unmoving_mesh();
+std::string remark_on_unmoving_mesh(Boundary boundary);
 
 /// Adds what the estimate after the last step means for the user, if it means anything.
 void remark_on_drift(const FlowOptions& options, FlowReport& report);

@@ -88,8 +88,8 @@ void require_valid_factorisation(const FlowOptions& options)
         (options.accuracy.tolerance || options.accuracy.approach == Approach::Converged))
         throw OptionError(
             "factorisation is that of another library, but converged steps of symmetric Laplacians need the "
-            "Schur complements that the library's own gives: take sweeps "
-            "(Approach::Sweep, --converge never), or leave the factorisation automatic");
+            "Schur complements that the library's own gives: take sweeps (Approach::Sweep), or leave the factorisation "
+            "automatic");
 }
 
 void require_valid_approach(const FlowOptions& options)

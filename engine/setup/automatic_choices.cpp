@@ -24,11 +24,12 @@ SubdomainChoice choose_subdomains(const MeshSize& size, double time_step, const 
     const double most_by_cost = std::floor(size.vertices / static_cast<double>(needs.vertices));
     SubdomainChoice choice;
     choice.count = static_cast<Index>(std::max(1.0, std::min(most_by_width, most_by_cost)));
-    choice.reason = fmt::format("{} {} chosen: ", choice.count, choice.count == 1 ? "sub-mesh" : "sub-meshes");
+    choice.reason = choice.count == 1 ? "One sub-mesh: " : fmt::format("Cut into {} sub-meshes: ", choice.count);
     if (most_by_width < most_by_cost)
-        choice.reason += fmt::format("more would be narrower than {:.0f} √dt", needs.width);
+        choice.reason +=
+            fmt::format("more would be too narrow for so much smoothing (less than {:.0f} √dt)", needs.width);
     else
-        choice.reason += fmt::format("about {} vertices each are fastest, and wide enough against √dt", needs.vertices);
+        choice.reason += fmt::format("about {} vertices each are fastest", needs.vertices);
     return choice;
 }
 
@@ -138,18 +139,19 @@ ApproachChoice in_sub_meshes(const ToleranceChoice& choice)
 {
     return {.approach = choice.tolerance ? Approach::Converged : Approach::Sweep,
             .tolerance = choice.tolerance,
-            .reason = choice.reason.empty() ? "" : fmt::format("Steps are converged: {}.", choice.reason)};
+            .reason =
+                choice.reason.empty() ? "" : fmt::format("Sub-meshes are solved until they agree: {}.", choice.reason)};
 }
 
 std::string reason_for(const PredictedCost& cost)
 {
     switch (cost.approach) {
     case Approach::ConjugateGradients:
-        return fmt::format("Conjugate gradients on the whole mesh, to {:g} of the residual, chosen: that is fastest "
-                           "for steps as short and few as these.",
+        return fmt::format("The whole mesh is solved at once by conjugate gradients, to {:g} of the residual: that is "
+                           "fastest for steps as short and few as these.",
                            *cost.tolerance);
     case Approach::Undecomposed:
-        return "One factorisation of the whole mesh chosen: that is fastest for a mesh of this size.";
+        return "The whole mesh is solved at once by one factorisation: that is fastest for a mesh of this size.";
     default:
         return {};
     }

@@ -56,7 +56,7 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
                                                        options.laplacian));
     hold(topology, undefined);
     if (count_moving(topology) == 0 && mesh.n_faces() > 0)
-        remarks.push_back(remark_on_unmoving_mesh());
+        remarks.push_back(remark_on_unmoving_mesh(options.motion.boundary));
 }
 
 std::vector<Index> moving_boundary(const PolygonMesh& mesh, const Topology& topology)
@@ -69,7 +69,7 @@ void require_boundary_unshared(const Topology& topology, std::span<const Index> 
 {
     if (std::ranges::any_of(vertices, [&](Index v) { return is_on_interface(topology, labels, v); }))
         throw OptionError("boundary is free and shared by several sub-meshes, which need converged steps: leave out "
-                          "what speaks of sweeps (conditions, sweep, p, …), or use one sub-mesh");
+                          "the conditions and parameters of sweeps, or use one sub-mesh");
 }
 
 }  // namespace seamflow

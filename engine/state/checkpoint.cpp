@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view first_line = "seamflow checkpoint\n";
 /// To be raised whenever `transfer` or the checksum changes.
-constexpr std::uint32_t format = 0x5ea30003;
+constexpr std::uint32_t format = 0x5ea30004;
 constexpr std::size_t n_checksum_bytes = sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason)
@@ -170,9 +170,9 @@ auto fields([[maybe_unused]] Struct& of)
         return std::tie(mean, rms, max, mean_edge);
     } else if constexpr (Is<Struct, StepReport>) {
         auto& [seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated, distance,
-               reference_seconds] = of;
+               surface_distance, reference_seconds] = of;
         return std::tie(seconds, curvature_before, curvature_after, displacement, gap, iterations, residual, estimated,
-                        distance, reference_seconds);
+                        distance, surface_distance, reference_seconds);
     } else if constexpr (Is<Struct, PhaseSeconds>) {
         auto& [cut, analyse, assemble, factorise, solve, correct, interface, step, total] = of;
         return std::tie(cut, analyse, assemble, factorise, solve, correct, interface, step, total);

@@ -70,7 +70,7 @@ void SchwarzGmresStepper::limit_factors(const FlowOptions& options)
     if (options.resources.memory_limit && *options.resources.memory_limit < all)
         throw OptionError("memory_limit is " + std::to_string(*options.resources.memory_limit) +
                           " bytes, but a converged step keeps all factorisations at once, which take " +
-                          std::to_string(all) + ": raise it, or take sweeps (Approach::Sweep, --converge never)");
+                          std::to_string(all) + ": raise it, or take sweeps (Approach::Sweep)");
     memory_.emplace(largest);
 }
 

@@ -272,9 +272,26 @@ std::optional<OffHeader> read_header_across_lines(TextScanner& scanner)
     }
 }
 
-/// Reads a file with lines as blanks; nothing if it cannot be read so.
-std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text)
+/// Whether a file has not one line for each vertex and face, or a header that only makes sense with lines as blanks.
+/// A file that has these lines is read by them and in no other way, so that it is written by them, too.
+bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
 {
+    TextScanner scanner(path, text);
+    try {
+        const OffHeader header = read_off_header(scanner);
+        const auto slices = scanner.slices(slicing.bytes);
+        return count_lines(scanner, slices, slicing.loop).back() != header.n_lines();
+    } catch (const InputError&) {
+        return true;
+    }
+}
+
+/// Reads a file with lines as blanks; nothing if it cannot be read so.
+std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, std::string_view text,
+                                             const Slicing& slicing)
+{
+    if (!breaks_lines_freely(path, text, slicing))
+        return std::nullopt;
     TextScanner scanner(path, text);
     const auto header = read_header_across_lines(scanner);
     if (!header)
@@ -285,19 +302,6 @@ std::optional<PolygonMesh> read_across_lines(const std::filesystem::path& path, 
         return reader.finish();
     } catch (const InputError&) {
         return std::nullopt;
-    }
-}
-
-/// Whether a file that can be read has no line for each vertex and face.
-bool breaks_lines_freely(const std::filesystem::path& path, std::string_view text, const Slicing& slicing)
-{
-    TextScanner scanner(path, text);
-    try {
-        const OffHeader header = read_off_header(scanner);
-        const auto slices = scanner.slices(slicing.bytes);
-        return count_lines(scanner, slices, slicing.loop).back() != header.n_lines();
-    } catch (const InputError&) {
-        return true;
     }
 }
 
@@ -320,7 +324,7 @@ PolygonMesh read_off(const std::filesystem::path& path, std::string_view text, c
     try {
         return read_by_lines(path, text, slicing, faults);
     } catch (const InputError&) {
-        if (std::optional<PolygonMesh> mesh = read_across_lines(path, text))
+        if (std::optional<PolygonMesh> mesh = read_across_lines(path, text, slicing))
             return *std::move(mesh);
         throw;
     }

@@ -1,12 +1,34 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+/// What a program says of its options. The first line of an option's description is its line in --help; further lines
+/// are for the manual page. The footer of a program has its examples: command lines, each with what it does.
 namespace seamflow {
 
-/// The manual page of a program, for man: made from the options that --help lists.
+/// The groups of options, in the order in which --help lists them; options of no group come last.
+namespace option_group {
+
+inline constexpr const char* amount = "How much is smoothed";
+inline constexpr const char* kind = "What kind of mesh";
+inline constexpr const char* kept = "What stays";
+inline constexpr const char* written = "What is written";
+inline constexpr const char* accuracy = "Accuracy";
+inline constexpr const char* sub_meshes = "Sub-meshes";
+inline constexpr const char* machine = "Machine";
+
+}  // namespace option_group
+
+/// The options that --help lists, in its order.
+std::vector<const CLI::Option*> options_by_groups(const CLI::App& app);
+
+/// The whole of --help: examples, arguments, and the options by groups, a line each.
+std::string help_text(const CLI::App& app);
+
+/// The manual page of a program, for man: made from the options that --help lists, and all that is said of them.
 std::string man_page(const CLI::App& app);
 
 /// What completes the options of a program, and their values where these are words, on the command line of bash; made

@@ -147,12 +147,7 @@ std::string complaint_of_surplus(const CLI::App& app)
     const std::string name = option->substr(0, option->find('='));
     std::string nearest;
     std::size_t fewest = std::max<std::size_t>(name.size() / 3, 2);
-    std::vector<const CLI::Option*> all = app.get_options();
-    for (const CLI::App* const group : app.get_subcommands({})) {
-        const auto more = group->get_options();
-        all.insert(all.end(), more.begin(), more.end());
-    }
-    for (const CLI::Option* const known : all)
+    for (const CLI::Option* const known : app.get_options())
         for (const std::string& word : known->get_lnames())
             if (const std::size_t edits = edits_between(name, "--" + word); edits <= fewest) {
                 fewest = edits - (edits > 0 ? 1 : 0);
@@ -189,7 +184,10 @@ CLI::Option* add_length(CLI::App& app, const std::string& names, std::optional<L
 
 std::optional<ExitStatus> parse_command_line(CLI::App& app, int argc, char** argv)
 {
+    app.option_defaults()->group("Options");
     app.set_version_flag("--version", "seamflow " + std::string(version));
+    app.formatter_fn(
+        [](const CLI::App* described, const std::string&, CLI::AppFormatMode) { return help_text(*described); });
     if (const auto text = argc == 2 ? text_about(app, argv[1]) : std::nullopt) {
         std::cout << *text;
         return ExitStatus::Success;

@@ -70,6 +70,9 @@ std::optional<ExitStatus> parse_compare_command(int argc, char** argv, CompareCo
         "far vertices were moved along the surface; mean, root mean square and largest.",
         "compare");
     add_options(app, command);
+    app.footer("compare scan.ply smooth.ply                      how far vertices and surfaces are apart\n"
+               "compare truth.obj smooth.obj --direction both     from each surface to the other\n"
+               "compare scan.ply smooth.ply --error-map map.ply   where they are, in colours\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     require_usable_files(command);

@@ -2,6 +2,7 @@
 
 #include "engine/setup/presets.h"
 #include "partition/errors.h"
+#include "samples/common/command_help.h"
 #include "samples/common/command_line.h"
 
 namespace seamflow {
@@ -51,8 +52,20 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
         .description = "Smooths a mesh as smooth does, on as many ranks of MPI as mpirun starts: mpirun -n 4 "
                        "smooth-distributed INPUT OUTPUT …",
         .lacks = lacks(),
+        .examples = "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1%   four ranks, each with a quarter\n"
+                    "mpirun -n 4 smooth-distributed scan.ply smooth.ply --time-step-edges 5 --converge 1e-6   exact "
+                    "steps\n"
+                    "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1% --steps 50 --checkpoint state   "
+                    "goes on where it was stopped\n",
         .add_own =
             [&](CLI::App& app) {
+                app.get_option("--approach")->type_name("auto|decomposed|sweep|converged");
+                app.get_option("--conditions")->type_name("adapted-robin|adapted-ventcell");
+                app.get_option("--preset")
+                    ->type_name("fair")
+                    ->description("options that suit a kind of mesh\nSmooth alone, which has the whole mesh, measures "
+                                  "noise and keeps edges.");
+                app.option_defaults()->group(option_group::machine);
                 add_bytes(app, "--whole-up-to", whole_up_to,
                           "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]");
             },

@@ -6,6 +6,7 @@
 
 #include "partition/errors.h"
 #include "samples/common/blas_threads.h"
+#include "samples/common/option_words.h"
 
 namespace seamflow {
 
@@ -25,7 +26,7 @@ Failure current_failure()
     try {
         throw;
     } catch (const OptionError& error) {
-        return {ExitStatus::WrongUsage, error.what()};
+        return {ExitStatus::WrongUsage, in_words_of_options(error.what())};
     } catch (const InputError& error) {
         return {ExitStatus::UnusableInput, error.what()};
     } catch (const OutputError& error) {

@@ -19,10 +19,11 @@ void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& 
     const PresetTraits& preset = preset_of(command.preset);
     choose_amount(preset, mesh, command.noise, choice, loop);
     command.options = std::move(choice.options);
-    run.remark_on_amount = std::move(choice.remark);
+    if (!choice.remark.empty())
+        run.remarks.push_back(choice.remark);
     if (choice.noise)
         run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
-    if (!run.remark_on_amount.empty())
+    if (!choice.remark.empty())
         command.chosen = "nothing is smoothed";
     else if (preset.radius)
         command.chosen += amount_of(preset);
@@ -43,7 +44,8 @@ RunRecord begin_record(const SmoothCommand& command)
             .filter = filter_of(command.options),
             .rescale = command.options.motion.rescale,
             .keep_edges = command.options.keep_edges,
-            .preset = command.preset};
+            .preset = command.preset,
+            .remarks = command.remarks};
 }
 
 void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
@@ -79,12 +81,13 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
     }
     const double lost = 1.0 - *change.after.volume / *change.before.volume;
     if (lost > much)
-        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: --filter low-pass loses less, {}and "
-                                      "less smoothing is gentler.",
-                                      100.0 * lost, can_rescale ? "--rescale volume scales it back, " : ""));
+        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.",
+                                      100.0 * lost,
+                                      options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
+                                      can_rescale ? ", --rescale volume scales it back" : ""));
 }
 
-void remark_on_folds(const SurfaceChange& change, std::vector<std::string>& remarks)
+void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
 {
     std::string what;
     if (change.folded_faces > 0)
@@ -94,7 +97,9 @@ void remark_on_folds(const SurfaceChange& change, std::vector<std::string>& rema
         what += fmt::format("{}{} of faces cross{} now that did not before", what.empty() ? "" : ", and ",
                             n == 1 ? "1 pair" : fmt::format("{} pairs", n), n == 1 ? "es" : "");
     if (!what.empty())
-        remarks.push_back(what + ": less smoothing prevents it, or --within a length below that of the edges there.");
+        remarks.push_back(
+            what + ": less smoothing prevents it, or " +
+            (options.motion.within ? "a smaller --within." : "--within a length below that of the edges there."));
 }
 
 std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)

@@ -27,7 +27,7 @@ void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std
                     bool can_rescale = true);
 
 /// Adds a remark where the surface has folded over, or crosses itself where it did not before, with what prevents it.
-void remark_on_folds(const SurfaceChange& change, std::vector<std::string>& remarks);
+void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks);
 
 /// "the tolerance 1e-08 was missed in 2 steps"; empty where no step has failed (see steps_failed).
 std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report);

@@ -4,17 +4,17 @@
 #include <ostream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "engine/options/option_names.h"
 #include "partition/io/input_position.h"
+#include "samples/common/json_parts.h"
 #include "samples/common/smoothing_request.h"
 
 namespace seamflow {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = ReportJson;
 
 double seconds_of_steps(const RankReport& report)
 {
@@ -33,22 +33,11 @@ std::string range_of(const std::vector<RankRecord>& ranks, Value RankRecord::*me
                                                : fmt::format("{} to {}", (*least).*member, (*most).*member);
 }
 
-/// In units of `mean_edge`, and in units of length.
-void add_lengths(Json& json, const std::string& name, const LengthStatistics& lengths, double mean_edge)
-{
-    json[name + "_mean"] = lengths.mean / mean_edge;
-    json[name + "_rms"] = lengths.rms / mean_edge;
-    json[name + "_max"] = lengths.max / mean_edge;
-    json[name + "_mean_absolute"] = lengths.mean;
-    json[name + "_rms_absolute"] = lengths.rms;
-    json[name + "_max_absolute"] = lengths.max;
-}
-
 Json step_json(const RankStepReport& step, double mean_edge)
 {
     Json json{{"seconds", step.seconds}};
     if (step.measures)
-        add_lengths(json, "moved", step.measures->displacement, mean_edge);
+        add_statistics(json, "moved", step.measures->displacement, mean_edge);
     if (step.iterations)
         json["iterations"] = *step.iterations;
     if (step.residual)
@@ -56,14 +45,6 @@ Json step_json(const RankStepReport& step, double mean_edge)
     if (step.estimated_v_max)
         json["estimated_v_max"] = *step.estimated_v_max;
     return json;
-}
-
-Json look_of_ranks(const SurfaceLook& look)
-{
-    return {{"area", look.area},
-            {"volume", look.volume ? Json(*look.volume) : Json(nullptr)},
-            {"roughness_rms", look.roughness.rms},
-            {"roughness_percentile_95", look.roughness.percentile_95}};
 }
 
 }  // namespace
@@ -123,10 +104,7 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
 {
     const RunRecord& run = record.run;
     const RankReport& report = record.report;
-    Json json;
-    json["input"] = run.input;
-    json["output"] = run.output;
-    json["arguments"] = run.arguments;
+    Json json = begin_report(run);
     json["vertices"] = record.size.vertices;
     json["faces"] = record.size.faces;
     json["mean_edge"] = record.size.mean_edge;
@@ -167,11 +145,11 @@ std::string distributed_report_json(const DistributedRecord& record, const FlowO
                                  {"bytes", rank.bytes},
                                  {"threads", rank.threads},
                                  {"peak_memory_bytes", rank.peak_memory_bytes}});
-    json["surface"] = {{"before", look_of_ranks(run.surface.before)}, {"after", look_of_ranks(run.surface.after)}};
-    add_lengths(json["surface"], "moved", run.surface.moved, record.size.mean_edge);
+    json["surface"] = {{"before", look_json(run.surface.before)}, {"after", look_json(run.surface.after)}};
+    add_statistics(json["surface"], "moved", run.surface.moved, record.size.mean_edge);
     json["choices"] = record.choices;
     json["remarks"] = record.remarks;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text_of(json);
 }
 
 }  // namespace seamflow

@@ -1,12 +1,14 @@
 #include "samples/common/report_json.h"
 
 #include <algorithm>
-#include <cmath>
+#include <string>
 #include <type_traits>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "samples/common/json_parts.h"
 #include "samples/common/peak_memory.h"
 #include "samples/common/smoothing_request.h"
 
@@ -14,12 +16,7 @@ namespace seamflow {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value)
-{
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+using Json = ReportJson;
 
 /// One member of every sub-mesh.
 template <class Value>
@@ -28,7 +25,7 @@ Json of_sub_meshes(const CutReport& cut, Value SubMeshReport::*member)
     Json list = Json::array();
     for (const SubMeshReport& sub_mesh : cut.sub_meshes) {
         if constexpr (std::is_same_v<Value, double>)
-            list.push_back(number(sub_mesh.*member));
+            list.push_back(json_number(sub_mesh.*member));
         else
             list.push_back(sub_mesh.*member);
     }
@@ -37,30 +34,21 @@ Json of_sub_meshes(const CutReport& cut, Value SubMeshReport::*member)
 
 void add_distance(Json& json, const VertexDistance& distance)
 {
-    json["v_mean"] = number(distance.mean / distance.mean_edge);
-    json["v_rms"] = number(distance.rms / distance.mean_edge);
-    json["v_max"] = number(distance.max / distance.mean_edge);
-    json["v_mean_absolute"] = number(distance.mean);
-    json["v_rms_absolute"] = number(distance.rms);
-    json["v_max_absolute"] = number(distance.max);
-    json["mean_edge"] = number(distance.mean_edge);
+    json["v_mean"] = json_number(distance.mean / distance.mean_edge);
+    json["v_rms"] = json_number(distance.rms / distance.mean_edge);
+    json["v_max"] = json_number(distance.max / distance.mean_edge);
+    json["v_mean_absolute"] = json_number(distance.mean);
+    json["v_rms_absolute"] = json_number(distance.rms);
+    json["v_max_absolute"] = json_number(distance.max);
+    json["mean_edge"] = json_number(distance.mean_edge);
 }
 
 /// In units of `unit`.
 void add_relative(Json& json, const std::string& name, const LengthStatistics& lengths, double unit)
 {
-    json[name + "_mean"] = number(lengths.mean / unit);
-    json[name + "_rms"] = number(lengths.rms / unit);
-    json[name + "_max"] = number(lengths.max / unit);
-}
-
-/// In units of `mean_edge`, and in units of length.
-void add_statistics(Json& json, const std::string& name, const LengthStatistics& lengths, double mean_edge)
-{
-    add_relative(json, name, lengths, mean_edge);
-    json[name + "_mean_absolute"] = number(lengths.mean);
-    json[name + "_rms_absolute"] = number(lengths.rms);
-    json[name + "_max_absolute"] = number(lengths.max);
+    json[name + "_mean"] = json_number(lengths.mean / unit);
+    json[name + "_rms"] = json_number(lengths.rms / unit);
+    json[name + "_max"] = json_number(lengths.max / unit);
 }
 
 void add_displacement(Json& json, const DisplacementStatistics& displacement, double mean_edge)
@@ -79,48 +67,39 @@ Json total_json(const TotalDisplacement& total, double mean_edge)
 
 Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
 {
-    return {{"read", number(run.read_seconds)},       {"cut", number(seconds.cut)},
-            {"analyse", number(seconds.analyse)},     {"assemble", number(seconds.assemble)},
-            {"factorise", number(seconds.factorise)}, {"solve", number(seconds.solve)},
-            {"correct", number(seconds.correct)},     {"interface", number(seconds.interface)},
-            {"step", number(seconds.step)},           {"total", number(seconds.total)},
-            {"write", number(run.write_seconds)}};
+    return {{"read", json_number(run.read_seconds)},       {"cut", json_number(seconds.cut)},
+            {"analyse", json_number(seconds.analyse)},     {"assemble", json_number(seconds.assemble)},
+            {"factorise", json_number(seconds.factorise)}, {"solve", json_number(seconds.solve)},
+            {"correct", json_number(seconds.correct)},     {"interface", json_number(seconds.interface)},
+            {"step", json_number(seconds.step)},           {"total", json_number(seconds.total)},
+            {"write", json_number(run.write_seconds)}};
 }
 
 Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
 {
     Json list = Json::array();
     for (const StepReport& step : steps) {
-        Json json{{"seconds", number(step.seconds)},
-                  {"max_mean_curvature_before", number(step.max_mean_curvature_before)},
-                  {"max_mean_curvature_after", number(step.max_mean_curvature_after)}};
+        Json json{{"seconds", json_number(step.seconds)},
+                  {"max_mean_curvature_before", json_number(step.max_mean_curvature_before)},
+                  {"max_mean_curvature_after", json_number(step.max_mean_curvature_after)}};
         add_displacement(json, step.displacement, mean_edge);
         if (step.iterations)
             json["iterations"] = *step.iterations;
         if (step.residual)
-            json["residual"] = number(*step.residual);
+            json["residual"] = json_number(*step.residual);
         if (step.gap)
             add_statistics(json, "gap", *step.gap, mean_edge);
         if (step.estimated_v_max)
-            json["estimated_v_max"] = number(*step.estimated_v_max);
+            json["estimated_v_max"] = json_number(*step.estimated_v_max);
         if (step.distance)
             add_distance(json, *step.distance);
+        if (step.distance && step.surface_distance)
+            add_statistics(json, "h", *step.surface_distance, step.distance->mean_edge);
         if (step.reference_seconds)
-            json["reference_seconds"] = number(*step.reference_seconds);
+            json["reference_seconds"] = json_number(*step.reference_seconds);
         list.push_back(std::move(json));
     }
     return list;
-}
-
-Json look_json(const SurfaceLook& look)
-{
-    Json json{{"area", number(look.area)},
-              {"volume", look.volume ? number(*look.volume) : Json(nullptr)},
-              {"roughness_rms", number(look.roughness.rms)},
-              {"roughness_percentile_95", number(look.roughness.percentile_95)}};
-    if (look.self_intersections)
-        json["self_intersections"] = *look.self_intersections;
-    return json;
 }
 
 Json surface_json(const RunRecord& run)
@@ -134,24 +113,21 @@ Json surface_json(const RunRecord& run)
     return json;
 }
 
-/// Names of files need not be valid UTF-8, JSON must.
-std::string text_of(const Json& json)
+/// Empty for what is not there or no number.
+std::string text_of_cell(const Json& value)
 {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return value.is_null() ? "" : value.dump();
 }
 
 }  // namespace
 
 std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
 {
-    Json json;
-    json["input"] = run.input;
-    json["output"] = run.output;
-    json["arguments"] = run.arguments;
+    Json json = begin_report(run);
     json["vertices"] = report.mesh.vertices;
     json["faces"] = report.mesh.faces;
-    json["mean_edge"] = number(run.scale.mean_edge);
-    json["diagonal"] = number(run.scale.diagonal);
+    json["mean_edge"] = json_number(run.scale.mean_edge);
+    json["diagonal"] = json_number(run.scale.diagonal);
     json["subdomains"] = report.cut.n_sub_meshes();
     json["subdomain_vertices"] = of_sub_meshes(report.cut, &SubMeshReport::vertices);
     json["subdomain_faces"] = of_sub_meshes(report.cut, &SubMeshReport::faces);
@@ -168,21 +144,21 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
     if (!run.preset.empty())
         json["preset"] = run.preset;
     if (run.noise)
-        json["noise"] = number(*run.noise);
+        json["noise"] = json_number(*run.noise);
     if (run.attachment)
-        json["attachment"] = number(*run.attachment);
+        json["attachment"] = json_number(*run.attachment);
     json["attachment_weights"] = run.has_attachment_weights;
     json["rescale"] = option_name(run.rescale);
     if (run.keep_edges)
-        json["keep_edges"] = number(*run.keep_edges);
-    json["time_step"] = number(report.time_step);
-    json["time_step_edges"] = number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
-    json["radius"] = number(
+        json["keep_edges"] = json_number(*run.keep_edges);
+    json["time_step"] = json_number(report.time_step);
+    json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+    json["radius"] = json_number(
         smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
     if (!run.keep_edges)
         json["approach"] = option_name(report.convergence.approach);
     if (report.convergence.tolerance) {
-        json["tolerance"] = number(*report.convergence.tolerance);
+        json["tolerance"] = json_number(*report.convergence.tolerance);
         json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;
         json["steps_stagnated"] = report.convergence.steps_stagnated;
     }
@@ -203,10 +179,35 @@ std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
 
 std::string smooth_failure_json(const RunRecord& run, const Failure& failure)
 {
-    return text_of({{"input", run.input},
-                    {"output", run.output},
-                    {"arguments", run.arguments},
-                    {"error", {{"message", failure.message}, {"exit_status", static_cast<int>(failure.status)}}}});
+    Json json = begin_report(run);
+    json["error"] = {{"message", failure.message}, {"exit_status", static_cast<int>(failure.status)}};
+    return text_of(json);
+}
+
+std::string steps_csv(std::string_view report)
+{
+    const Json json = Json::parse(report);
+    std::vector<std::string> columns;
+    for (const Json& step : json.at("steps"))
+        for (const auto& [key, value] : step.items())
+            if (std::ranges::find(columns, key) == columns.end())
+                columns.push_back(key);
+    std::vector<double> p;
+    for (const Json& of_sub_mesh : json.value("p", Json::array()))
+        if (of_sub_mesh.is_number())
+            p.push_back(of_sub_mesh.get<double>());
+    std::string of_p = ",";
+    if (!p.empty())
+        of_p = Json(std::ranges::min(p)).dump() + "," + Json(std::ranges::max(p)).dump();
+    std::string text =
+        fmt::format("step,p_smallest,p_largest{}{}\n", columns.empty() ? "" : ",", fmt::join(columns, ","));
+    for (std::size_t i = 0; i < json.at("steps").size(); ++i) {
+        text += fmt::format("{},{}", i + 1, of_p);
+        for (const std::string& column : columns)
+            text += fmt::format(",{}", text_of_cell(json.at("steps")[i].value(column, Json(nullptr))));
+        text += "\n";
+    }
+    return text;
 }
 
 std::string compare_report_json(const Comparison& comparison)
@@ -216,7 +217,7 @@ std::string compare_report_json(const Comparison& comparison)
     json["candidate"] = comparison.candidate;
     json["vertices"] = comparison.vertices;
     json["faces"] = comparison.faces;
-    json["mean_edge"] = number(comparison.mean_edge);
+    json["mean_edge"] = json_number(comparison.mean_edge);
     if (comparison.vertex_distance)
         add_distance(json, *comparison.vertex_distance);
     json["direction"] = name_of(comparison.direction);
@@ -268,7 +269,7 @@ std::string inspection_json(const std::string& file, const FaultLog& faults, con
         {"isolated_vertices", defects.isolated_vertices},
         {"self_intersections", defects.self_intersections},
     };
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text_of(json);
 }
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "engine/options/flow_report.h"
 #include "partition/inspection/mesh_inspection.h"
@@ -15,6 +16,11 @@ namespace seamflow {
 /// v_mean, v_rms and v_max are in mean edge lengths of the undecomposed flow's mesh, v_mean_absolute and so on in units
 /// of length; displacements are in mean edge lengths of the input.
 std::string smooth_report_json(const RunRecord& run, const FlowReport& report);
+
+/// STEPS.csv of --csv: a row a step, with all keys that steps have in the report, and the smallest and the largest
+/// Robin parameter p of sub-meshes, in 1/length. A cell is empty where there is no such number.
+/// @param report that of `smooth` or `smooth-distributed`, as JSON.
+std::string steps_csv(std::string_view report);
 
 /// The same of a run that has failed: the files, the arguments and the error.
 std::string smooth_failure_json(const RunRecord& run, const Failure& failure);

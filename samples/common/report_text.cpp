@@ -79,11 +79,18 @@ void print_total(std::ostream& out, const TotalDisplacement& total, double mean_
                        total.path.normal.mean / unit, total.path.normal.max / unit);
 }
 
-void print_distance_to_reference(std::ostream& out, const VertexDistance& distance)
+void print_distance_to_reference(std::ostream& out, const StepReport& step)
 {
-    const double unit = distance.mean_edge > 0.0 ? distance.mean_edge : 1.0;
-    out << fmt::format("V_mean {:.6g}  V_RMS {:.6g}  V_max {:.6g}", distance.mean / unit, distance.rms / unit,
-                       distance.max / unit);
+    const double unit = step.distance->mean_edge > 0.0 ? step.distance->mean_edge : 1.0;
+    const auto print = [&](const char* name, const auto& distance) {
+        out << fmt::format("{0}_mean {1:.6g}  {0}_RMS {2:.6g}  {0}_max {3:.6g}", name, distance.mean / unit,
+                           distance.rms / unit, distance.max / unit);
+    };
+    print("V", *step.distance);
+    if (step.surface_distance) {
+        out << "  ";
+        print("H", *step.surface_distance);
+    }
 }
 
 void print_distance(std::ostream& out, const char* name, double absolute, double mean_edge)
@@ -147,7 +154,7 @@ void print_step(std::ostream& out, const StepReport& report, int step, int steps
                            *report.estimated_v_max);
     if (report.distance) {
         out << "  ";
-        print_distance_to_reference(out, *report.distance);
+        print_distance_to_reference(out, report);
     }
     if (report.reference_seconds)
         out << fmt::format("  (undecomposed {:.3f} s)", *report.reference_seconds);
@@ -190,7 +197,7 @@ void print_result(std::ostream& out, const RunRecord& run, const FlowReport& rep
         out << "remark     " << remark << '\n';
     if (!report.steps.empty() && report.steps.back().distance) {
         out << "distance   ";
-        print_distance_to_reference(out, *report.steps.back().distance);
+        print_distance_to_reference(out, report.steps.back());
         out << " mean edge lengths, from the undecomposed flow\n";
     }
     const SurfaceLook& before = run.surface.before;

@@ -34,8 +34,8 @@ struct RunRecord {
     MeshScale scale = {};
     /// Its noise in mean edge lengths, if the amount follows from it.
     std::optional<double> noise = {};
-    /// Why nothing is smoothed, if a preset has found so.
-    std::string remark_on_amount = {};
+    /// What is to be said before the remarks of the flow, a sentence each.
+    std::vector<std::string> remarks = {};
     /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
     double read_seconds = 0.0;
     double write_seconds = 0.0;

@@ -223,6 +223,11 @@ void settle(const CLI::App& app, SmoothCommand& command)
     if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
         command.options.accuracy.approach = Approach::Decomposed;
     require_consistent(app, command);
+    if (app.count("--conditions") > 0 && app.count("--paper") == 0 &&
+        command.options.interface.conditions == Conditions::AdaptedRobin)
+        command.remarks.emplace_back(
+            "--conditions adapted-robin alone is not the paper's own method, which takes --paper as well: a fixed "
+            "sweep, and derivatives at the old positions.");
 }
 
 }  // namespace seamflow

@@ -42,6 +42,7 @@ struct SmoothCommand {
     std::filesystem::path fix;
     std::filesystem::path parts;
     std::filesystem::path report;
+    std::filesystem::path csv;
     std::filesystem::path trace;
     std::filesystem::path task_graph;
     std::filesystem::path html;
@@ -69,6 +70,8 @@ struct SmoothCommand {
     bool chooses_threads = false;
     /// Where to write the mesh after every step.
     std::optional<StepPattern> every_step;
+    /// What there is to say of the options, a sentence each.
+    std::vector<std::string> remarks;
     /// As the user typed it.
     std::vector<std::string> arguments;
 };
@@ -83,6 +86,8 @@ struct SmoothProgram {
         const char* reason;
     };
     std::vector<Lack> lacks = {};
+    /// Command lines that --help shows (see command_help.h); empty: those of `smooth`.
+    std::string examples = {};
     /// Adds the options that it alone has.
     std::function<void(CLI::App&)> add_own = {};
     /// Whether it looks for the results' folders: of several processes one does.
@@ -101,12 +106,13 @@ struct FlowOptionText {
     std::string name;
     /// What stands for its value in --help.
     std::string type;
+    /// Its line in --help, and on further lines what the manual page says beyond that.
     std::string description;
     /// Whether it takes no value.
     bool is_flag = false;
 };
 
-/// All of them: in the order of --help, those of groups last.
+/// All of them in the order of --help, one with two names twice.
 std::vector<FlowOptionText> flow_options();
 
 /// Parses these options alone, for a mesh that is in no file: `labels`, `fix` and `attach_weights` are what `words`

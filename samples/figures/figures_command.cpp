@@ -71,6 +71,9 @@ std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCo
     app.add_option("--out", command.out, "folder for tables, meshes and claims")->required()->type_name("DIR");
     app.add_flag("--html", command.html,
                  "also write a page for each figure that shows its flows step by step in a browser");
+    app.footer("figures --out results                  all figures on generated meshes\n"
+               "figures --out results 5 7              two of them, by their numbers in the paper\n"
+               "figures --out results --meshes authors --html   on the authors' meshes, with pages for a browser\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
     if (command.html)

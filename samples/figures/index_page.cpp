@@ -206,7 +206,8 @@ std::string figure_section(const FigureResult& result, bool with_pages)
 
 }  // namespace
 
-std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages)
+std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages,
+                       const std::string& to_come)
 {
     std::string text(head);
     text += "<nav>";
@@ -214,13 +215,23 @@ std::string index_html(const std::vector<FigureResult>& results, const std::vect
         const std::string number = std::to_string(result.experiment->figure);
         text += "<a href=\"#figure-" + number + "\">Figure " + number + "</a>";
     }
+    if (!many.empty())
+        text += "<a href=\"#many\">More sub-meshes</a>";
     text += "</nav>\n";
+    if (!to_come.empty())
+        text +=
+            "<p><strong>Still to come, load this page again then: " + escaped_for_html(to_come) + ".</strong></p>\n";
     text += page_legend;
     for (const FigureResult& result : results)
         text += figure_section(result, with_pages);
     if (!many.empty())
-        text += "<h2>More sub-meshes</h2>\n<p>Not in the paper: 2, 4, 8, 16 and 32 sub-meshes by METIS. "
-                "<a href=\"subdomains.csv\">The table</a></p>\n" +
+        text += "<h2 id=\"many\">More sub-meshes</h2>\n<p>Not in the paper: 2, 4, 8, 16 and 32 sub-meshes by METIS. "
+                "<a href=\"subdomains.csv\">The table</a></p>\n"
+                "<div class=\"curves\"><img src=\"subdomains-curves.svg\" alt=\"Distances by number of "
+                "sub-meshes\"></div>\n"
+                "<p>Sub-meshes have to be wide against √dt, over which a step smooths.</p>\n"
+                "<div class=\"curves\"><img src=\"subdomains-width.svg\" alt=\"Distances by width of "
+                "sub-meshes\"></div>\n" +
                 claims_table(many);
     return text + "</body>\n</html>\n";
 }

@@ -21,7 +21,8 @@ struct FigureResult {
 /// the order of the paper, curves, the last step of every flow with its settings and command beside the authors'
 /// numbers, and what the paper says against what was measured. It links to the files beside it.
 /// @param with_pages whether each figure has a page of its own, FIGURE.html.
-/// @param many of the tables with 2 to 32 sub-meshes.
-std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages);
+/// @param many of the tables with 2 to 32 sub-meshes. @param to_come what is still to be made; empty: nothing.
+std::string index_html(const std::vector<FigureResult>& results, const std::vector<Claim>& many, bool with_pages,
+                       const std::string& to_come = {});
 
 }  // namespace seamflow

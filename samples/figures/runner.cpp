@@ -9,6 +9,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/displacement_meter.h"
+#include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"
@@ -42,6 +43,7 @@ class Run {
         table_.flows = experiment.variants;
         table_.time_step = experiment.time_step;
         table_.steps = experiment.steps;
+        table_.area = total_area(input_.mesh);
         table_.roughness = roughness(input_.mesh, input_.mesh.vertices);
         if (!places_.out.empty())
             pictures_.emplace(experiment, places_.out, input_);

@@ -66,6 +66,8 @@ struct Table {
     int steps = 0;
     /// Of the input.
     Roughness roughness;
+    /// That of the surface of the input, in length².
+    double area = 0.0;
     /// All that were to run; one that ended early has fewer rows than steps.
     std::vector<Variant> flows;
     std::vector<Row> rows;

@@ -22,6 +22,7 @@
 
 #include "partition/errors.h"
 #include "partition/version.h"
+#include "samples/common/option_words.h"
 #include "samples/common/smooth_command.h"
 #include "samples/python/flow_call.h"
 
@@ -222,6 +223,8 @@ void translate(std::exception_ptr exception)
         std::rethrow_exception(std::move(exception));
     } catch (const InputError& error) {
         PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const OptionError& error) {
+        PyErr_SetString(PyExc_ValueError, in_words_of_keywords(in_words_of_options(error.what())).c_str());
     }
 }
 
@@ -232,7 +235,7 @@ void translate(std::exception_ptr exception)
 PYBIND11_MODULE(_core, module)
 {
     using namespace seamflow;
-    // OptionError is a std::invalid_argument, ComputationError a std::runtime_error: pybind11 knows these.
+    // ComputationError is a std::runtime_error: pybind11 knows that.
     py::register_exception_translator(&translate);
     define_run<std::int32_t>(module);
     define_run<std::int64_t>(module);

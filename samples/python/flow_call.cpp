@@ -7,6 +7,7 @@
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
 #include "samples/common/flow_run.h"
+#include "samples/common/option_words.h"
 #include "samples/common/report_json.h"
 
 namespace seamflow {
@@ -24,11 +25,12 @@ FlowReport run(SmoothCommand& command, PolygonMesh& mesh, const FlowControl& con
     resolve_amount(command, mesh, loop, record);
     const SurfaceChangeMeter change(mesh, loop);
     FlowReport report = mean_curvature_flow(mesh, command.options, {}, control);
-    if (!record.remark_on_amount.empty())
-        report.remarks.insert(report.remarks.begin(), record.remark_on_amount);
+    report.remarks.insert(report.remarks.begin(), record.remarks.begin(), record.remarks.end());
     record.surface = change.measure(mesh, report.mesh.moved_with, command.self_intersections, loop);
     remark_on_loss(command.options, record.surface, report.remarks);
-    remark_on_folds(record.surface, report.remarks);
+    remark_on_folds(command.options, record.surface, report.remarks);
+    for (std::string& remark : report.remarks)
+        remark = in_words_of_keywords(remark);
     record.seconds = whole.seconds();
     return report;
 }

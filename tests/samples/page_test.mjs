@@ -592,6 +592,27 @@ test("legends tell what is seen, its range and its unit", async () => {
     await opened.close();
 });
 
+test("what is measured begins with what became of the surface, and ends with the times", async () => {
+    const opened = await open(page("sphere"));
+    const sections = await opened.locator("aside section:visible").evaluateAll((all) => all.map((section) => section.id));
+    assert.equal(sections[0], "outcome");
+    assert.deepEqual(sections.slice(-2), ["times", "phases"]);
+    const { surface } = await opened.evaluate(() => JSON.parse(document.getElementById("facts").textContent).flows[0].report);
+    const said = await opened.locator("#outcome").textContent();
+    for (const word of ["Moved", "Roughness", "Area", "Volume"])
+        assert.ok(said.includes(word), `${said} has ${word}`);
+    const numbers = (text) => [...text.matchAll(/[\d.,]+/g)].map(([number]) => Number(number.replaceAll(",", "")));
+    const [before, after] = numbers(said.slice(said.indexOf("Roughness")));
+    assert.ok(Math.abs(before / surface.before.roughness_rms - 1) < 1e-3 && Math.abs(after / surface.after.roughness_rms - 1) < 1e-3);
+    const [mean, largest] = numbers(said.slice(said.indexOf("Moved")));
+    assert.ok(Math.abs(mean / surface.moved_mean - 1) < 1e-2 && Math.abs(largest / surface.moved_max - 1) < 1e-2);
+    await opened.close();
+    // Figures do not measure that.
+    const figure = await open(join(out, "figures", "texture.html"));
+    assert.ok(await figure.locator("#outcome").isHidden());
+    await figure.close();
+});
+
 test("a page says which flow was taken", async () => {
     const summary = async (name) => (await open(page(name))).locator("#summary").textContent();
     assert.match(await summary("edges"), /faces · edges sharper than 30° kept · 1 step of [^·]*$/);

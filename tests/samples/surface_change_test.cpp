@@ -63,7 +63,8 @@ TEST_CASE("polygons are as rough as all of the mesh is when it is looked at as a
 
 TEST_CASE("a loss of much of the volume is remarked on, or of most of the area where there is no volume")
 {
-    const auto remark = [](std::optional<double> volume, double area, Rescale rescale = Rescale::None) {
+    const auto remark = [](std::optional<double> volume, double area, Rescale rescale = Rescale::None,
+                           Filter filter = Filter::Diffusion) {
         SurfaceChange change;
         change.before.area = 1.0;
         change.after.area = area;
@@ -72,6 +73,7 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
         change.after.volume = volume;
         FlowOptions options;
         options.motion.rescale = rescale;
+        options.filter = filter;
         std::vector<std::string> remarks;
         remark_on_loss(options, change, remarks);
         return remarks.empty() ? std::string() : remarks.front();
@@ -81,6 +83,9 @@ TEST_CASE("a loss of much of the volume is remarked on, or of most of the area w
     CHECK(remark({}, 0.25).find("lost 75% of its area") != std::string::npos);
     CHECK(remark({}, 0.55).empty());
     CHECK(remark({}, 0.25, Rescale::Area).empty());
+    // What the user has asked for already is no advice.
+    CHECK(remark(0.75, 0.9).find("--filter low-pass") != std::string::npos);
+    CHECK(remark(0.75, 0.9, Rescale::None, Filter::LowPass).find("--filter") == std::string::npos);
 }
 
 TEST_CASE("a mesh without faces has no surface")
@@ -100,7 +105,7 @@ TEST_CASE("faces that fold over and cross are told of, and those that noise had 
 {
     const auto remark = [](const SurfaceChange& change) {
         std::vector<std::string> remarks;
-        remark_on_folds(change, remarks);
+        remark_on_folds({}, change, remarks);
         return remarks.empty() ? std::string() : remarks.front();
     };
     PolygonMesh mesh = triangle_grid(6, 6);

@@ -22,7 +22,7 @@ export function element(name, attributes = {}, ...children) {
 
 const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 
-const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "virtual-refinement": "Virtual refinement", "ptackova-velho": "Ptáčková–Velho" };
+const laplacians = { "fujiwara": "Fujiwara", "alexa-wardetzky": "Alexa–Wardetzky", "virtual-refinement": "Virtual refinement", "ptackova-velho": "Ptáčková–Velho", "uniform": "of uniform weights" };
 
 /** Whether a run smoothed between edges, on the whole mesh and without a Laplacian. */
 export const keepsEdges = (report) => report.keep_edges !== undefined;
@@ -42,6 +42,44 @@ export function summary(mesh, report) {
     ].join(" · ");
 }
 
+/** "a → b (-3 %)", without the part where it says nothing. */
+function change(before, after, unit = "") {
+    const percent = 100 * (after / before - 1);
+    const part = unit === "" && Number.isFinite(percent) ? ` (${percent > 0 ? "+" : ""}${digits(percent, 2)} %)` : "";
+    return `${digits(before, 4)}${unit} → ${digits(after, 4)}${unit}${part}`;
+}
+
+/** What somebody wants to know who had a surface smoothed. */
+function outcome(report) {
+    const { before, after, moved_mean: mean, moved_max: largest } = report.surface;
+    const list = [];
+    if (report.preset)
+        list.push(["Preset", report.preset]);
+    if (report.noise !== undefined)
+        list.push(["Noise", report.noise > 0 ? `${digits(report.noise)} mean edges` : "none found"]);
+    list.push(
+        ["Moved", `${digits(mean)} mean edges on average, ${digits(largest)} at most`],
+        ["Roughness", change(before.roughness_rms, after.roughness_rms, "°")],
+        ["Area", change(before.area, after.area)],
+    );
+    if (before.volume !== null && after.volume !== null)
+        list.push(["Volume", change(before.volume, after.volume)]);
+    if (after.self_intersections !== undefined)
+        list.push(["Crossing", `${digits(before.self_intersections)} pairs of faces → ${digits(after.self_intersections)}`]);
+    return list;
+}
+
+/** Fills a section with what became of the surface; hides it where that was not measured. */
+export function showOutcome(section, report) {
+    section.hidden = !(report.surface?.before.area > 0);
+    if (section.hidden)
+        return;
+    const list = element("dl");
+    for (const [name, text] of outcome(report))
+        list.append(element("dt", {}, name), element("dd", {}, text));
+    section.replaceChildren(element("h2", {}, "Result"), list);
+}
+
 function rows(report) {
     const last = report.steps.at(-1);
     const list = [
@@ -57,7 +95,9 @@ function rows(report) {
     if (last)
         list.push(["Largest ‖ΔV‖", `${digits(report.steps[0].max_mean_curvature_before)} before, ${digits(last.max_mean_curvature_after)} after (1/length)`]);
     if (last?.v_mean !== undefined)
-        list.push(["Distance", `V_mean ${digits(last.v_mean)}, V_RMS ${digits(last.v_rms)}, V_max ${digits(last.v_max)} mean edges after the last step`]);
+        list.push(["Distance", `V_mean ${digits(last.v_mean)}, V_RMS ${digits(last.v_rms)}, V_max ${digits(last.v_max)}${last.h_mean === undefined ? "" : `, H_mean ${digits(last.h_mean)}, H_max ${digits(last.h_max)}`} mean edges after the last step`]);
+    if (report.version !== undefined)
+        list.push(["Made by", `seamflow ${report.version}, ${report.date}`]);
     list.push(["Threads", digits(report.threads)], ["Memory", `${digits(report.peak_memory_bytes / 1e6)} MB at most`]);
     if (report.arguments.length > 0)
         list.push(["Command", ["smooth", ...report.arguments].join(" ")]);

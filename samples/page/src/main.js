@@ -3,7 +3,7 @@
 import { offer, rangeOf, reflect, showLegend } from "./controls.js";
 import { facts, remembering, unpacked16, unpacked32, unpackedBytes } from "./data.js";
 import { drawableTriangles, edgesOf, heightsOf, inOrder, labelsOfTriangles } from "./faces.js";
-import { element, showFacts, summary } from "./facts.js";
+import { element, showFacts, showOutcome, summary } from "./facts.js";
 import { creases, sizesOf, vertexNormals } from "./normals.js";
 import * as own from "./own_colours.js";
 import { colourOfClass, colourOfLabel, ramp } from "./palette.js";
@@ -167,6 +167,8 @@ async function chooseFlow(index) {
     chosen.flow = index;
     offer(flow(), chosen);
     byId("summary").textContent = summary(facts.mesh, flow().report);
+    showOutcome(byId("outcome"), flow().report);
+    explain(byId("outcome"));
     showFacts(byId("facts-table"), facts.mesh, flow());
     explain(byId("summary"));
     explain(byId("facts-table"));

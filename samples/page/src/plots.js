@@ -149,6 +149,8 @@ const kinds = {
             { name: "V_mean", values: column(steps, "v_mean"), colour: 1 },
             { name: "V_RMS", values: column(steps, "v_rms"), colour: 2 },
             { name: "V_max", values: column(steps, "v_max"), colour: 3 },
+            { name: "H_mean", values: column(steps, "h_mean"), colour: 1, dash: [2, 3] },
+            { name: "H_max", values: column(steps, "h_max"), colour: 3, dash: [2, 3] },
             { name: subdomains === 1 ? "largest" : "V_max, estimated", values: column(steps, "estimated_v_max"), colour: 4, dash: [5, 4] },
         ],
     }),

@@ -79,7 +79,7 @@ TEST_CASE("the choice and its reason are in the report, and so is a warning of n
     const FlowReport chosen = mean_curvature_flow(mesh, options);
     CHECK(chosen.cut.n_sub_meshes() == 3);
     REQUIRE(chosen.choices.size() == 1);
-    CHECK(chosen.choices[0].find("3 sub-meshes chosen") == 0);
+    CHECK(chosen.choices[0].find("Cut into 3 sub-meshes") == 0);
 
     options.cut.subdomains = 40;
     options.time_step = 1e-3;

@@ -177,3 +177,15 @@ TEST_CASE("OFF: what vertices have besides coordinates may be named in any order
     for (const char* name : {"CC", "NCN", "STST", "S", "T", "TS", "X", "CNX"})
         CHECK(contains(complaint_about("a.off", name + ("OFF\n" + data)), "is unknown"));
 }
+
+TEST_CASE("OFF: a file with one line for each vertex and face is read by its lines, so that it can be written back")
+{
+    // With lines as blanks the last two vertices would be (0 1 0) and (5 7 9).
+    CHECK(
+        contains(off_complaint("OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0 5\n7 9\n3 0 1 2\n"), "a.off:6: expected coordinate z"));
+    // Without one line for each they are.
+    const std::string freely = "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0 5\n7\n9\n3 0 1 2\n";
+    CHECK(read_text("a.off", freely).mesh.vertices.row(3) == Eigen::RowVector3d(5.0, 7.0, 9.0));
+    CHECK(rewritten("a.off", freely, [](Points& p) { p(3, 2) = 8.0; }).content ==
+          "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0 5\n7\n8\n3 0 1 2\n");
+}

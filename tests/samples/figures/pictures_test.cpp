@@ -92,8 +92,8 @@ TEST_CASE("curves have a panel for each decomposed flow, and the authors' number
     Experiment far = experiment;
     far.theirs[0].v_max = 5e4;
     CHECK(curves_svg(table, far).find(">100000<") != std::string::npos);
-    // Of Schwarz the largest distances are not known.
-    CHECK(count(curves_svg(table, experiment), "#b02a50") == 6);
+    // Of Schwarz the largest distances are not known. One is in the legend.
+    CHECK(count(curves_svg(table, experiment), "#b02a50") == 7);
     // A flow that ended early, and one that has nothing to show.
     table.rows[12].v.mean = std::nan("");
     CHECK(count(curves_svg(table, experiment), "nan") == 0);
@@ -118,6 +118,8 @@ TEST_CASE("the index has every figure under its number, with its settings and co
     CHECK_FALSE(has("wavy-cylinder.html"));
     CHECK_FALSE(has("the authors'</th>"));
     CHECK(index_html({result}, {}, true).find("wavy-cylinder.html") != std::string::npos);
+    CHECK_FALSE(has("Still to come"));
+    CHECK(index_html({result}, {}, false, "texture, subdomains").find("Still to come") != std::string::npos);
     result.table.is_theirs = true;
     const std::string theirs = index_html({result}, {}, true);
     CHECK(theirs.find("0.011 / 0.2<") != std::string::npos);
