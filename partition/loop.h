@@ -82,6 +82,12 @@ double sum(const Loop& loop, Index n, Value&& value)
     return total;
 }
 
+/// The middle of the i-th of k equal parts of the numbers from 0 to n - 1: so k of them are spread evenly, for any n.
+inline Index middle_of_part(Index i, Index k, Index n)
+{
+    return static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * std::int64_t{k}));
+}
+
 /// A part of the indices below some number.
 struct IndexRange {
     Index begin = 0;

@@ -367,7 +367,7 @@ double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const L
     const Index n_middles = std::min(n, most_neighbourhoods);
     std::vector<Neighbourhood> neighbourhoods(at(n_middles));
     for_each(loop, n_middles, [&](Index i) {
-        const auto middle = static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * n_middles));
+        const Index middle = middle_of_part(i, n_middles, n);
         if (topology.kind[middle] == VertexKind::Interior)
             neighbourhoods[i] = measure_neighbourhood(mesh, topology, middle);
     });

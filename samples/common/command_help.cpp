@@ -138,13 +138,22 @@ std::string roff(std::string_view text)
     return result;
 }
 
+/// Lines may break after the words of "auto|never|TOL".
+std::string with_breaks(std::string_view text)
+{
+    std::string result;
+    for (const char c : text)
+        result += c == '|' ? "|\\:" : std::string(1, c);
+    return result;
+}
+
 std::string roff_of(const CLI::Option& option)
 {
     std::string heading;
     for (const std::string& name : names_of(option))
         heading += fmt::format("{}\\fB{}\\fR", heading.empty() ? "" : ", ", roff(name));
     if (takes_value(option) && !option.get_type_name().empty())
-        heading += fmt::format(" \\fI{}\\fR", roff(option.get_type_name()));
+        heading += fmt::format(" \\fI{}\\fR", with_breaks(roff(option.get_type_name())));
     return fmt::format(".TP\n{}\n{}\n", heading, roff(option.get_description()));
 }
 

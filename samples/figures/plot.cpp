@@ -103,7 +103,8 @@ class Drawing {
         for (int power = powers_.first; power <= powers_.second; power += apart) {
             const double y = y_of(std::pow(10.0, power));
             text += line(plot_left, y, plot_right, y, "#9aa3ad55");
-            text += words(plot_left - 5.0, y + 4.0, "end", csv_number(std::pow(10.0, power)));
+            text += words(plot_left - 5.0, y + 4.0, "end",
+                          std::abs(power) > 3 ? fmt::format("1e{}", power) : csv_number(std::pow(10.0, power)));
         }
         text += line(plot_left, plot_bottom, plot_right, plot_bottom, "#8a939d");
         for (const double tick : panel_.x_ticks)

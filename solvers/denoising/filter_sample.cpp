@@ -21,7 +21,7 @@ std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Top
     std::vector<std::int8_t> rings(at(n), outside_patches);
     std::vector<Index> front;
     for (Index i = 0; i < n_patches; ++i) {
-        const auto v = static_cast<Index>((2 * std::int64_t{i} + 1) * n / (2 * n_patches));
+        const Index v = middle_of_part(i, n_patches, n);
         rings[v] = 0;
         front.push_back(v);
     }

@@ -7,6 +7,7 @@
 
 #include "partition/vector_area.h"
 #include "partition/weld.h"
+#include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -14,9 +15,25 @@ using namespace seamflow::test;
 
 namespace {
 
+/// The topology that comes with a weld is that of its mesh.
 std::optional<Weld> welded(const PolygonMesh& mesh, double distance = 0.0)
 {
-    return weld(mesh, make_topology(mesh), distance);
+    std::optional<Weld> result = weld(mesh, make_topology(mesh), distance);
+    if (!result)
+        return result;
+    const Topology& topology = result->topology;
+    const Topology expected = make_topology(result->mesh);
+    CHECK(topology.twin == expected.twin);
+    CHECK(topology.vertex_offsets == expected.vertex_offsets);
+    CHECK(topology.vertex_corners == expected.vertex_corners);
+    CHECK(topology.kind == expected.kind);
+    CHECK(topology.fixed == expected.fixed);
+    CHECK(topology.oriented == expected.oriented);
+    bool same_faces = true;
+    for (Index h = 0; h < result->mesh.n_corners(); ++h)
+        same_faces = same_faces && topology.face_of[at(h)] == expected.face_of[at(h)];
+    CHECK(same_faces);
+    return result;
 }
 
 Index count_kind(const Topology& topology, VertexKind kind)
@@ -133,6 +150,11 @@ TEST_CASE("nothing is joined that would make a mesh worse")
     const auto joined = welded(both);
     REQUIRE(joined);
     CHECK(joined->n_edges == 1);
+    // A tube of two quads, one of which has lost its seam to a strip that would close on itself.
+    PolygonMesh several = side_by_side({make({{0, 0, 5}, {1, 0, 5}, {1, 0, 5}, {0, 0, 5}}, {{0, 1, 2, 3}}),
+                                        split(triangle_torus(5, 4), random_labels(40, 3, 7)),
+                                        make({{0, 0, 7}, {1, 0, 7}, {1, 0, 7}, {0, 0, 7}}, {{0, 1, 2, 3}})});
+    CHECK(welded(several)->n_edges > 1);
     // Copies at vertices that are not manifold.
     CHECK_FALSE(welded(three_wings()));
     CHECK_FALSE(welded(hourglass()));
@@ -176,4 +198,26 @@ TEST_CASE("zeros of both signs are one place, and what is no number is none")
     parts.vertices(copy, 2) = std::numeric_limits<double>::quiet_NaN();
     CHECK_FALSE(welded(parts));
     CHECK_FALSE(welded(parts, 0.1));
+}
+
+TEST_CASE("random meshes in pieces are welded to what is sound, and again to nothing more")
+{
+    RandomNumbers random(23);
+    int n_joined = 0;
+    for (int round = 0; round < 200; ++round) {
+        const RandomMesh m = random_mesh(random);
+        CAPTURE(round);
+        CAPTURE(m.description);
+        const PolygonMesh parts = split(m.mesh, random_cut(m.mesh, 2 + random.below(6), random));
+        const auto joined = welded(parts);
+        if (!joined)
+            continue;
+        ++n_joined;
+        const auto n_open = [](const Topology& topology) { return std::ranges::count(topology.twin, -1); };
+        // Fewer where other edges lie between what is joined.
+        CHECK(n_open(joined->topology) <= n_open(make_topology(parts)) - 2 * joined->n_edges);
+        CHECK(count_kind(joined->topology, VertexKind::NonManifold) <=
+              count_kind(make_topology(parts), VertexKind::NonManifold));
+    }
+    CHECK(n_joined > 100);
 }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "tests/samples/workshop.h"
+#include "tests/support/relative.h"
 #include "tests/support/sanitizers.h"
 
 using namespace seamflow;
@@ -31,7 +32,7 @@ TEST_CASE("benchmark holds every peer beside ours, each in a process of its own"
         CHECK(peer["step_s"].get<double>() > 0.0);
         CHECK(peer["peak_memory_bytes"].get<double>() > 1e6);
         CHECK(json["ratios"][name].get<double>() ==
-              doctest::Approx(peer["step_s"].get<double>() / json["ours"]["step_s"].get<double>()));
+              test::relative(peer["step_s"].get<double>() / json["ours"]["step_s"].get<double>(), 1e-5));
     }
     CHECK(json["peers"]["umfpack"]["v_max"].get<double>() < 1e-9);
     CHECK(json["peers"]["cg-equal-accuracy"]["v_max"] <= json["ours"]["v_max"]);
@@ -65,7 +66,7 @@ TEST_CASE("benchmark without peers knows its distance to the undecomposed flow, 
     const double direct = w.json("case.json")["ours"]["v_max"].get<double>();
     REQUIRE(w.run(ours + " --reference iterative") == 0);
     CHECK(w.json("case.json")["reference"] == "cg-1e-12");
-    CHECK(w.json("case.json")["ours"]["v_max"].get<double>() == doctest::Approx(direct).epsilon(1e-6));
+    CHECK(w.json("case.json")["ours"]["v_max"].get<double>() == test::relative(direct, 1e-6));
     REQUIRE(w.run(ours + " --reference none") == 0);
     CHECK_FALSE(w.json("case.json")["ours"].contains("v_max"));
 }
@@ -76,8 +77,8 @@ TEST_CASE("benchmark sweeps over sizes and over threads")
     REQUIRE(w.run(BENCHMARK " --scaling --vertices 15000 --steps 1 --json scaling.json") == 0);
     const Json sizes = w.json("scaling.json")["scaling"];
     REQUIRE(sizes.size() == 2);
-    CHECK(sizes[0]["vertices"].get<double>() == doctest::Approx(10'000).epsilon(0.1));
-    CHECK(sizes[1]["vertices"].get<double>() == doctest::Approx(15'000).epsilon(0.1));
+    CHECK(sizes[0]["vertices"].get<double>() == test::relative(10'000, 0.1));
+    CHECK(sizes[1]["vertices"].get<double>() == test::relative(15'000, 0.1));
     REQUIRE(w.run(BENCHMARK " --threads-sweep --vertices 1000 --threads 2 --steps 2 --json sweep.json") == 0);
     const Json threads = w.json("sweep.json")["threads_sweep"];
     REQUIRE(threads.size() == 2);
@@ -103,7 +104,7 @@ TEST_CASE("benchmark finds out for a grid of cells who is the fastest at equal a
         CHECK(fastest["v_max"].get<double>() <= std::max(ours["v_max"].get<double>(), 1e-3));
         CHECK(fastest["v_mean"].get<double>() <= std::max(ours["v_mean"].get<double>(), 1e-4));
         CHECK(cell["ratio"].get<double>() ==
-              doctest::Approx(fastest["all_s"].get<double>() / ours["all_s"].get<double>()));
+              test::relative(fastest["all_s"].get<double>() / ours["all_s"].get<double>(), 1e-5));
         losses += cell["ratio"].get<double>() < 1.0 ? 1 : 0;
         CHECK(cell["peers"]["our-cg"]["approach"] == "cg");
     }
@@ -135,14 +136,14 @@ TEST_CASE("benchmark explains by which costs ours chooses its approach")
         CHECK(approach["measured"]["v_max"].get<double>() < 1.0);
         const Json& predicted = approach["predicted"];
         const double all = predicted["setup_s"].get<double>() + 2.0 * predicted["step_s"].get<double>();
-        CHECK(predicted["all_s"].get<double>() == doctest::Approx(all));
+        CHECK(predicted["all_s"].get<double>() == test::relative(all, 1e-5));
         if (all < least) {
             least = all;
             cheapest = name;
         }
     }
     CHECK(json["chosen"] == cheapest);
-    CHECK(json["coefficients"].get<double>() == doctest::Approx(6.0));
+    CHECK(json["coefficients"].get<double>() == test::relative(6.0, 1e-5));
     CHECK(json["constants"].size() == 9);
     CHECK(w.count_lines("said", cheapest + " *") == 1);
 }
@@ -161,7 +162,7 @@ TEST_CASE("benchmark runs smooth from file to file beside peers of equal accurac
     CHECK(runs[1]["format"] == "ply");
     CHECK(runs[1]["file_bytes"] < runs[0]["file_bytes"]);
     for (const Json& run : runs) {
-        CHECK(run["v_max"].get<double>() == doctest::Approx(v_max).epsilon(1e-6));
+        CHECK(run["v_max"].get<double>() == test::relative(v_max, 1e-6));
         CHECK(run["smooth"]["turns_s"].size() == 2);
         for (const auto& [key, seconds] : run["phases"].items()) {
             const std::string name = key;
@@ -169,7 +170,8 @@ TEST_CASE("benchmark runs smooth from file to file beside peers of equal accurac
             CHECK(seconds.get<double>() > 0.0);
         }
         CHECK(run["ratio_to_cholmod_step"].get<double>() ==
-              doctest::Approx(run["smooth"]["median_s"].get<double>() / run["cholmod_step"]["median_s"].get<double>()));
+              test::relative(run["smooth"]["median_s"].get<double>() / run["cholmod_step"]["median_s"].get<double>(),
+                             1e-5));
         for (const char* peer : {"cholmod", "cg"}) {
             CHECK(run["peers"][peer]["whole"]["turns_s"].size() == 2);
             CHECK(run["peers"][peer]["whole"]["least_s"].get<double>() > 0.0);
@@ -198,7 +200,7 @@ TEST_CASE("benchmark replays its tasks with more threads than there are")
     CHECK(json["threads"] == 1);
     REQUIRE(json["simulated_threads"].size() == 3);
     CHECK(json["simulated_threads"][2]["threads"] == 1024);
-    CHECK(json["simulated_threads"][0]["efficiency"].get<double>() == doctest::Approx(1.0));
+    CHECK(json["simulated_threads"][0]["efficiency"].get<double>() == test::relative(1.0, 1e-5));
     CHECK(json["simulated_threads"][2]["speed_up"] >= json["simulated_threads"][1]["speed_up"]);
     CHECK(json["simulated_threads"][2]["makespan_s"] >= json["simulated_threads"][2]["critical_path_s"]);
     CHECK(w.count_lines("said", "   1024 ") == 1);

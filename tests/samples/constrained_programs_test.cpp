@@ -1,12 +1,15 @@
 // How much to smooth, what may move, and what is wrong with a mesh: from the command line.
 
+#include <algorithm>
 #include <array>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "partition/formats/mesh_io.h"
 #include "tests/samples/workshop.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 using test::Json;
@@ -18,7 +21,7 @@ TEST_CASE("three ways to say how much to smooth say the same")
     REQUIRE(w.smooth("mesh.obj radius.obj --radius 5% --steps 3 --report radius.json") == 0);
     CHECK(w.said().find("5% of the diagonal") != std::string::npos);
     const Json report = w.json("radius.json");
-    CHECK(report["radius"].get<double>() == doctest::Approx(0.05 * report["diagonal"].get<double>()));
+    CHECK(report["radius"].get<double>() == test::relative(0.05 * report["diagonal"].get<double>(), 1e-5));
     for (const auto& [option, key] :
          {std::pair("--time-step ", "time_step"), {"--time-step-edges ", "time_step_edges"}}) {
         REQUIRE(w.smooth("mesh.obj other.obj --steps 3 " + std::string(option) + report[key].dump()) == 0);
@@ -98,7 +101,7 @@ TEST_CASE("a surface whose file doubles vertices along seams is smoothed as the 
     REQUIRE(w.smooth("seams.obj out.obj --time-step .01 --report report.json") == 0);
     CHECK(w.said().find("12 vertices along seams") != std::string::npos);
     const Json report = w.json("report.json");
-    CHECK(report["surface"]["before"]["volume"].get<double>() == doctest::Approx(1.0 / 6.0));
+    CHECK(report["surface"]["before"]["volume"].get<double>() == test::relative(1.0 / 6.0, 1e-5));
     CHECK(report["surface"]["before"]["roughness_rms"].get<double>() > 90.0);
     CHECK(report["fixed_vertices"] == 0);
     const Points moved = read_mesh(w.directory / "out.obj").mesh.vertices;
@@ -155,6 +158,119 @@ TEST_CASE("the manual page and what shells complete have every option that --hel
                                        "_seamflow_smooth; echo \"$words $COMPREPLY\"\n");
     REQUIRE(w.run("bash try.bash") == 0);
     CHECK(w.said() == "virtual-refinement low-pass\n");
+}
+
+TEST_CASE("the help has examples first, then a line for each option in the order of use; the manual has the rest")
+{
+    const Workshop w;
+    for (const std::string program : {SMOOTH, COMPARE, GENERATE, INSPECT, FIGURES, BENCHMARK}) {
+        CAPTURE(program);
+        REQUIRE(w.run(program + " --help") == 0);
+        const std::string help = w.said();
+        std::istringstream lines(help);
+        for (std::string line; std::getline(lines, line);) {
+            CAPTURE(line);
+            // Of characters, whose first bytes are counted.
+            CHECK(std::ranges::count_if(line, [](char c) { return (c & '\xc0') != '\x80'; }) <= 160);
+        }
+        const auto examples = help.find("\nExamples:\n  ");
+        REQUIRE(examples != std::string::npos);
+        CHECK(examples < help.find("  --"));
+        const std::string name = program.substr(program.rfind('/') + 1);
+        const std::string begin = std::string("\n  ").append(name).append(" ");
+        std::size_t n_examples = 0;
+        for (auto at = help.find(begin); at != std::string::npos; at = help.find(begin, at + 1))
+            ++n_examples;
+        CHECK(n_examples == 3);
+        REQUIRE(w.run(program + " --help-man") == 0);
+        const std::string manual = w.said();
+        std::size_t last = 0;
+        for (const char* section : {"NAME", "SYNOPSIS", "EXAMPLES", "OPTIONS", "EXIT STATUS", "FILES", "SEE ALSO"}) {
+            CAPTURE(section);
+            const auto at = manual.find(std::string(".SH ").append(section).append("\n"));
+            REQUIRE(at != std::string::npos);
+            CHECK(at >= last);
+            last = at;
+        }
+        CHECK(manual.find(std::string("\\fB\\&").append(name).append("\\fR(1)")) == std::string::npos);
+    }
+    REQUIRE(w.run(SMOOTH " --help") == 0);
+    const std::string help = w.said();
+    std::size_t last = 0;
+    for (const char* group : {"How much is smoothed", "What kind of mesh", "What stays", "What is written", "Accuracy",
+                              "Sub-meshes", "Machine", "Options"}) {
+        CAPTURE(group);
+        const auto at = help.find(std::string("\n").append(group).append(":\n  -"));
+        REQUIRE(at != std::string::npos);
+        CHECK(at > last);
+        last = at;
+    }
+    CHECK(help.find("\n  --keep-edges NUMBER ") > help.find("What stays"));
+    CHECK(help.find("\n  --keep-edges NUMBER ") < help.find("What is written"));
+    CHECK(help.find("smoothed, with --time-step-edges 16") == std::string::npos);
+    REQUIRE(w.run(SMOOTH " --help-man") == 0);
+    CHECK(w.said().find("time\\-step\\-edges 16") != std::string::npos);
+}
+
+TEST_CASE("the examples of the help are accepted as they stand")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere scan.obj --vertices 800") == 0);
+    REQUIRE(w.run(GENERATE " noisy-sphere scan.ply --vertices 800") == 0);
+    REQUIRE(w.run(GENERATE " gear part.stl --vertices 800") == 0);
+    for (const std::string program : {SMOOTH, INSPECT, GENERATE}) {
+        REQUIRE(w.run(program + " --help") == 0);
+        std::istringstream lines(w.said());
+        int n = 0;
+        for (std::string line; std::getline(lines, line);) {
+            const std::string name = program.substr(program.rfind('/') + 1);
+            if (!line.starts_with(std::string("  ").append(name).append(" ")))
+                continue;
+            ++n;
+            const auto begin = 2 + name.size();
+            const std::string arguments = line.substr(begin, line.find("   ", begin) - begin);
+            CAPTURE(arguments);
+            CHECK(w.run("(" + program + arguments + ")") == 0);
+        }
+        CHECK(n == 3);
+    }
+}
+
+TEST_CASE("--paper is --plain, and the paper's conditions without it get one remark")
+{
+    const Workshop w;
+    const std::string flow = " --radius 3% --subdomains 5 ";
+    REQUIRE(w.smooth("mesh.obj plain.obj --plain" + flow) == 0);
+    REQUIRE(w.smooth("mesh.obj paper.obj --paper --conditions adapted-robin" + flow) == 0);
+    CHECK(w.said().find("not the paper's own method") == std::string::npos);
+    CHECK(w.run("cmp plain.obj paper.obj") == 0);
+    REQUIRE(w.smooth("mesh.obj other.obj --conditions adapted-robin" + flow) == 0);
+    CHECK(w.count_lines("said", "remark     --conditions adapted-robin alone is not the paper's own method") == 1);
+    CHECK(w.run("cmp -s plain.obj other.obj") == 1);
+}
+
+TEST_CASE("--reference gives the distances that compare gives, and --csv has them step by step")
+{
+    const Workshop w;
+    const std::string flow = "--time-step-edges 3 --steps 3 ";
+    REQUIRE(w.smooth("mesh.obj parts.obj --subdomains 7 --converge never --reference --csv steps.csv --report r.json " +
+                     flow) == 0);
+    CHECK(w.said().find("H_mean ") != std::string::npos);
+    REQUIRE(w.smooth("mesh.obj whole.obj --subdomains 1 " + flow) == 0);
+    REQUIRE(w.run(COMPARE " whole.obj parts.obj --report distance.json") == 0);
+    const Json last = w.json("r.json")["steps"][2];
+    const Json distance = w.json("distance.json");
+    for (const char* key : {"v_mean", "v_max", "h_mean", "h_rms", "h_max"}) {
+        CAPTURE(key);
+        CHECK(last[key].get<double>() == test::relative(distance[key].get<double>(), 1e-6));
+    }
+    REQUIRE(w.run(COMPARE " parts.obj whole.obj --report distance.json") == 0);
+    CHECK(last["h_mean"].get<double>() != test::relative(w.json("distance.json")["h_mean"].get<double>(), 1e-4));
+    CHECK(w.count_lines("steps.csv", "step,p_smallest,p_largest,seconds,") == 1);
+    for (const char* step : {"1,", "2,", "3,"})
+        CHECK(w.count_lines("steps.csv", step) == 1);
+    CHECK(w.smooth("mesh.obj out.obj --csv nowhere/steps.csv " + flow) == 5);
+    CHECK(w.smooth("mesh.obj out.obj --csv out.obj " + flow) == 2);
 }
 
 TEST_CASE("inspect names what is wrong, and ends with 3 for a file that cannot be used as it is")

@@ -8,6 +8,7 @@
 
 #include "tests/samples/running_ranks.h"
 #include "tests/samples/workshop.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 using test::messages;
@@ -29,8 +30,10 @@ TEST_CASE("a run goes on from its checkpoint on any number of ranks, with the sa
             std::istringstream words(line);
             std::string word;
             double x = 0.0;
-            if (words >> word; word == "v" && words >> x)
-                far << "v " << x + 1000.0 << words.str().substr(static_cast<std::size_t>(words.tellg())) << '\n';
+            double y = 0.0;
+            double z = 0.0;
+            if (words >> word; word == "v" && words >> x >> y >> z)
+                far << "v " << x + 1000.0 << ' ' << y - 700.0 << ' ' << z + 400.0 << '\n';
             else
                 far << line << '\n';
         }
@@ -52,7 +55,8 @@ TEST_CASE("a run goes on from its checkpoint on any number of ranks, with the sa
         fs::remove_all(w.directory / "c");
         REQUIRE(on_ranks(w, 3, flow + "2 --checkpoint c") == 0);
         CHECK((test::content_of(w.directory / result) != expected));
-        REQUIRE(on_ranks(w, 2, flow + "4 --checkpoint c --checkpoint-every 3") == 0);
+        // On more ranks than before: stretches begin within those that were kept.
+        REQUIRE(on_ranks(w, 4, flow + "4 --checkpoint c --checkpoint-every 3") == 0);
         CHECK(w.count_lines("said", "resumed    after step 2, from c/smooth-distributed.checkpoint") == 1);
         REQUIRE(on_ranks(w, 1, flow + "5 --checkpoint c --report r.json --every-step s%d.ply") == 0);
         CHECK(w.count_lines("said", "resumed    after step 4, ") == 1);
@@ -62,7 +66,7 @@ TEST_CASE("a run goes on from its checkpoint on any number of ranks, with the sa
         // Nothing is left to do, and nothing of earlier steps remains.
         REQUIRE(on_ranks(w, 3, flow + "5 --checkpoint c --report r.json") == 0);
         CHECK((test::content_of(w.directory / result) == expected));
-        CHECK(w.json("r.json")["surface"]["after"]["area"].get<double>() == doctest::Approx(area).epsilon(1e-12));
+        CHECK(w.json("r.json")["surface"]["after"]["area"].get<double>() == test::relative(area, 1e-12));
         CHECK(std::distance(fs::directory_iterator(w.directory / "c"), {}) == 2);
     }
 }
@@ -72,6 +76,11 @@ TEST_CASE("a checkpoint that belongs to another run of ranks, or is damaged, is 
     const Workshop w;
     REQUIRE(w.run(GENERATE " mixed other.obj --vertices 900 --seed 2") == 0);
     const std::string flow = "--time-step-edges 3 --converge never --threads 1 --checkpoint c";
+    std::string ones;
+    for (std::ptrdiff_t v = 0; v < w.count_lines("mesh.obj", "v "); ++v)
+        ones += "1\n";
+    (void)w.directory.with("ones", ones);
+    (void)w.directory.with("some", "7\n11\n");
     REQUIRE(on_ranks(w, 2, "mesh.obj n.obj --subdomains 5 --steps 3 " + flow) == 0);
     const std::string kept = test::content_of(w.directory / "n.obj");
     const auto refused = [&](const std::string& arguments, int status, const std::string& what) {
@@ -86,6 +95,9 @@ TEST_CASE("a checkpoint that belongs to another run of ranks, or is damaged, is 
     refused("mesh.obj n.obj --subdomains 5 --steps 2", 2, "is after step 3, but steps is 2");
     refused("mesh.obj n.obj --subdomains 4 --steps 4", 2, "subdomains was 5 then and is 4 now");
     refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach 3%", 2, "attachment was 0 then");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach-weights ones", 2, "attachment_weights was ");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --fix some", 2, "fixed_vertices was ");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --laplacian virtual-refinement", 2, "laplacian was ");
     refused("other.obj n.obj --subdomains 5 --steps 4", 3, "the mesh was ");
     const fs::path folder = w.directory / "c";
     const std::string list = test::content_of(folder / "smooth-distributed.checkpoint");

@@ -8,6 +8,7 @@
 #include "partition/formats/mesh_io.h"
 #include "samples/common/error_map.h"
 #include "samples/common/meshes.h"
+#include "tests/support/relative.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
@@ -76,7 +77,7 @@ TEST_CASE("the candidate comes with its distances from the surface of the refere
     const Planes p;
     const ErrorRange range = write_error_map(p.file, p.reference, p.candidate, Shown::SurfaceDistance, {});
     CHECK(range.first == 0.0);
-    CHECK(range.last == doctest::Approx(0.004));
+    CHECK(range.last == test::relative(0.004, 1e-5));
     CHECK(read_mesh(p.file).mesh.vertices == p.candidate.vertices);
     const ErrorMap map = read_error_map(p.file);
     CHECK(map.names == std::vector<std::string>{"distance"});
@@ -90,13 +91,14 @@ TEST_CASE("the candidate comes with its distances from the surface of the refere
 TEST_CASE("the distance of corresponding vertices and its parts")
 {
     const Planes p;
-    CHECK(write_error_map(p.file, p.reference, p.candidate, Shown::VertexDistance, {}).last == doctest::Approx(0.005));
+    CHECK(write_error_map(p.file, p.reference, p.candidate, Shown::VertexDistance, {}).last ==
+          test::relative(0.005, 1e-5));
     CHECK(read_error_map(p.file).names == std::vector<std::string>{"distance"});
     write_error_map(p.file, p.reference, p.candidate, Shown::Tangential, {});
     const ErrorMap tangential = read_error_map(p.file);
     CHECK(tangential.names == std::vector<std::string>{"tangential", "normal", "distance"});
-    CHECK(tangential.values[17][0] == doctest::Approx(0.003).epsilon(0.2));
-    CHECK(tangential.values[17][2] == doctest::Approx(0.005));
+    CHECK(tangential.values[17][0] == test::relative(0.003, 0.2));
+    CHECK(tangential.values[17][2] == test::relative(0.005, 1e-5));
     const ErrorRange range = write_error_map(p.file, p.reference, p.candidate, Shown::Normal, {});
     CHECK(range.first == -range.last);
     const ErrorMap normal = read_error_map(p.file);

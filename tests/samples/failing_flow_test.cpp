@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tests/samples/workshop.h"
+#include "tests/support/skipped.h"
 
 using namespace seamflow;
 using test::Workshop;
@@ -31,6 +32,6 @@ TEST_CASE("a factorisation that fails in a later step: status 4, step and sub-me
                   test::content_of(w.directory / ("at-" + std::to_string(steps_done) + ".obj")));
     }
 #else
-    MESSAGE("skipped: the libraries are shared");
+    test::skip("the libraries are shared");
 #endif
 }

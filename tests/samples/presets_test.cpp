@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/samples/workshop.h"
+#include "tests/support/relative.h"
 
 using seamflow::test::Workshop;
 
@@ -52,6 +53,25 @@ TEST_CASE("without an amount a mesh loses its noise, and hardly anything else")
         };
         CHECK(distance("out.obj") < 0.4 * distance("noisy.obj"));
     }
+}
+
+TEST_CASE("the noise in a report is in mean edge lengths, be it measured or said, on a mesh of any size")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere one.obj --vertices 5000 --noise 0.3") == 0);
+    // Four times as large.
+    REQUIRE(w.run("(awk '/^v /{print \"v\", 4*$2, 4*$3, 4*$4; next}{print}' one.obj >four.obj)") == 0);
+    std::vector<double> noise;
+    for (const std::string mesh : {"one", "four"}) {
+        REQUIRE(w.smooth(mesh + ".obj out.obj --report r.json") == 0);
+        noise.push_back(w.json("r.json")["noise"].get<double>());
+        CHECK(noise.back() > 0.05);
+        CHECK(noise.back() < 0.5);
+        REQUIRE(w.smooth(mesh + ".obj out.obj --report r.json --noise 0.005") == 0);
+        CHECK(w.json("r.json")["noise"].get<double>() * w.json("r.json")["mean_edge"].get<double>() ==
+              test::relative(0.005, 1e-12));
+    }
+    CHECK(noise[1] == test::relative(noise[0], 1e-3));
 }
 
 TEST_CASE("clean parts come back as they were, and what folds or crosses is counted")

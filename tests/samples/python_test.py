@@ -171,13 +171,13 @@ class WrongInput(unittest.TestCase):
         nan = V.copy()
         nan[5, 1] = np.nan
         for error, sentence, arguments, keywords in (
-            (ValueError, r'--radius: "wide" is neither a positive length', (V, SIDES), {"radius": "wide"}),
-            (ValueError, r'--steps: "-1" is not a whole number', (V, SIDES), {"steps": -1}),
+            (ValueError, r'^radius: "wide" is neither a positive length', (V, SIDES), {"radius": "wide"}),
+            (ValueError, r'^steps: "-1" is not a whole number', (V, SIDES), {"steps": -1}),
             (ValueError, r'"cubic" is none of fujiwara', (V, SIDES), {"laplacian": "cubic"}),
-            (ValueError, "--radius", (V, SIDES), {"radius": 1, "time_step": 1}),
-            (ValueError, "--overlap is for --conditions schwarz", (V, SIDES), {"overlap": 2, "radius": 1}),
-            (ValueError, "--fix holds some", (V, SIDES), {"fixed": [0], "rescale": "area", "radius": 1}),
-            (ValueError, "--labels", (V, SIDES), {"labels": [0] * 6, "subdomains": 2, "radius": 1}),
+            (ValueError, "radius", (V, SIDES), {"radius": 1, "time_step": 1}),
+            (ValueError, "^overlap is for conditions schwarz", (V, SIDES), {"overlap": 2, "radius": 1}),
+            (ValueError, "fix holds some", (V, SIDES), {"fixed": [0], "rescale": "area", "radius": 1}),
+            (ValueError, "labels", (V, SIDES), {"labels": [0] * 6, "subdomains": 2, "radius": 1}),
             (TypeError, r"no keyword radios, did you mean radius\?", (V, SIDES), {"radios": 1}),
             (TypeError, "no keyword qqqqqq; there are .*labels.*radius", (V, SIDES), {"qqqqqq": 1}),
             (ValueError, "threads is 65537, but must be at least 0 and at most 1024", (V, SIDES), {"threads": 65537, "radius": 1}),
@@ -258,7 +258,7 @@ class Described(unittest.TestCase):
         text = subprocess.run([SMOOTH, "--help"], check=True, capture_output=True, text=True).stdout
         stub = (pathlib.Path(seamflow.__file__).parent / "__init__.pyi").read_text()
         compile(stub, "__init__.pyi", "exec")
-        of_files = {"help", "version", "every-step", "parts", "report", "trace", "task-graph", "html", "checkpoint"}
+        of_files = {"help", "version", "every-step", "parts", "report", "csv", "trace", "task-graph", "html", "checkpoint"}
         of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
         of_files |= {"edges", "edges-from-file"}
         named = {line.split()[0][2:] for line in text.splitlines() if line.strip().startswith("--")} - of_files

@@ -1,8 +1,14 @@
+#include <algorithm>
 #include <limits>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "partition/version.h"
 #include "samples/common/report_json.h"
 
 using namespace seamflow;
@@ -108,4 +114,65 @@ TEST_CASE("the report of compare has what was measured, and nothing else")
     CHECK(json["remarks"].size() == 1);
     CHECK_FALSE(json.contains("v_mean"));
     CHECK_FALSE(json.contains("tangential_mean"));
+}
+
+TEST_CASE("reports say by which version they were made, when, and which keys they have")
+{
+    for (const std::string& text :
+         {smooth_report_json(RunRecord{}, FlowReport{}), smooth_failure_json(RunRecord{}, Failure{})}) {
+        const Json json = Json::parse(text);
+        CHECK(json["schema"] == 1);
+        CHECK(json["version"] == std::string(version));
+        const std::string date = json["date"];
+        REQUIRE(date.size() == 20);
+        CHECK(date.starts_with("20"));
+        CHECK(date.substr(10, 1) == "T");
+        CHECK(date.ends_with("Z"));
+    }
+}
+
+TEST_CASE("the table of steps has a row for each, and a column for all that any has, numbers to the last bit")
+{
+    FlowReport report;
+    report.cut.sub_meshes = {{.p = 3.25}, {.p = 0.1}, {.p = 7.0}};
+    StepReport first;
+    first.seconds = 0.1 + 0.2;
+    first.max_mean_curvature_after = std::numeric_limits<double>::infinity();
+    StepReport second;
+    second.iterations = 12;
+    second.distance = VertexDistance{0.1, 0.2, 0.3, 0.5};
+    second.surface_distance = LengthStatistics{0.05, 0.1, 0.25};
+    report.steps = {first, second};
+    RunRecord run;
+    run.scale.mean_edge = 1.0;
+    const std::string csv = steps_csv(smooth_report_json(run, report));
+    std::istringstream lines(csv);
+    std::vector<std::vector<std::string>> rows;
+    for (std::string line; std::getline(lines, line);) {
+        rows.emplace_back();
+        std::istringstream cells(line + ",");
+        for (std::string cell; std::getline(cells, cell, ',');)
+            rows.back().push_back(cell);
+    }
+    REQUIRE(rows.size() == 3);
+    for (const auto& row : rows)
+        CHECK(row.size() == rows[0].size());
+    CHECK(std::set<std::string>(rows[0].begin(), rows[0].end()).size() == rows[0].size());
+    const auto cell = [&](int step, const std::string& column) {
+        const auto found = std::ranges::find(rows[0], column);
+        REQUIRE(found != rows[0].end());
+        return rows[static_cast<std::size_t>(step)][static_cast<std::size_t>(found - rows[0].begin())];
+    };
+    CHECK(cell(1, "step") == "1");
+    CHECK(cell(2, "step") == "2");
+    CHECK(std::stod(cell(1, "seconds")) == 0.1 + 0.2);
+    CHECK(cell(1, "p_smallest") == "0.1");
+    CHECK(cell(2, "p_largest") == "7.0");
+    CHECK(cell(1, "max_mean_curvature_after").empty());
+    CHECK(cell(1, "iterations").empty());
+    CHECK(cell(2, "iterations") == "12");
+    CHECK(std::stod(cell(2, "v_mean")) == 0.1 / 0.5);
+    CHECK(std::stod(cell(2, "h_max")) == 0.25 / 0.5);
+    CHECK(std::stod(cell(2, "h_max_absolute")) == 0.25);
+    CHECK(steps_csv(smooth_report_json(run, FlowReport{})) == "step,p_smallest,p_largest\n");
 }

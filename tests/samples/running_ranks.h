@@ -43,7 +43,7 @@ inline int on_ranks_of_which_one_is_killed(const Workshop& w, const std::string&
     std::ofstream(w.directory / "kill.sh") << "timeout 100 " MPIRUN " -n 3 sh rank.sh >out 2>&1 &\n"
                                               "until "
                                            << until
-                                           << "; do sleep 0.1; kill -0 $! || exit 0; done\n"
+                                           << "; do sleep 0.1; kill -0 $! || { echo ended before; exit 0; }; done\n"
                                               "kill -9 $(cat pid.1)\n"
                                               "wait $!\n";
     return w.run("sh kill.sh");

@@ -8,6 +8,7 @@
 #include "samples/common/meshes.h"
 #include "samples/common/smoothing_request.h"
 #include "tests/support/flows.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -15,10 +16,10 @@ using namespace seamflow::test;
 TEST_CASE("radius and time step are inverse to each other")
 {
     for (const int steps : {1, 2, 7, 1000}) {
-        CHECK(smoothed_radius(time_step_for_radius(0.3, steps), steps) == doctest::Approx(0.3).epsilon(1e-12));
-        CHECK(time_step_for_radius(smoothed_radius(1e-7, steps), steps) == doctest::Approx(1e-7).epsilon(1e-12));
+        CHECK(smoothed_radius(time_step_for_radius(0.3, steps), steps) == relative(0.3, 1e-12));
+        CHECK(time_step_for_radius(smoothed_radius(1e-7, steps), steps) == relative(1e-7, 1e-12));
     }
-    CHECK(time_step_for_radius(3.0, 1) == doctest::Approx(2.0 * 9.0 / (std::numbers::pi * std::numbers::pi)));
+    CHECK(time_step_for_radius(3.0, 1) == relative(2.0 * 9.0 / (std::numbers::pi * std::numbers::pi), 1e-5));
 }
 
 TEST_CASE("bumps of the radius lose half their height over all steps, smaller ones more, larger ones less")
@@ -48,7 +49,8 @@ TEST_CASE("bumps of the radius lose half their height over all steps, smaller on
                 const double left = flowed(mesh, options).col(2).maxCoeff() / mesh.vertices.col(2).maxCoeff();
                 CAPTURE(part);
                 const double step_factor = 1.0 + (std::pow(2.0, 1.0 / steps) - 1.0) / (part * part);
-                CHECK(left == doctest::Approx(std::pow(step_factor, -steps)).epsilon(0.02));
+                // Short bumps have few edges.
+                CHECK(left == relative(std::pow(step_factor, -steps), part < 1.0 ? 0.06 : 0.02));
             }
 }
 
@@ -84,7 +86,7 @@ TEST_CASE("bumps of the radius lose half their height with every filter, order a
                 CAPTURE(kind.order);
                 CAPTURE(steps);
                 const double left = flowed(mesh, options).col(2).maxCoeff() / mesh.vertices.col(2).maxCoeff();
-                CHECK(left == doctest::Approx(0.5).epsilon(0.02));
+                CHECK(left == relative(0.5, 0.02));
             }
 }
 

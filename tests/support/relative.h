@@ -1,15 +1,31 @@
 #pragma once
 
-#include <doctest/doctest.h>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
 
 namespace seamflow::test {
 
-/// What a number is compared with that may differ from `value` by the part `most` of the larger of the two. Bare,
-/// doctest::Approx adds 1 to that: of small numbers it accepts any.
-/// @param value not 0, of which there is no part: compare an absolute value with a bound there.
-inline doctest::Approx relative(double value, double most)
+/// A number to compare others with that may differ from it by the part `most` of the larger of the two. Unlike
+/// doctest::Approx, which adds 1 to that, it does not accept any number where all are small: of 0 there is no part.
+struct Relative {
+    double value;
+    double most;
+
+    friend bool operator==(double other, const Relative& one)
+    {
+        return std::abs(other - one.value) <= one.most * std::max(std::abs(other), std::abs(one.value));
+    }
+
+    friend std::ostream& operator<<(std::ostream& out, const Relative& one)
+    {
+        return out << one.value << " to " << one.most;
+    }
+};
+
+inline Relative relative(double value, double most)
 {
-    return doctest::Approx(value).epsilon(most).scale(0.0);
+    return {value, most};
 }
 
 }  // namespace seamflow::test

@@ -95,7 +95,8 @@ def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=Non
 def _describe_options():
     lines = []
     for keyword, (_, kind, text, is_flag) in _OPTIONS.items():
-        lines.append(f"    {keyword}: {'bool' if is_flag else kind}\n        {text}")
+        told = text.replace("\n", "\n        ")
+        lines.append(f"    {keyword}: {'bool' if is_flag else kind}\n        {told}")
     return "\n".join(lines)
 
 

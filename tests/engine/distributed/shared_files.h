@@ -41,11 +41,13 @@ struct Shared {
     std::string fault;
 };
 
-/// However large the coordinates are, they stay finite.
+/// Moves all three coordinates of every vertex; however large they are, they stay finite.
 inline void lift(Points& points)
 {
-    for (Index v = 0; v < points.rows(); ++v)
-        points(v, 2) += 0.1 * std::sin(points(v, 0));
+    for (Index v = 0; v < points.rows(); ++v) {
+        const Point p = points.row(v);
+        points.row(v) += Point(0.07 * std::sin(p.y() + 1.0), 0.05 * std::sin(p.z() + 2.0), 0.1 * std::sin(p.x() + 3.0));
+    }
 }
 
 /// Reads a file, moves the vertices and writes it as `result`, and beside it as labelled.ply.

@@ -1,11 +1,13 @@
 // Files that ranks read and write together, beside the same on one machine.
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -141,7 +143,37 @@ TEST_CASE("slices of PLY files keep what else there is, rounded or in wider numb
         CAPTURE(coordinate);
         write_file(file, colourful_ply(400, coordinate));
         check_as_on_one_machine(file, directory / "out.ply", sliced, 64);
-        CHECK(read_mesh(directory / "out.ply").mesh.vertices.allFinite());
+        Points expected = read_mesh(file).mesh.vertices;
+        test::lift(expected);
+        const double rounding = coordinate == "int" ? 1e-7 : 1e-6;
+        CHECK((read_mesh(directory / "out.ply").mesh.vertices - expected).cwiseAbs().maxCoeff() < 400 * rounding);
+        const std::string header = test::content_of(directory / "out.ply").substr(0, 500);
+        CHECK(header.find(coordinate == "int" ? "property double x" : "property float x") != std::string::npos);
+    }
+}
+
+TEST_CASE("a face of more corners than a byte counts, on one rank alone, is written by all")
+{
+    const test::TemporaryDirectory directory;
+    PolygonMesh mesh = make_quads(700);
+    // A disc beside it, as the last face.
+    constexpr Index n_corners = 300;
+    const Index first = mesh.n_vertices();
+    mesh.vertices.conservativeResize(first + n_corners, 3);
+    std::vector<Index> corners;
+    for (Index k = 0; k < n_corners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / n_corners;
+        mesh.vertices.row(first + k) = Point(3.0 + std::cos(angle), std::sin(angle), 0.0);
+        corners.push_back(first + k);
+    }
+    mesh.add_face(corners);
+    for (const std::string extension : {".ply", ".obj", ".off"}) {
+        CAPTURE(extension);
+        const auto file = directory / ("in" + extension);
+        const FileKind kind{*format_of(file), extension == ".ply" ? Encoding::BinaryLittleEndian : Encoding::Ascii};
+        write_mesh(file, mesh, kind);
+        check_as_on_one_machine(file, directory / ("out" + extension), sliced, 64);
+        CHECK(read_mesh(directory / "labelled.ply").mesh.face(mesh.n_faces() - 1).size() == n_corners);
     }
 }
 

@@ -18,6 +18,7 @@
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
 #include "tests/support/random_meshes.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -240,11 +241,11 @@ TEST_CASE("the amount of the cad preset is in mean edges, and reaches no further
         const double edge = mean_edge_length(mesh, mesh.vertices);
         return options_for(Preset::Cad, mesh).options.time_step / (edge * edge);
     };
-    CHECK(edges_of(make_box(3000)) == doctest::Approx(32.0));
+    CHECK(edges_of(make_box(3000)) == relative(32.0, 1e-5));
     const PolygonMesh coarse = make_box(400);
     const double reach = 0.2 * extent_of(coarse.vertices) / mean_edge_length(coarse, coarse.vertices);
     REQUIRE(reach * reach < 20.0);
-    CHECK(edges_of(coarse) == doctest::Approx(reach * reach).epsilon(0.005));
+    CHECK(edges_of(coarse) == relative(reach * reach, 0.005));
 }
 
 TEST_CASE("noise that is said is believed, and no more is taken than it")

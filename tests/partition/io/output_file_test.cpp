@@ -1,7 +1,12 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
 #include "partition/errors.h"
+#include "partition/io/input_file.h"
 #include "partition/io/output_file.h"
 #include "tests/support/temporary_directory.h"
 
@@ -74,4 +79,27 @@ TEST_CASE("links are followed, to files that are not there yet as well; circles 
     fs::create_symlink("here", directory / "there");
     CHECK_THROWS_AS(write(directory / "here", "x"), OutputError);
     CHECK(fs::is_symlink(directory / "here"));
+}
+
+TEST_CASE("texts of every size around that of a buffer are written as they are, packed or not, at once or in parts")
+{
+    const test::TemporaryDirectory directory;
+    constexpr std::size_t buffer = std::size_t{1} << 20;
+    for (const std::size_t n : {std::size_t{1}, buffer - 1, buffer, buffer + 1, 2 * buffer - 1,
+                                2 * buffer, 2 * buffer + 1, 3 * buffer + 17}) {
+        CAPTURE(n);
+        std::string text(n, ' ');
+        for (std::size_t i = 0; i < n; ++i)
+            text[i] = static_cast<char>('a' + i * i % 23);
+        for (const char* name : {"a", "a.gz"})
+            for (const std::size_t first : {std::size_t{0}, std::size_t{5}, n / 2, n}) {
+                const std::size_t begin = std::min(first, n);
+                OutputFile file(directory / name);
+                file.text(std::string_view(text).substr(0, begin));
+                file.text(std::string_view(text).substr(begin));
+                file.commit();
+                const InputFile written{OpenFile(directory / name)};
+                CHECK((written.content() == text));
+            }
+    }
 }

@@ -11,6 +11,7 @@
 #include "samples/figures/drawing.h"
 #include "samples/figures/index_page.h"
 #include "tests/samples/figures/made_up.h"
+#include "tests/support/relative.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;
@@ -32,7 +33,7 @@ TEST_CASE("pictures show what is nearest, in its colour, and nothing where there
         return triangle == 0 ? Colour{200, 0, 0} : Colour{0, 0, 200};
     };
     const Image image = draw(mesh, values, paint, viewpoint);
-    CHECK(largest == doctest::Approx(0.5));
+    CHECK(largest == relative(0.5, 1e-5));
     CHECK(image.pixels.size() == 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     const auto pixel_at = [&](const Eigen::RowVector3d& point) {
         const Points seen = viewpoint.seen(point);
@@ -91,7 +92,7 @@ TEST_CASE("curves have a panel for each decomposed flow, and the authors' number
     // However far they are from ours.
     Experiment far = experiment;
     far.theirs[0].v_max = 5e4;
-    CHECK(curves_svg(table, far).find(">100000<") != std::string::npos);
+    CHECK(curves_svg(table, far).find(">1e5<") != std::string::npos);
     // Of Schwarz the largest distances are not known. One is in the legend.
     CHECK(count(curves_svg(table, experiment), "#b02a50") == 7);
     // A flow that ended early, and one that has nothing to show.
@@ -99,6 +100,37 @@ TEST_CASE("curves have a panel for each decomposed flow, and the authors' number
     CHECK(count(curves_svg(table, experiment), "nan") == 0);
     table.steps = 1;
     CHECK(curves_svg(table, experiment).empty());
+}
+
+TEST_CASE("curves over the number of sub-meshes and over their width have a panel for each way of taking steps")
+{
+    Experiment many = with_many_sub_meshes(small("teaser", 1500));
+    std::erase_if(many.variants, [](const Variant& variant) { return variant.laplacian != Laplacian::Fujiwara; });
+    many.steps = 1;
+    Table table = run(many);
+    CHECK(table.area > 0.0);
+    const auto count = [](const std::string& text, const std::string& what) {
+        std::size_t found = 0;
+        for (std::size_t place = text.find(what); place != std::string::npos; place = text.find(what, place + 1))
+            ++found;
+        return found;
+    };
+    for (const std::string& curves : {curves_of_many({table}), curves_over_width({table})}) {
+        CHECK(count(curves, "<g ") == 2);
+        CHECK(count(curves, "the paper's method") == 1);
+        CHECK(count(curves, "the library's defaults") == 1);
+        // Five numbers of sub-meshes.
+        CHECK(count(curves, "<title>Δ_F, V_mean</title>") == 2);
+        CHECK(count(curves, "<title>Δ_F, V_max</title>") == 2);
+        const auto path = curves.find("<path d=\"M");
+        REQUIRE(path != std::string::npos);
+        CHECK(std::ranges::count(curves.substr(path, curves.find("\" fill", path) - path), 'L') == 4);
+        CHECK(count(curves, "nan") == 0);
+    }
+    // What ended early leaves a gap.
+    std::erase_if(table.rows, [](const Row& row) { return row.subdomains == 8; });
+    CHECK(count(curves_of_many({table}), "nan") == 0);
+    CHECK(curves_of_many({table}) != curves_of_many({run(many)}));
 }
 
 TEST_CASE("the index has every figure under its number, with its settings and commands")

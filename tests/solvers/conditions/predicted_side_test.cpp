@@ -6,6 +6,7 @@
 #include "tests/support/conditions.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 using namespace seamflow::test;
@@ -61,8 +62,8 @@ TEST_CASE("the row at a vertex without prediction is the row of the undecomposed
         double others = 0.0;
         for (std::size_t k = 0; k < row.size(); ++k)
             (condition->columns()[i][k] == sub_mesh.interface.vertices[i] ? diagonal : others) += row[k];
-        CHECK(diagonal == doctest::Approx(1.0 + predicted_time_step * (4.0 - rho)).epsilon(1e-12));
-        CHECK(others == doctest::Approx(-3.0 * predicted_time_step).epsilon(1e-12));
+        CHECK(diagonal == relative(1.0 + predicted_time_step * (4.0 - rho), 1e-12));
+        CHECK(others == relative(-3.0 * predicted_time_step, 1e-12));
     }
 }
 

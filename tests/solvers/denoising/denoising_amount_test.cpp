@@ -15,6 +15,7 @@
 #include "solvers/denoising/chebyshev.h"
 #include "solvers/denoising/denoising_amount.h"
 #include "tests/support/denoising.h"
+#include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;
@@ -142,7 +143,7 @@ TEST_CASE("the amount does not depend on threads, scale, place or direction")
     const Eigen::Matrix3d rotation =
         Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
     other.vertices = (noisy.vertices * rotation.transpose()).rowwise() + Eigen::RowVector3d(30.0, -4.0, 70.0);
-    CHECK(amount_for(other, noise).amount / found.amount == doctest::Approx(1.0).epsilon(1e-4));
+    CHECK(amount_for(other, noise).amount / found.amount == test::relative(1.0, 1e-4));
 }
 
 TEST_CASE("patches of a large mesh say what the whole says, and do not depend on threads")

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "solvers/filters/step_filter.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 
@@ -50,11 +51,11 @@ std::vector<double> left_of_modes(const StepFilter& filter, const std::vector<do
 
 TEST_CASE("the transfer function is what the filter says, and lambda its inverse")
 {
-    CHECK(transfer({Filter::Diffusion, 1}, 3.0) == doctest::Approx(1.0 / 4.0).epsilon(1e-14));
-    CHECK(transfer({Filter::Diffusion, 2}, 3.0) == doctest::Approx(1.0 / 10.0).epsilon(1e-14));
-    CHECK(transfer({Filter::Diffusion, 3}, 3.0) == doctest::Approx(1.0 / 28.0).epsilon(1e-14));
-    CHECK(transfer({Filter::LowPass, 2}, 3.0) == doctest::Approx(7.0 / 16.0).epsilon(1e-14));
-    CHECK(transfer({Filter::LowPass, 3}, 3.0) == doctest::Approx(37.0 / 64.0).epsilon(1e-14));
+    CHECK(transfer({Filter::Diffusion, 1}, 3.0) == test::relative(1.0 / 4.0, 1e-14));
+    CHECK(transfer({Filter::Diffusion, 2}, 3.0) == test::relative(1.0 / 10.0, 1e-14));
+    CHECK(transfer({Filter::Diffusion, 3}, 3.0) == test::relative(1.0 / 28.0, 1e-14));
+    CHECK(transfer({Filter::LowPass, 2}, 3.0) == test::relative(7.0 / 16.0, 1e-14));
+    CHECK(transfer({Filter::LowPass, 3}, 3.0) == test::relative(37.0 / 64.0, 1e-14));
     for (const StepFilter& filter : all_filters(1e-2))
         for (const double left : {0.999, 0.9, 0.5, 0.1, 1e-3})
             CHECK(std::abs(transfer(filter, lambda_of(filter, left)) / left - 1.0) < 1e-9);

@@ -8,6 +8,7 @@
 
 #include "samples/common/meshes/random_numbers.h"
 #include "solvers/krylov/gmres.h"
+#include "tests/support/relative.h"
 
 using namespace seamflow;
 
@@ -82,7 +83,7 @@ Restarted solve(const System& system, const IterationStop& stop, int most_in_cyc
     };
     KrylovBasis V(n);
     restarted.result = gmres(system.multiply(), measure, stop, most_in_cycle, V, x, residual, run_serially);
-    CHECK(restarted.result.residual == doctest::Approx(residual_of(system, x)));
+    CHECK(restarted.result.residual == test::relative(residual_of(system, x), 1e-5));
     return restarted;
 }
 
@@ -160,7 +161,7 @@ TEST_CASE("a regular matrix whose powers lead nowhere for long is solved in the 
     Points x = Points::Zero(n, 3);
     CHECK(system.cycle(1e-12, n - 1, x).iterations == n - 1);
     CHECK(x.allFinite());
-    CHECK(residual_of(system, x) == doctest::Approx(1.0));
+    CHECK(residual_of(system, x) == test::relative(1.0, 1e-5));
     x.setZero();
     CHECK(system.cycle(1e-12, 2 * n, x).iterations == n);
     CHECK(residual_of(system, x) < 1e-12);
@@ -200,7 +201,7 @@ TEST_CASE("the amplification is the norm of the inverse, and tightens the goal w
         Points x = Points::Zero(60, 3);
         const double amplification = system.cycle(1e-6, 100, x).amplification;
         const double expected = 1.0 / smallest;
-        CHECK(amplification <= doctest::Approx(expected));
+        CHECK(amplification <= test::relative(expected, 1e-5));
         CHECK(amplification > 0.5 * expected);
         const double error = (x - Points(system.matrix.partialPivLu().solve(system.right))).norm();
         CHECK(error < 1e-6 * most_amplification);
@@ -250,7 +251,7 @@ TEST_CASE("three cycles one after the other that lead nowhere are the end, and s
     const IterationResult stagnant = solve(system, {1e-8, 1000}, 5).result;
     CHECK(stagnant.stagnated);
     CHECK(stagnant.iterations == 15);
-    CHECK(stagnant.residual == doctest::Approx(1.0));
+    CHECK(stagnant.residual == test::relative(1.0, 1e-5));
     for (const int iterations : {5, 10, 15}) {
         CAPTURE(iterations);
         const IterationResult short_of_goal = solve(system, {1e-8, iterations}, 5).result;
