@@ -47,6 +47,7 @@ void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
     for (const MeshKind& kind : mesh_kinds())
         kinds.emplace_back(kind.name, kind.name);
     auto* kind = add_choice<std::string>(app, "--kind", command.kind, kinds, "of mesh that is made [triangles]");
+    kind->type_name("KIND");
     app.add_option("--mesh", command.mesh, "mesh to read instead: " + extensions_of())
         ->excludes(vertices)
         ->excludes(kind)
@@ -64,9 +65,9 @@ void add_flow_options(CLI::App& app, BenchmarkCommand& command)
     add_real(app, "--q", flow.interface.q, {0.0, std::numeric_limits<double>::max()},
              "Ventcell parameter of ours, for adapted-ventcell and ventcell");
     add_bytes(app, "--memory-limit", flow.resources.memory_limit,
-              "most that the factorisations of ours may take at once, in bytes or with K, M, G, KiB, MiB, GiB; "
-              "converged steps make twice what they cannot keep [sweeps: as little as keeps all threads busy, with "
-              "--simulate-threads no limit; converged steps: no limit]");
+              "most that the factorisations of ours may take at once: 500M, 2GiB [as much as is fast]\n"
+              "In bytes or with K, M, G, KiB, MiB, GiB. Converged steps make twice what they cannot keep. By default "
+              "sweeps take as little as keeps all threads busy; converged steps and --simulate-threads have no limit.");
     add_converge(app, flow,
                  "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
                  "[auto]");
@@ -205,19 +206,21 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     add_mesh_options(app, command);
     add_flow_options(app, command);
     app.add_option("--peers", peers,
-                   "all, none, or a list of cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is "
-                   "named: sweep,converged,our-cg,undecomposed [all but the last four; with --grid cholmod,cg,amg, "
-                   "with --whole-run cholmod,cg; none with --scaling, --threads-sweep, --simulate-threads and "
-                   "--simulate-ranks]")
+                   "all, none, or a list of those that ours is held beside [all but ours by name]\n"
+                   "cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is named: "
+                   "sweep,converged,our-cg,undecomposed. By default with --grid cholmod,cg,amg, with --whole-run "
+                   "cholmod,cg; none with --scaling, --threads-sweep, --simulate-threads and --simulate-ranks.")
         ->type_name("LIST");
-    auto* reference = add_choice<Reference>(app, "--reference", command.options.reference,
-                                            {{"auto", Reference::Automatic},
-                                             {"direct", Reference::Direct},
-                                             {"iterative", Reference::Iterative},
-                                             {"none", Reference::None}},
-                                            "whose positions V_mean and V_max are measured from: a factorisation of "
-                                            "the whole mesh, conjugate gradients to 1e-12, or nobody's [auto: direct "
-                                            "up to 2000000 vertices; none for sweeps without peers]");
+    auto* reference =
+        add_choice<Reference>(app, "--reference", command.options.reference,
+                              {{"auto", Reference::Automatic},
+                               {"direct", Reference::Direct},
+                               {"iterative", Reference::Iterative},
+                               {"none", Reference::None}},
+                              "whose positions V_mean and V_max are measured from [auto]\n"
+                              "direct: those of a factorisation of the whole mesh; iterative: of conjugate "
+                              "gradients to 1e-12. auto: direct up to 2000000 vertices; none for sweeps "
+                              "without peers.");
     app.add_option("--json", command.json, "also write the numbers")->type_name("FILE");
     auto* export_folder = app.add_option("--export", command.export_folder,
                                          "also write the first step's equations as Matrix Market files")
@@ -233,17 +236,16 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
             ->excludes("--peers")
             ->excludes(export_folder);
     app.add_option("--simulate-threads", simulated_threads,
-                   "ours, its tasks of the median step replayed with each of these numbers of threads: 1,2,8 or so, or "
-                   "all: 1, 2, 4, … 1024")
+                   "ours, its tasks replayed with each of these numbers of threads: 1,2,8 or so, or all\n"
+                   "The tasks are those of the median step; all: 1, 2, 4, … 1024.")
         ->excludes(scaling)
         ->excludes(sweep)
         ->excludes("--peers")
         ->excludes(export_folder)
         ->type_name("LIST");
-    app.add_option(
-           "--simulate-ranks", simulated_ranks,
-           "ours, shared by each of these numbers of ranks, threads of one process: what they have to do and to "
-           "say, and what follows for large meshes by a model")
+    app.add_option("--simulate-ranks", simulated_ranks,
+                   "ours, shared by each of these numbers of ranks: what they have to do and to say\n"
+                   "Ranks are threads of one process. What follows for large meshes is said by a model.")
         ->excludes(scaling)
         ->excludes(sweep)
         ->excludes("--simulate-threads")
@@ -251,9 +253,9 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->excludes(export_folder)
         ->type_name("LIST");
     app.add_option("--grid", command.grid.files,
-                   "who is the fastest at equal accuracy, set-up included: triangles, quads, hexagons and mixed "
-                   "polygons (or --kind) of 10^4, 10^5, … vertices, and these meshes; dt 1, 5, 50 and 500 (or "
-                   "--time-step-edges); 1, 3 and 10 steps (or --steps)")
+                   "who is the fastest at equal accuracy, set-up included, on many meshes and these\n"
+                   "Triangles, quads, hexagons and mixed polygons (or --kind) of 10^4, 10^5, … vertices, and these "
+                   "meshes; dt 1, 5, 50 and 500 (or --time-step-edges); 1, 3 and 10 steps (or --steps).")
         ->expected(0, -1)
         ->excludes(scaling)
         ->excludes(sweep)
@@ -264,8 +266,8 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
         ->type_name("[FILE ...]");
     app.add_flag_callback(
            "--explain", [&] { command.mode = BenchmarkMode::Explain; },
-           "the model of costs by which ours chooses how it takes its steps: its constants, what it predicts for each "
-           "approach, and what each takes")
+           "the model of costs by which ours chooses how it takes its steps\n"
+           "Its constants, what it predicts for each approach, and what each takes.")
         ->excludes(scaling)
         ->excludes(sweep)
         ->excludes("--grid")
@@ -277,8 +279,9 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
     auto* whole_run =
         app.add_flag_callback(
                "--whole-run", [&] { command.mode = BenchmarkMode::WholeRun; },
-               "the program smooth from file to file, OBJ and PLY or as --mesh is, beside peers of equal accuracy from "
-               "file to file and one step of cholmod; with --scaling for 10^4, 10^5, … vertices")
+               "the program smooth from file to file, beside peers of equal accuracy and one step of cholmod\n"
+               "OBJ and PLY, or as --mesh is; peers go from file to file, too. With --scaling for 10^4, 10^5, … "
+               "vertices.")
             ->excludes(sweep)
             ->excludes("--grid")
             ->excludes("--explain")
@@ -288,10 +291,9 @@ std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, Benchma
             ->excludes("--q")
             ->excludes("--memory-limit")
             ->excludes(export_folder);
-    auto* turns =
-        add_integer(app, "--turns", command.turns, 1,
-                    "with --grid and --whole-run: how often what is compared is run, in turns; --grid goes by "
-                    "the least times [3]");
+    auto* turns = add_integer(app, "--turns", command.turns, 1,
+                              "with --grid and --whole-run: how often what is compared is run, in turns [3]\n"
+                              "--grid goes by the least times.");
     app.footer("benchmark --vertices 100000             one step of ours beside CHOLMOD, UMFPACK, CG and others\n"
                "benchmark --whole-run --mesh scan.ply   whole programs from file to file\n"
                "benchmark --explain --mesh scan.ply     why smooth takes its steps as it does\n");

@@ -23,8 +23,8 @@ void add_options(CLI::App& app, CompareCommand& command)
          {Direction::ReferenceToCandidate, Direction::CandidateToReference, Direction::Both, Direction::Symmetric})
         directions.emplace_back(name_of(direction), direction);
     add_choice<Direction>(app, "--direction", command.direction, directions,
-                          "from whose vertices to whose surface H_ is measured; symmetric: the larger of both "
-                          "[reference-to-candidate]");
+                          "which way H_ is measured [the first]\n"
+                          "From whose vertices to whose surface; symmetric: the larger of both.");
     app.add_option("--report", command.report, "also write the numbers as JSON; - for standard output")
         ->type_name("REPORT.json");
     auto* error_map =
@@ -65,10 +65,10 @@ void require_usable_files(const CompareCommand& command)
 
 std::optional<ExitStatus> parse_compare_command(int argc, char** argv, CompareCommand& command)
 {
-    CLI::App app(
-        "Distances of two meshes: of corresponding vertices (V_) and of vertices from the surface (H_), and how "
-        "far vertices were moved along the surface; mean, root mean square and largest.",
-        "compare");
+    CLI::App app("Distances of two meshes: of corresponding vertices (V_), and of vertices from the surface (H_); "
+                 "mean, root mean "
+                 "square and largest.",
+                 "compare");
     add_options(app, command);
     app.footer("compare scan.ply smooth.ply                      how far vertices and surfaces are apart\n"
                "compare truth.obj smooth.obj --direction both     from each surface to the other\n"

@@ -64,7 +64,7 @@ bool FiguresCommand::wants(std::string_view figure) const
 std::optional<ExitStatus> parse_figures_command(int argc, char** argv, FiguresCommand& command)
 {
     CLI::App app("Repeats the experiments of the paper and tells which of its claims hold.", "figures");
-    app.add_option("FIGURE", command.figures, "by name or by number in the paper: " + listed_names() + " [all]")
+    app.add_option("FIGURE", command.figures, "by name or by number in the paper [all]\n" + listed_names())
         ->type_name("");
     app.add_option("--meshes", command.meshes, "folder with the authors' own meshes [all are generated]")
         ->type_name("DIR");

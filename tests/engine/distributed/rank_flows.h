@@ -59,6 +59,17 @@ inline Result flowed_on_ranks(const Example& example, const std::vector<Index>& 
     return result;
 }
 
+/// Sorted: the remarks but for those on the cut, which ranks are given.
+inline std::vector<std::string> of_flow(std::vector<std::string> remarks)
+{
+    std::erase_if(remarks, [](const std::string& remark) {
+        return remark.starts_with("The sub-meshes are narrow") || remark.starts_with("The mesh was cut into ") ||
+               remark.starts_with("The labels name ") || remark.find(" to change parts so that ") != std::string::npos;
+    });
+    std::ranges::sort(remarks);
+    return remarks;
+}
+
 /// Compares with the flow on one machine, for each of these numbers of ranks.
 inline void check_bits(const Example& example, int subdomains, const std::vector<int>& n_ranks)
 {
@@ -81,11 +92,7 @@ inline void check_bits(const Example& example, int subdomains, const std::vector
             CHECK(rank.colours == report.cut.n_colours());
             CHECK(rank.interface_vertices == report.cut.interface_vertices);
             CHECK(rank.non_manifold_vertices == report.mesh.non_manifold_vertices);
-            const auto sorted = [](std::vector<std::string> remarks) {
-                std::ranges::sort(remarks);
-                return remarks;
-            };
-            CHECK(sorted(rank.remarks) == sorted(report.remarks));
+            CHECK(of_flow(rank.remarks) == of_flow(report.remarks));
             REQUIRE(rank.steps.size() == report.steps.size());
             for (std::size_t step = 0; step < rank.steps.size(); ++step) {
                 CHECK(rank.steps[step].iterations == report.steps[step].iterations);

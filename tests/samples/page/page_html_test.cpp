@@ -86,7 +86,8 @@ TEST_CASE("a page is built where npm is, and elsewhere says what it takes")
 {
     if (!page_template().empty()) {
         CHECK_NOTHROW(require_page());
-        CHECK(page_html("torus", {}).find("<title>torus</title>") != std::string::npos);
+        const PageFlow flow = make_flow(false);
+        CHECK(page_html("torus", {&flow, 1}).find("<title>torus</title>") != std::string::npos);
         return;
     }
     CHECK_THROWS_WITH_AS(require_page(), doctest::Contains("apt-get install nodejs npm"), OptionError);

@@ -57,7 +57,7 @@ TEST_CASE("conjugate gradients reach far below what their products are rounded t
         Points x;
         const IterationResult result = system.solve({1e-11, 2000}, x);
         CHECK(result.residual <= 1e-11);
-        CHECK(system.residual(x) == test::relative(result.residual, 0.1));
+        CHECK(std::abs(system.residual(x) - result.residual) <= 0.1 * result.residual + 1e-15);
         CHECK_FALSE(result.stagnated);
         CHECK(result.iterations > 0);
     }
