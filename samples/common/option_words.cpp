@@ -26,13 +26,16 @@ constexpr std::array<Words, 12> anywhere{{{"Approach::Sweep", "--approach sweep"
                                           {"time_step", "--time-step"}}};
 
 /// Where a message begins with them.
-constexpr std::array<Words, 20> subjects{{{"approach", "--approach"},
+constexpr std::array<Words, 26> subjects{{{"approach", "--approach"},
                                           {"attachment", "--attach"},
                                           {"boundary", "--boundary"},
+                                          {"colouring", "--coloring"},
                                           {"conditions", "--conditions"},
                                           {"factorisation", "--factorisation"},
                                           {"filter", "--filter"},
                                           {"flow", "--flow"},
+                                          {"labels", "--labels"},
+                                          {"laplacian", "--laplacian"},
                                           {"order", "--order"},
                                           {"overlap", "--overlap"},
                                           {"p", "--p"},
@@ -40,11 +43,14 @@ constexpr std::array<Words, 20> subjects{{{"approach", "--approach"},
                                           {"q", "--q"},
                                           {"radius", "--radius"},
                                           {"rescale", "--rescale"},
+                                          {"scheme", "--scheme"},
                                           {"steps", "--steps"},
                                           {"subdomains", "--subdomains"},
                                           {"sweep", "--sweep"},
                                           {"threads", "--threads"},
                                           {"tolerance", "--converge"},
+                                          {"transmission", "--transmission"},
+                                          {"weld", "--weld"},
                                           {"within", "--within"}}};
 
 bool is_of_word(char c)
@@ -68,11 +74,14 @@ bool stands_alone(std::string_view text, std::size_t begin, std::size_t end)
 
 std::string in_words_of_options(std::string_view message)
 {
-    std::string text(message);
-    const std::string_view first = message.substr(0, message.find(' '));
+    constexpr std::string_view another_flow = "another flow: ";
+    const auto found = message.find(another_flow);
+    const std::size_t begin = found == std::string_view::npos ? 0 : found + another_flow.size();
+    const std::string_view first = message.substr(begin, message.find(' ', begin) - begin);
     const auto subject = std::ranges::find(subjects, first, &Words::first);
+    std::string text(message);
     if (subject != subjects.end())
-        text.replace(0, first.size(), subject->second);
+        text.replace(begin, first.size(), subject->second);
     for (const auto& [field, option] : anywhere)
         for (auto at = text.find(field); at != std::string::npos; at = text.find(field, at + 1))
             if (stands_alone(text, at, at + field.size()))

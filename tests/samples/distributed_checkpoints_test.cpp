@@ -93,11 +93,11 @@ TEST_CASE("a checkpoint that belongs to another run of ranks, or is damaged, is 
         CHECK((test::content_of(w.directory / "n.obj") == kept));
     };
     refused("mesh.obj n.obj --subdomains 5 --steps 2", 2, "is after step 3, but steps is 2");
-    refused("mesh.obj n.obj --subdomains 4 --steps 4", 2, "subdomains was 5 then and is 4 now");
-    refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach 3%", 2, "attachment was 0 then");
-    refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach-weights ones", 2, "attachment_weights was ");
-    refused("mesh.obj n.obj --subdomains 5 --steps 4 --fix some", 2, "fixed_vertices was ");
-    refused("mesh.obj n.obj --subdomains 5 --steps 4 --laplacian virtual-refinement", 2, "laplacian was ");
+    refused("mesh.obj n.obj --subdomains 4 --steps 4", 2, "--subdomains was 5 then and is 4 now");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach 3%", 2, "--attach was 0 then");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --attach-weights ones", 2, "--attach-weights was ");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --fix some", 2, "--fix was ");
+    refused("mesh.obj n.obj --subdomains 5 --steps 4 --laplacian virtual-refinement", 2, "--laplacian was ");
     refused("other.obj n.obj --subdomains 5 --steps 4", 3, "the mesh was ");
     const fs::path folder = w.directory / "c";
     const std::string list = test::content_of(folder / "smooth-distributed.checkpoint");

@@ -261,7 +261,8 @@ class Described(unittest.TestCase):
         of_files = {"help", "version", "every-step", "parts", "report", "csv", "trace", "task-graph", "html", "checkpoint"}
         of_files |= {"checkpoint-every", "quiet", "verbose", "fix", "fix-property", "attach-property", "keep-gaps"}
         of_files |= {"edges", "edges-from-file"}
-        named = {line.split()[0][2:] for line in text.splitlines() if line.strip().startswith("--")} - of_files
+        headings = [line.strip().split("  ")[0] for line in text.splitlines() if line.strip().startswith("--")]
+        named = {word.strip(",")[2:] for heading in headings for word in heading.split() if word.startswith("--")} - of_files
         self.assertGreater(len(named), 30)
         for name in named:
             keyword = name.replace("-", "_")

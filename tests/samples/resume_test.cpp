@@ -105,8 +105,8 @@ TEST_CASE("a checkpoint of another run, or a damaged one, is refused with what t
         CHECK(w.said().find("remove it to begin anew") != std::string::npos);
         CHECK_FALSE(w.has("out.obj"));
     };
-    refused("mesh.obj out.obj --time-step 2e-3 --steps 3 --checkpoint kept", 2, "time_step was 0.001 ");
-    refused(flow + "--laplacian ptackova-velho", 2, "laplacian was fujiwara then and is ptackova-velho now");
+    refused("mesh.obj out.obj --time-step 2e-3 --steps 3 --checkpoint kept", 2, "--time-step was 0.001 ");
+    refused(flow + "--laplacian ptackova-velho", 2, "--laplacian was fujiwara then and is ptackova-velho now");
     refused("mesh.obj out.obj --time-step 1e-3 --steps 2 --checkpoint kept", 2, "is after step 3, but steps is 2");
     REQUIRE(w.run(GENERATE " mixed other.obj --vertices 900 --seed 7") == 0);
     refused("other.obj out.obj --time-step 1e-3 --steps 3 --checkpoint kept", 3, "the mesh was ");
