@@ -100,6 +100,14 @@ TEST_CASE("vertices of a component move along the normals by no more than the li
         Points positions = free;
         LimitedComponents(mesh, topology, {.move = limit}).apply(positions);
         CHECK(std::abs(move(positions) / limit - 1.0) < 1e-3);
+        // The stricter of both limits holds; open surfaces have no volume to keep.
+        positions = free;
+        LimitedComponents(mesh, topology, {.volume = 0.5, .move = limit}).apply(positions);
+        CHECK(std::abs(move(positions) / limit - 1.0) < 1e-3);
+        const bool is_open = std::ranges::count(topology.twin, -1) > 0;
+        positions = free;
+        LimitedComponents(mesh, topology, {.volume = 1e-4}).apply(positions);
+        CHECK(same_bits(positions, free) == is_open);
         LimitedComponents unlimited(mesh, topology, {.move = 1.01 * move(free)});
         positions = free;
         unlimited.apply(positions);

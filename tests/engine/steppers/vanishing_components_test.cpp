@@ -94,6 +94,32 @@ TEST_CASE("components a million times smaller stay where they are, whatever the 
     }
 }
 
+TEST_CASE("what is small does not depend on the unit of length")
+{
+    const PolygonMesh both =
+        together({ball(1.0, {0.0, 0.0, 0.0}, 300), ball(1e-4, {3.0, 0.0, 0.0}, 100), ball(1e-7, {0.0, 4.0, 0.0}, 100)});
+    for (const Way& way : all_ways(0.002)) {
+        // The paper's parameter has a unit.
+        if (way.name == "robin")
+            continue;
+        CAPTURE(way.name);
+        PolygonMesh mesh = both;
+        const std::vector<std::string> remarks = mean_curvature_flow(mesh, way.options).remarks;
+        for (const double unit : {0x1p-12, 0x1p14}) {
+            CAPTURE(unit);
+            PolygonMesh other = both;
+            other.vertices *= unit;
+            FlowOptions options = way.options;
+            options.time_step *= unit * unit;
+            options.motion.attachment /= unit * unit;
+            const FlowReport report = mean_curvature_flow(other, options);
+            other.vertices /= unit;
+            CHECK(test::largest_difference(other.vertices, mesh.vertices) < 1e-9);
+            CHECK(report.remarks == remarks);
+        }
+    }
+}
+
 TEST_CASE("small components leave the others' result alone")
 {
     const PolygonMesh large = ball(1.0, {0.0, 0.0, 0.0}, 300);
@@ -121,6 +147,13 @@ TEST_CASE("what the scaling of a small component leaves out is far below its siz
     const Points below = after(0.99);
     const Points above = after(1.01);
     CHECK(test::largest_difference(below, above) < 1e-7);
+    // So it is with vertices that are pulled back, each in its own way: the middle goes to theirs.
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        options.motion.attachment_weights.push_back(mesh.vertices(v, 0) > 0.2 ? 1e-5 / (extent * extent) : 0.0);
+    const Points pulled = after(0.999);
+    CHECK((pulled.colwise().mean() - below.colwise().mean()).norm() > 0.05);
+    CHECK(test::largest_difference(pulled, after(1.001)) < 1e-3);
+    options.motion.attachment_weights.clear();
     // What is left of the shape is as 1 / dt.
     const Point centre = below.colwise().mean();
     const Points shape = below.rowwise() - centre;

@@ -55,6 +55,12 @@ double distance(const PolygonMesh& from, const PolygonMesh& to)
     return std::sqrt(sum / n);
 }
 
+/// Root mean square of the moves along the normals of the result.
+double moved(const PolygonMesh& from, const PolygonMesh& to)
+{
+    return distance(to, from);
+}
+
 double noise_along_normals(double sigma, const PolygonMesh& mesh)
 {
     return sigma / std::sqrt(3.0) * mean_edge_length(mesh);
@@ -94,6 +100,7 @@ TEST_CASE("the amount comes nearest to the true surface, and the distance left i
             // In squares, over that of the noise.
             CHECK(std::abs(found.risk - left * left) < 0.1 * noise * noise);
             CHECK(found.move <= noise);
+            CHECK(found.move == test::relative(moved(noisy, filtered(noisy, found.amount)), 0.06));
             CHECK(found.move > 0.3 * noise);
             // Where only the estimate is known, the result is hardly worse; what is not proved to be noise stays.
             const double estimated = estimate_noise(noisy, make_topology(noisy));
@@ -113,6 +120,24 @@ TEST_CASE("nothing is smoothed without noise, nor where smoothing takes more off
     CHECK(none.amount == 0.0);
     CHECK(none.move == 0.0);
     CHECK(none.risk == noise * noise);
+}
+
+TEST_CASE("something is smoothed only where it is clear that it comes nearer to the truth")
+{
+    int n_left = 0;
+    int n_smoothed = 0;
+    for (const Index vertices : {250, 350, 500, 800, 1500})
+        for (const double sigma : {0.01, 0.02, 0.03, 0.05, 0.08, 0.12}) {
+            CAPTURE(vertices);
+            CAPTURE(sigma);
+            const PolygonMesh truth = make_noisy_sphere(vertices, {.waves = 7, .noise = 0.0});
+            const double noise = noise_along_normals(sigma, truth);
+            const DenoisingAmount found = amount_for(test::with_gaussian_noise(truth, sigma, 6), noise);
+            (found.amount > 0.0 ? n_smoothed : n_left) += 1;
+            CHECK((found.amount == 0.0 || found.risk < 0.9 * noise * noise));
+        }
+    CHECK(n_left > 3);
+    CHECK(n_smoothed > 3);
 }
 
 TEST_CASE("meshes in which nothing moves have no amount")
