@@ -78,12 +78,19 @@ std::string line_of(const std::string& heading, const std::string& text)
     return fmt::format("  {:<26}  {}\n", heading, text);
 }
 
+/// "INPUT", or "[FIGURE …]" of what there may be none of and several.
+std::string name_in_usage(const CLI::Option& positional)
+{
+    const char* const more = positional.get_items_expected_max() > 1 ? " …" : "";
+    return positional.get_required() ? positional.get_name() : fmt::format("[{}{}]", positional.get_name(), more);
+}
+
 /// "smooth [OPTIONS] INPUT OUTPUT".
 std::string usage_of(const CLI::App& app)
 {
     std::string usage = app.get_name() + " [OPTIONS]";
     for (const CLI::Option* positional : positionals_of(app))
-        usage += " " + positional->get_name();
+        usage += " " + name_in_usage(*positional);
     return usage;
 }
 
@@ -206,7 +213,7 @@ std::string man_page(const CLI::App& app)
     page += fmt::format(".SH SYNOPSIS\n\\fB{}\\fR [\\fIOPTIONS\\fR]", app.get_name());
     const auto positionals = positionals_of(app);
     for (const CLI::Option* positional : positionals)
-        page += fmt::format(" \\fI{}\\fR", roff(positional->get_name()));
+        page += fmt::format(" \\fI{}\\fR", roff(name_in_usage(*positional)));
     page += fmt::format("\n.SH EXAMPLES\n.nf\n{}\n.fi\n.SH ARGUMENTS\n", roff(app.get_footer()));
     for (const CLI::Option* positional : positionals)
         page += fmt::format(".TP\n\\fI{}\\fR\n{}\n", roff(positional->get_name()), roff(positional->get_description()));

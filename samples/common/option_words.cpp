@@ -1,57 +1,70 @@
 #include "samples/common/option_words.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <utility>
+#include <iterator>
 
 namespace seamflow {
 
 namespace {
 
-using Words = std::pair<std::string_view, std::string_view>;
+/// Fields that options set.
+constexpr std::string_view fields[] = {"approach",
+                                       "attachment",
+                                       "attachment_weights",
+                                       "boundary",
+                                       "colouring",
+                                       "conditions",
+                                       "converge_iterations",
+                                       "factorisation",
+                                       "feature_edges",
+                                       "filter",
+                                       "fixed_vertices",
+                                       "flow",
+                                       "keep_edges",
+                                       "keep_gaps",
+                                       "labels",
+                                       "laplacian",
+                                       "memory_limit",
+                                       "order",
+                                       "overlap",
+                                       "p",
+                                       "p_edge",
+                                       "p_rule",
+                                       "precision",
+                                       "q",
+                                       "radius",
+                                       "rescale",
+                                       "scheme",
+                                       "steps",
+                                       "subdomains",
+                                       "sweep",
+                                       "threads",
+                                       "time_step",
+                                       "tolerance",
+                                       "transmission",
+                                       "weld",
+                                       "within"};
 
-/// Wherever they stand.
-constexpr std::array<Words, 12> anywhere{{{"Approach::Sweep", "--approach sweep"},
-                                          {"Filter::LowPass", "--filter low-pass"},
-                                          {"attachment_weights", "--attach-weights"},
-                                          {"converge_iterations", "--converge-iterations"},
-                                          {"feature_edges", "--edges"},
-                                          {"fixed_vertices", "--fix"},
-                                          {"keep_edges", "--keep-edges"},
-                                          {"keep_gaps", "--keep-gaps"},
-                                          {"memory_limit", "--memory-limit"},
-                                          {"p_edge", "--p-edge"},
-                                          {"p_rule", "--p-rule"},
-                                          {"time_step", "--time-step"}}};
+struct Exchange {
+    std::string_view from;
+    std::string_view to;
+};
 
-/// Where a message begins with them.
-constexpr std::array<Words, 26> subjects{{{"approach", "--approach"},
-                                          {"attachment", "--attach"},
-                                          {"boundary", "--boundary"},
-                                          {"colouring", "--coloring"},
-                                          {"conditions", "--conditions"},
-                                          {"factorisation", "--factorisation"},
-                                          {"filter", "--filter"},
-                                          {"flow", "--flow"},
-                                          {"labels", "--labels"},
-                                          {"laplacian", "--laplacian"},
-                                          {"order", "--order"},
-                                          {"overlap", "--overlap"},
-                                          {"p", "--p"},
-                                          {"precision", "--precision"},
-                                          {"q", "--q"},
-                                          {"radius", "--radius"},
-                                          {"rescale", "--rescale"},
-                                          {"scheme", "--scheme"},
-                                          {"steps", "--steps"},
-                                          {"subdomains", "--subdomains"},
-                                          {"sweep", "--sweep"},
-                                          {"threads", "--threads"},
-                                          {"tolerance", "--converge"},
-                                          {"transmission", "--transmission"},
-                                          {"weld", "--weld"},
-                                          {"within", "--within"}}};
+/// Those whose options are called otherwise.
+constexpr Exchange renamed[] = {{"attachment", "attach"},  {"attachment_weights", "attach-weights"},
+                                {"colouring", "coloring"}, {"feature_edges", "edges"},
+                                {"fixed_vertices", "fix"}, {"tolerance", "converge"}};
+
+constexpr Exchange values[] = {{"Approach::Sweep", "--approach sweep"}, {"Filter::LowPass", "--filter low-pass"}};
+
+std::string option_of(std::string_view field)
+{
+    const auto found = std::ranges::find(renamed, field, &Exchange::from);
+    std::string option(found == std::end(renamed) ? field : found->to);
+    std::ranges::replace(option, '_', '-');
+    return std::string("--").append(option);
+}
 
 bool is_of_word(char c)
 {
@@ -70,6 +83,14 @@ bool stands_alone(std::string_view text, std::size_t begin, std::size_t end)
     return (text[end] == ':' || text[end] == '.') && (end + 1 == text.size() || text[end + 1] == ' ');
 }
 
+/// Wherever it stands alone.
+void exchange(std::string& text, std::string_view word, std::string_view option)
+{
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if (stands_alone(text, at, at + word.size()))
+            text.replace(at, word.size(), option);
+}
+
 }  // namespace
 
 std::string in_words_of_options(std::string_view message)
@@ -78,14 +99,14 @@ std::string in_words_of_options(std::string_view message)
     const auto found = message.find(another_flow);
     const std::size_t begin = found == std::string_view::npos ? 0 : found + another_flow.size();
     const std::string_view first = message.substr(begin, message.find(' ', begin) - begin);
-    const auto subject = std::ranges::find(subjects, first, &Words::first);
     std::string text(message);
-    if (subject != subjects.end())
-        text.replace(begin, first.size(), subject->second);
-    for (const auto& [field, option] : anywhere)
-        for (auto at = text.find(field); at != std::string::npos; at = text.find(field, at + 1))
-            if (stands_alone(text, at, at + field.size()))
-                text.replace(at, field.size(), option);
+    if (std::ranges::find(fields, first) != std::end(fields))
+        text.replace(begin, first.size(), option_of(first));
+    for (const std::string_view field : fields)
+        if (field.find('_') != std::string_view::npos)
+            exchange(text, field, option_of(field));
+    for (const auto& [value, option] : values)
+        exchange(text, value, option);
     return text;
 }
 

@@ -35,8 +35,7 @@ def run(*command):
 
 def build_package(build, target):
     run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF",
-        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=40", "-DSEAMFLOW_BUILD_TESTS=OFF",
-        "-DSEAMFLOW_PAGE=OFF", "-DSEAMFLOW_PYTHON=REQUIRED", "-DSEAMFLOW_PYTHON_DIR=.",
+        "-DSEAMFLOW_BUILD_TESTS=OFF", "-DSEAMFLOW_PAGE=OFF", "-DSEAMFLOW_PYTHON=REQUIRED", "-DSEAMFLOW_PYTHON_DIR=.",
         f"-DPython_EXECUTABLE={sys.executable}")
     run("cmake", "--build", build, "--target", "seamflow_python")
     run("cmake", "--install", build, "--component", "python", "--prefix", target)

@@ -155,7 +155,7 @@ add_subdirectory)
     ;;
 shared)
     configure_consumer "with shared sources" -DSEAMFLOW_SOURCE="$root" -DBUILD_SHARED_LIBS=ON -DSEAMFLOW_INSTALL=ON \
-        -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_CXX_FLAGS="-O0 -w" "$@"
+        -DCMAKE_CXX_FLAGS="-O0 -w" "$@"
     cmake --build "$work/with shared sources"
     "$work/with shared sources/consumer"
     rm -rf "$work/shared"

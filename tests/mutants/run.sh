@@ -187,7 +187,7 @@ prepare() {
     : >"$log"
     if [[ ! -f "$tree/build/build.ninja" ]]; then
         in_copy "$log" cmake --preset release -DSEAMFLOW_BUILD_SAMPLES=ON -DSEAMFLOW_BUILD_TESTS=ON \
-            -DSEAMFLOW_PAGE=OFF -DSEAMFLOW_WARNINGS_AS_ERRORS=OFF || fail_unchanged "$log"
+            -DSEAMFLOW_PAGE=OFF -DSEAMFLOW_WARNINGS_AS_ERRORS=OFF -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 || fail_unchanged "$log"
     fi
     local wanted=() all_tests=()
     for name in "${names[@]}"; do
