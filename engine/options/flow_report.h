@@ -64,8 +64,8 @@ struct StepReport {
     std::optional<double> estimated_v_max;  ///< in mean edge lengths
     /// Distance to the undecomposed flow after this step, with ReportOptions::reference.
     std::optional<VertexDistance> distance;
-    /// The same as H_: from the vertices of the undecomposed flow's mesh to the surface (see surface_distance), in units
-    /// of length.
+    /// The same as H_: from the vertices of the undecomposed flow's mesh to the surface (see surface_distance), in
+    /// units of length.
     std::optional<LengthStatistics> surface_distance;
     /// Wall-clock time of the undecomposed step, with ReportOptions::reference.
     std::optional<double> reference_seconds;

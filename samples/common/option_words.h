@@ -7,8 +7,8 @@
 namespace seamflow {
 
 /// What the library says of fields, said of the options that set them: "memory_limit is 3" becomes "--memory-limit is
-/// 3". A field of one word is taken for one where the message begins with it, or where it tells flows apart ("another flow:
-/// sweep was …").
+/// 3". A field of one word is taken for one where the message begins with it, or where it tells flows apart ("another
+/// flow: sweep was …").
 std::string in_words_of_options(std::string_view message);
 
 /// What is said of options, said of keywords: "--time-step-edges" becomes "time_step_edges".

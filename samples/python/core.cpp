@@ -213,7 +213,8 @@ py::list options()
     py::list list;
     for (const FlowOptionText& option : flow_options())
         if (!is_of_files(option))
-            list.append(py::make_tuple(option.name, option.type, in_words_of_keywords(option.description), option.is_flag));
+            list.append(
+                py::make_tuple(option.name, option.type, in_words_of_keywords(option.description), option.is_flag));
     return list;
 }
 

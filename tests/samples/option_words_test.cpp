@@ -21,7 +21,8 @@ TEST_CASE("fields become options, where they are what a message is about and whe
           "c: belongs to another flow: --attach was 0 then; sweep on");
     CHECK(in_words_of_options("attachment_weights: too few") == "--attach-weights: too few");
     for (const char* text : {"my_time_step.obj: cannot be read", "memory_limits are other things", "a/keep_edges/b",
-                             "keep_edges.txt is missing", "the flow is slow", "", "precisely p"})
+                             "a/keep_edges is missing", "my_time_step 3", "keep_edges.txt is missing",
+                             "the flow is slow", "", "precisely p"})
         CHECK(in_words_of_options(text) == text);
 }
 

@@ -85,8 +85,8 @@ TEST_CASE("texts of every size around that of a buffer are written as they are, 
 {
     const test::TemporaryDirectory directory;
     constexpr std::size_t buffer = std::size_t{1} << 20;
-    for (const std::size_t n : {std::size_t{1}, buffer - 1, buffer, buffer + 1, 2 * buffer - 1,
-                                2 * buffer, 2 * buffer + 1, 3 * buffer + 17}) {
+    for (const std::size_t n : {std::size_t{1}, buffer - 1, buffer, buffer + 1, 2 * buffer - 1, 2 * buffer,
+                                2 * buffer + 1, 3 * buffer + 17}) {
         CAPTURE(n);
         std::string text(n, ' ');
         for (std::size_t i = 0; i < n; ++i)
