@@ -16,10 +16,14 @@ namespace {
 
 std::string listed_kinds()
 {
-    std::string text = "kind of mesh:";
-    for (const MeshKind& kind : mesh_kinds())
+    std::string names;
+    std::string text;
+    for (const MeshKind& kind : mesh_kinds()) {
+        if (!kind.name.ends_with("-quads"))
+            names.append(names.empty() ? "" : " ").append(kind.name);
         text.append("\n").append(kind.name).append(": ").append(kind.description);
-    return text;
+    }
+    return names + "; also -quads" + text;
 }
 
 ExitStatus generate(int argc, char** argv)

@@ -211,6 +211,9 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     }
     long_run.end();
     report.remarks.insert(report.remarks.begin(), run.remarks.begin(), run.remarks.end());
+    // Where no step is taken it does not matter how.
+    if (command.options.steps == 0)
+        report.choices.clear();
     // A run that goes on from its last step has nothing to observe.
     if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
         page->add_step(command.options.steps, file.mesh.vertices, nullptr);

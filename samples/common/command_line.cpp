@@ -147,7 +147,9 @@ std::string complaint_of_surplus(const CLI::App& app)
     const std::string name = option->substr(0, option->find('='));
     std::string nearest;
     std::size_t fewest = std::max<std::size_t>(name.size() / 3, 2);
-    for (const CLI::Option* const known : app.get_options())
+    // Not those that are there to be refused.
+    for (const CLI::Option* const known :
+         app.get_options([](const CLI::Option* one) { return !one->get_group().empty(); }))
         for (const std::string& word : known->get_lnames())
             if (const std::size_t edits = edits_between(name, "--" + word); edits <= fewest) {
                 fewest = edits - (edits > 0 ? 1 : 0);

@@ -49,7 +49,7 @@ void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
                                                 "--no-correction",
                                                 "--sweep",
                                                 "--coloring",
-                                                "--plain",
+                                                "--paper",
                                                 "--keep-gaps",
                                                 "--scheme",
                                                 "--converge",
@@ -89,7 +89,7 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
 {
     const std::string of_sweeps =
         first_given(app, {"--conditions", "--transmission", "--p", "--p-rule", "--p-edge", "--q", "--overlap",
-                          "--no-correction", "--sweep", "--coloring", "--plain"});
+                          "--no-correction", "--sweep", "--coloring", "--paper"});
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
     require_consistent_approach(app, command, of_sweeps);
@@ -110,7 +110,7 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
 /// Options that leave no room for what a preset chooses, unless another option asks for it.
 std::string given_against_presets(const CLI::App& app)
 {
-    return first_given(app, {"--plain", "--scheme", "--conditions", "--transmission", "--p", "--p-rule", "--p-edge",
+    return first_given(app, {"--paper", "--scheme", "--conditions", "--transmission", "--p", "--p-rule", "--p-edge",
                              "--q", "--overlap", "--no-correction", "--keep-gaps"});
 }
 
@@ -185,11 +185,11 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
         throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
     if (app.count("--transmission") > 0 && command.options.interface.conditions != Conditions::AdaptedRobin)
         throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
-    if (app.count("--plain") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)
-        throw OptionError("--plain sweeps in the same order in every step; --sweep alternating contradicts it");
-    if (app.count("--plain") > 0 &&
+    if (app.count("--paper") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)
+        throw OptionError("--paper sweeps in the same order in every step; --sweep alternating contradicts it");
+    if (app.count("--paper") > 0 &&
         command.options.interface.transmission != FlowOptions::plain().interface.transmission)
-        throw OptionError("--plain keeps to the derivatives of the paper; --transmission predicted contradicts it");
+        throw OptionError("--paper keeps to the derivatives of the paper; --transmission predicted contradicts it");
     if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
         throw OptionError(
             "--rescale moves every vertex, but --fix holds some: leave --rescale out; --filter low-pass, with "

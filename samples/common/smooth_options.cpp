@@ -80,7 +80,7 @@ void add_feature_edges(CLI::App& app, SmoothCommand& command)
 {
     add_real(app, "--keep-edges", command.options.keep_edges, {0.0, 180.0, true},
              "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 are good\n"
-             "What lies between them is smoothed, with --time-step-edges 16 or so. It takes the whole mesh.");
+             "What lies between them is smoothed, with --time-step-edges 32 or so. It takes the whole mesh.");
     auto* edges = app.add_option("--edges", command.edges,
                                  "further edges that are kept: two numbers of vertices a line, from 0, or an .obj or "
                                  ".ply with them\n"
