@@ -172,6 +172,8 @@ TEST_CASE("the table of steps has a row for each, and a column for all that any 
     CHECK(cell(1, "iterations").empty());
     CHECK(cell(2, "iterations") == "12");
     CHECK(std::stod(cell(2, "v_mean")) == 0.1 / 0.5);
+    CHECK(std::stod(cell(2, "h_mean")) == 0.05 / 0.5);
+    CHECK(std::stod(cell(2, "h_rms")) == 0.1 / 0.5);
     CHECK(std::stod(cell(2, "h_max")) == 0.25 / 0.5);
     CHECK(std::stod(cell(2, "h_max_absolute")) == 0.25);
     CHECK(steps_csv(smooth_report_json(run, FlowReport{})) == "step,p_smallest,p_largest\n");
