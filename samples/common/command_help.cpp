@@ -228,8 +228,8 @@ std::string man_page(const CLI::App& app)
         }
     page += ".SH EXIT STATUS\n.TP\n0\nsuccess\n.TP\n2\nwrong usage\n.TP\n3\nunusable input\n.TP\n4\nthe computation "
             "failed\n.TP\n5\noutput could not be written\n.TP\n130, 143\ninterrupted\n";
-    page += fmt::format(".SH FILES\nMeshes are {} files, packed by gzip with .gz behind that; their content says which "
-                        "they are where the name does not.\n.PP\n"
+    page += fmt::format(".SH FILES\nMeshes are {} files, packed by gzip with .gz behind that. What comes from standard "
+                        "input is known by its content.\n.PP\n"
                         "samples/programs.md, beside README.md in the folder of seamflow's documents, explains all "
                         "of it.\n",
                         extensions_of());

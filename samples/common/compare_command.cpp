@@ -66,8 +66,7 @@ void require_usable_files(const CompareCommand& command)
 std::optional<ExitStatus> parse_compare_command(int argc, char** argv, CompareCommand& command)
 {
     CLI::App app("Distances of two meshes: of corresponding vertices (V_), and of vertices from the surface (H_); "
-                 "mean, root mean "
-                 "square and largest.",
+                 "mean, root mean square and largest.",
                  "compare");
     add_options(app, command);
     app.footer("compare scan.ply smooth.ply                      how far vertices and surfaces are apart\n"
