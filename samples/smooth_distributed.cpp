@@ -122,6 +122,7 @@ class RankRun {
         std::vector<double> weights = read_weights(talk);
         record_.run.read_seconds = reading.seconds();
         print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
+        print_preset(out_, record_.run, command_.chosen);
         print_amount(out_, record_.run.scale, command_.options);
         talk.at_first_rank([&] { look_at_results(); });
 

@@ -150,16 +150,15 @@ std::string LimitedComponents::remark() const
                                         : fmt::format("{} of {} components", n, components_.count());
     };
     std::string text;
-    const std::string why =
-        std::isfinite(limits_.move) ? "more than its noise, or of its volume more than" : "of its volume more than";
+    const std::string loss =
+        fmt::format("would have lost {}more than {:g} % of its volume",
+                    std::isfinite(limits_.move) ? "more than its noise, or " : "", 100.0 * limits_.volume);
     if (n_less > 0)
-        text = fmt::format("{} would have lost {} {:g} %: less was taken off there.", components(n_less), why,
-                           100.0 * limits_.volume);
+        text = fmt::format("{} {}: less was taken off there.", components(n_less), loss);
     if (n_held > 0)
-        text +=
-            fmt::format("{}{} would have lost {} {:g} %, however little was taken off, and stayed as it was: say how "
-                        "much to smooth with --radius.",
-                        text.empty() ? "" : " ", components(n_held), why, 100.0 * limits_.volume);
+        text += fmt::format("{}{} {}, however little was taken off, and stayed as it was: say how much to smooth with "
+                            "--radius.",
+                            text.empty() ? "" : " ", components(n_held), loss);
     return text;
 }
 

@@ -230,11 +230,6 @@ void require_valid_edges(const FlowOptions& options)
                                       other));
 }
 
-bool has_tangential_derivative(Conditions conditions)
-{
-    return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
-}
-
 }  // namespace
 
 bool predicts(const FlowOptions& options)
@@ -276,6 +271,11 @@ bool attaches(const MotionOptions& motion)
 bool takes_whole_mesh(Approach approach)
 {
     return approach == Approach::ConjugateGradients || approach == Approach::Undecomposed;
+}
+
+bool has_tangential_derivative(Conditions conditions)
+{
+    return conditions == Conditions::AdaptedVentcell || conditions == Conditions::Ventcell;
 }
 
 bool is_classical(Conditions conditions)

@@ -344,6 +344,9 @@ struct FlowOptions {
 /// Whether every sub-mesh keeps a copy of Γ of its own.
 bool is_classical(Conditions conditions);
 
+/// Whether the conditions have a tangential derivative, and with it the Ventcell parameter q.
+bool has_tangential_derivative(Conditions conditions);
+
 /// Whether M and K are those of Vᵏ in each step, and the step is nothing but (M + dt K) Vᵏ⁺¹ = M Vᵏ.
 bool is_plain_flow(const FlowOptions& options);
 

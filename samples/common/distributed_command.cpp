@@ -4,6 +4,7 @@
 #include "partition/errors.h"
 #include "samples/common/command_help.h"
 #include "samples/common/command_line.h"
+#include "samples/common/presets.h"
 
 namespace seamflow {
 
@@ -84,6 +85,7 @@ std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int r
             throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius, or --preset fair: "
                               "smooth alone, which has the whole mesh, can measure its noise");
         command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
+        command.flow.chosen += amount_of(preset);
     }
     settle_approach(command.flow.options);
     if (whole_up_to)

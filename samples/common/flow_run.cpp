@@ -98,8 +98,8 @@ void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, st
                             n == 1 ? "1 pair" : fmt::format("{} pairs", n), n == 1 ? "es" : "");
     if (!what.empty())
         remarks.push_back(
-            what + ": less smoothing prevents it, or " +
-            (options.motion.within ? "a smaller --within." : "--within a length below that of the edges there."));
+            what + ": smooth less, or pass " +
+            (options.motion.within ? "a smaller --within." : "--within with a length below that of the edges there."));
 }
 
 std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)

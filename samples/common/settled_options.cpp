@@ -161,12 +161,19 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
     if (command.noise && !preset.measures_noise())
         throw OptionError("--noise is for --preset scan and terrain; the amount of " + command.preset +
                           " does not depend on it");
+    std::string left_out;
     for (const PresetOption& option : options_of(preset)) {
-        if (is_said(app, command, option.name))
+        if (is_said(app, command, option.name)) {
+            if (app.count(std::string(option.name)) == 0 && !is_symmetric(command.options.laplacian))
+                left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", option.name, option.value);
             continue;
+        }
         option.set(command.options, command.attach);
         command.chosen += fmt::format("{} {} ", option.name, option.value);
     }
+    if (!left_out.empty())
+        command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} has no place for.",
+                                              command.preset, left_out, name_of(command.options.laplacian)));
     command.chooses_amount = !has_amount;
 }
 
@@ -183,6 +190,9 @@ void require_consistent(const CLI::App& app, const SmoothCommand& command)
             "it");
     if (command.options.interface.conditions == Conditions::Schwarz && command.options.interface.p)
         throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
+    if (has_tangential_derivative(command.options.interface.conditions) && !command.options.interface.q)
+        throw OptionError("--conditions " + std::string(option_name(command.options.interface.conditions)) +
+                          " needs --q, the Ventcell parameter (see (20) to (25) of the paper)");
     if (app.count("--transmission") > 0 && command.options.interface.conditions != Conditions::AdaptedRobin)
         throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
     if (app.count("--paper") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)

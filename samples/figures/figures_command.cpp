@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
 #include "samples/common/output_files.h"
@@ -48,6 +50,12 @@ void require_folders(const FiguresCommand& command)
     std::error_code error;
     if (!command.meshes.empty() && !std::filesystem::is_directory(command.meshes, error))
         throw InputError(command.meshes.string() + ": is not a folder that can be read");
+    if (!command.meshes.empty() && std::ranges::all_of(experiments(), [&](const Experiment& experiment) {
+            return find_file(experiment.source.file, command.meshes).empty();
+        }))
+        throw InputError(fmt::format("{}: has none of the authors' meshes, such as {}; without --meshes all are "
+                                     "generated",
+                                     command.meshes.string(), experiments().front().source.file));
     std::filesystem::create_directories(command.out, error);
     if (error)
         throw OutputError(command.out.string() + ": cannot be made, " + error.message());

@@ -12,16 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The file of that name in a folder, with or without its prefix; empty: there is none.
-fs::path find_file(std::string_view name, const fs::path& folder)
-{
-    for (const std::string prefix : {"", "ddm__"}) {
-        fs::path path = folder / (prefix + std::string(name));
-        if (!folder.empty() && fs::exists(path))
-            return path;
-    }
-    return {};
-}
-
 FigureMesh read_file(const FigureSource& source, const fs::path& path)
 {
     FigureMesh result;
@@ -38,6 +28,16 @@ FigureMesh read_file(const FigureSource& source, const fs::path& path)
 }
 
 }  // namespace
+
+fs::path find_file(std::string_view name, const fs::path& folder)
+{
+    for (const std::string prefix : {"", "ddm__"}) {
+        fs::path path = folder / (prefix + std::string(name));
+        if (!folder.empty() && fs::exists(path))
+            return path;
+    }
+    return {};
+}
 
 FigureMesh load(const FigureSource& source, const fs::path& folder)
 {

@@ -49,6 +49,10 @@ struct FigureMesh {
     std::optional<AuthorsRun> authors;
 };
 
+/// The path of an authors' file in a folder, under its own name or with "ddm__" before it; empty if it is not there.
+/// @param folder empty: there is none.
+std::filesystem::path find_file(std::string_view name, const std::filesystem::path& folder);
+
 /// Reads the authors' file, or the same with the prefix "ddm__", from a folder if it is there, and makes the stand-in
 /// else. Their own file is cut in two as they did, another one of that name after the first half of its faces, the
 /// stand-in by rows.

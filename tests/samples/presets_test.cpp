@@ -123,6 +123,17 @@ TEST_CASE("options that are given go before those of a preset")
     CHECK(w.said().find("preset ") == std::string::npos);
 }
 
+TEST_CASE("a remark says what a preset has no place for beside a Laplacian without symmetry")
+{
+    const Workshop w;
+    REQUIRE(w.run(GENERATE " noisy-sphere sphere.obj --vertices 3000") == 0);
+    REQUIRE(w.smooth("sphere.obj out.obj --preset terrain --laplacian ptackova-velho") == 0);
+    CHECK(w.said().find("--preset terrain leaves out --order 3, --attach 5%, which --laplacian ptackova-velho has no "
+                        "place for") != std::string::npos);
+    REQUIRE(w.smooth("sphere.obj out.obj --preset terrain --laplacian fujiwara") == 0);
+    CHECK(w.said().find("leaves out") == std::string::npos);
+}
+
 TEST_CASE("reports name the flow that was taken")
 {
     const Workshop w;

@@ -152,6 +152,8 @@ TEST_CASE("usage errors begin with the name of the program, and an option mistyp
           {"mesh.obj out.obj --qwertyuiop", "smooth: there is no option --qwertyuiop (--help"},
           {"mesh.obj out.obj more.obj --radius 1%", "smooth: 'more.obj' is one argument too many"},
           {"mesh.obj --radius 1%", "smooth: OUTPUT is required"},
+          {"missing.obj out.obj --radius 1% --conditions adapted-ventcell",
+           "smooth: --conditions adapted-ventcell needs --q, the Ventcell parameter"},
           {"mesh.obj out.obj --steps 1.5 --radius 1%", "smooth: --steps: "}}) {
         const auto& arguments = example.first;
         const auto& sentence = example.second;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
+#include "samples/figures/experiment.h"
 #include "samples/figures/figures_command.h"
 #include "tests/support/temporary_directory.h"
 
@@ -46,5 +47,15 @@ TEST_CASE("the command line names figures that there are")
     CHECK_THROWS_AS(refused({"--out", out, "figure-1"}), OptionError);
     CHECK_THROWS_AS(refused({"--out", out, "3"}), OptionError);
     CHECK_THROWS_AS(refused({"--out", out, "--meshes", folder / "none"}), InputError);
+    const std::string meshes = (folder / "meshes").string();
+    std::filesystem::create_directory(meshes);
+    CHECK_THROWS_WITH_AS(refused({"--out", out, "--meshes", meshes}),
+                         doctest::Contains("has none of the authors' meshes"), InputError);
+    const std::string theirs(experiments().back().source.file);
+    for (const std::string prefix : {"", "ddm__"}) {
+        const test::TemporaryDirectory with_one;
+        CHECK(!with_one.with(prefix + theirs, "").empty());
+        CHECK_NOTHROW(refused({"--out", out, "--meshes", with_one.path().string()}));
+    }
     CHECK_THROWS_AS(refused({"--out", folder.with("file", "") / "below"}), OutputError);
 }
