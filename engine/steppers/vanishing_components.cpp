@@ -203,10 +203,15 @@ void VanishingComponents::bring_back(std::span<const Index> rows, const Pose& po
     double pull = 0.0;
     Point target = pose.centre;
     if (is_attached_) {
-        const double total = weights(rows, 0).sum();
+        double total = 0.0;
+        Point towards = Point::Zero();
+        for (const Index row : rows) {
+            total += weights(row, 0);
+            towards += weights(row, 0) * (first.row(row) - pose.centre);
+        }
         pull = options_.time_step * total / static_cast<double>(rows.size());
         if (total > 0.0)
-            target += (weights(rows, 0).transpose() * (first(rows, Eigen::all).rowwise() - pose.centre)) / total;
+            target += towards / total;
     }
     // By how much masses move the centroid from the mean of the vertices: the step has found it, scaled.
     const Point mean = mean_of(table, rows);

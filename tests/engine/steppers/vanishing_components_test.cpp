@@ -152,6 +152,16 @@ TEST_CASE("what the scaling of a small component leaves out is far below its siz
     const Points pulled = after(0.999);
     CHECK((pulled.colwise().mean() - below.colwise().mean()).norm() > 0.05);
     CHECK(test::largest_difference(pulled, after(1.001)) < 1e-3);
+    // Far below the threshold the middle alone is left: it is pulled as strongly as its vertices are on average.
+    std::vector<Index> at_the_right;
+    for (Index v = 0; v < mesh.n_vertices(); ++v)
+        if (mesh.vertices(v, 0) > 0.2)
+            at_the_right.push_back(v);
+    for (const Index v : at_the_right)
+        options.motion.attachment_weights[at(v)] = 1e-14 / (extent * extent);
+    const double pull = static_cast<double>(at_the_right.size()) / static_cast<double>(mesh.n_vertices());
+    const double target = mesh.vertices(at_the_right, Eigen::all).col(0).mean();
+    CHECK(after(1e9).col(0).mean() == test::relative(pull * target / (1.0 + pull), 0.05));
     options.motion.attachment_weights.clear();
     // What is left of the shape is as 1 / dt.
     const Point centre = below.colwise().mean();

@@ -32,3 +32,13 @@ TEST_CASE("normals that there are not are named by no corner")
     CHECK(corners_of(normals, 0) == std::vector<Index>{4});
     CHECK(corners_of_obj_normals("a.obj", "f 1//1 2//1 3//1\n").size() == 0);
 }
+
+TEST_CASE("a corner that repeats the one before it takes its normal with it")
+{
+    const IndexLists normals =
+        corners_of_obj_normals("a.obj", "vn 0 0 1\nvn 0 1 0\nvn 1 0 0\nf 1//1 1//2 2//2 3//3\nf 4//3 5//1 6//2\n");
+    REQUIRE(normals.size() == 3);
+    CHECK(corners_of(normals, 0) == std::vector<Index>{0, 4});
+    CHECK(corners_of(normals, 1) == std::vector<Index>{1, 5});
+    CHECK(corners_of(normals, 2) == std::vector<Index>{2, 3});
+}

@@ -99,7 +99,8 @@ TEST_CASE("vertices stay on their line, between the middles of its edges; ends a
     CHECK(ends_at(3, 1, Point(2.0, 0.9, -1)).isApprox(Point(3, 0.9, 0)));
     CHECK(ends_at(3, 1, Point(3, 7, 0)) == Point(3, 1.5, 0));
     CHECK(ends_at(3, 0, Point(3, 0.2, 0)) == Point(3, 0, 0));
-    CHECK(ends_at(3, 2, Point(3, 2.2, 0)) == Point(3, 2, 0));
+    for (const Point& p : {Point(3, 2.2, 0), Point(3, 1.8, 0), Point(3.2, 2, 0)})
+        CHECK(ends_at(3, 2, p) == Point(3, 2, 0));
     CHECK(ends_at(4, 2, Point(4.2, 2, 1)) == Point(4, 2, 0));
     CHECK(ends_at(5, 2, Point(9, 9, 9)) == Point(9, 9, 9));
     CHECK(FeatureLines().on_line(0, Point(1, 2, 3)) == Point(1, 2, 3));
