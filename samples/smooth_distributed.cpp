@@ -58,7 +58,7 @@ void about_file(const std::filesystem::path& path, Action&& action)
 int threads_of_rank(Conversation& talk, const std::string& host, const SmoothCommand& command)
 {
     int n_here = 0;
-    for (const Bytes& bytes : talk.gather_to_all(packed(std::vector<char>(host.begin(), host.end())))) {
+    for (const Bytes& bytes : talk.allgather(packed(std::vector<char>(host.begin(), host.end())))) {
         const auto other = unpacked<char>(bytes);
         n_here += std::ranges::equal(other, host) ? 1 : 0;
     }
@@ -257,7 +257,7 @@ class RankRun {
     {
         const CheckpointPeriod& period = command_.checkpoint_period;
         const std::uint8_t is_due = since_kept_.seconds() >= period.seconds ? 1 : 0;
-        const bool is_kept = state.talk.tell_all(std::vector<std::uint8_t>{is_due}).front() != 0;
+        const bool is_kept = state.talk.broadcast(std::vector<std::uint8_t>{is_due}).front() != 0;
         if (state.step != command_.options.steps && (state.step % period.steps != 0 || !is_kept))
             return;
         checkpoint_->keep(state.talk, state.capture(slice_vertices_));

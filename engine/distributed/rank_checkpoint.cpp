@@ -241,11 +241,11 @@ std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<
         if (n != bounds.back())
             refuse_file(file(), "does not list positions of all vertices");
     });
-    list.stretches = talk.tell_all(list.stretches);
+    list.stretches = talk.broadcast(list.stretches);
     if (list.stretches.empty())
         return std::nullopt;
-    const auto counts = talk.tell_all(std::vector<std::int64_t>{list.step, list.n_arrays});
-    RankFlowState state{.step = static_cast<int>(counts[0]), .numbers = talk.tell_all(list.numbers)};
+    const auto counts = talk.broadcast(std::vector<std::int64_t>{list.step, list.n_arrays});
+    RankFlowState state{.step = static_cast<int>(counts[0]), .numbers = talk.broadcast(list.numbers)};
     const std::int64_t begin = bounds[static_cast<std::size_t>(talk.rank())];
     const std::int64_t end = bounds[static_cast<std::size_t>(talk.rank()) + 1];
     state.vertices.resize(end - begin, 3);

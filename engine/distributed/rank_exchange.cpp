@@ -187,7 +187,7 @@ void RankExchange::receive_all(StepGraph& graph, std::vector<Arrival>& arrivals)
     }
     for (Arrival& arrival : arrivals)
         if (!arrival.has_come)
-            insist([&] { graph.signal(arrival.event); });
+            retry([&] { graph.signal(arrival.event); });
 }
 
 void RankExchange::run(StepGraph& graph, std::size_t sweep, const std::function<void()>& begin,

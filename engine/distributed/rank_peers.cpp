@@ -15,7 +15,7 @@ RankPeers::RankPeers(Conversation& talk, std::vector<Index> holders, std::vector
 InterfacePeers::Numbers RankPeers::gather(const std::vector<double>& own)
 {
     Numbers all;
-    for (const Bytes& bytes : talk_->gather_to_all(packed(own)))
+    for (const Bytes& bytes : talk_->allgather(packed(own)))
         all.push_back(unpacked<double>(bytes));
     return all;
 }

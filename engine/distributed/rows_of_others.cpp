@@ -12,7 +12,7 @@ RowsOfOthers::RowsOfOthers(Conversation& talk, const RankMesh& mesh, const std::
 {
     const std::vector<std::int64_t>& known = mesh.part.vertex_numbers;
     std::vector<Bytes> answers;
-    for (const Bytes& asked : talk.gather_to_all(packed(wanted))) {
+    for (const Bytes& asked : talk.allgather(packed(wanted))) {
         const auto numbers = unpacked<std::int64_t>(asked);
         std::vector<Index>& rows = theirs_.emplace_back();
         std::vector<Index> places;

@@ -138,7 +138,7 @@ Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& 
     std::vector<Number> inner;
     std::vector<Number> next = vertices;
     for (int layer = 0; layer < layers; ++layer) {
-        const std::vector<Number> asked = talk.tell_all(next);
+        const std::vector<Number> asked = talk.broadcast(next);
         std::vector<Bytes> to_each(talk.size());
         to_each.front() = pack_faces_at(slice, bounds.faces[talk.rank()], SparseNumbers(asked), is_sent);
         const std::size_t n_before = arrived.corners.size();

@@ -37,7 +37,7 @@ std::string get_text(Unpacker& unpacker)
 }
 
 /// Tells all ranks what one of them found.
-DistributedCut tell_all(Conversation& talk, const DistributedCut& found, bool is_own)
+DistributedCut broadcast(Conversation& talk, const DistributedCut& found, bool is_own)
 {
     Packer packer;
     if (is_own) {
@@ -48,7 +48,7 @@ DistributedCut tell_all(Conversation& talk, const DistributedCut& found, bool is
             put(packer, remark);
     }
     DistributedCut cut;
-    for (const Bytes& bytes : talk.gather_to_all(packer.take())) {
+    for (const Bytes& bytes : talk.allgather(packer.take())) {
         if (bytes.empty())
             continue;
         Unpacker unpacker(bytes);
@@ -177,7 +177,7 @@ class TogetherCut {
         std::vector<std::uint8_t> twins;
         send_home(
             talk_, bounds_, own, [](std::size_t, Index) { return false; }, slice_, twins);
-        return tell_all(talk_, found, is_own);
+        return broadcast(talk_, found, is_own);
     }
 
     /// @returns nothing where seams were joined, or faces had to be left out.

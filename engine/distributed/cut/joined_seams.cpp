@@ -63,7 +63,7 @@ JoinedSeams join_seams(Conversation& talk, RankSlice& slice, const SliceBounds& 
     std::vector<std::int64_t> vertices = talk.gather_at_first(boundary);
     sort_unique(vertices);
     JoinedSeams seams;
-    if (talk.tell_all(std::vector<std::int64_t>{std::ssize(vertices)}).front() == 0)
+    if (talk.broadcast(std::vector<std::int64_t>{std::ssize(vertices)}).front() == 0)
         return seams;
     slice.labels.assign(at(slice.n_faces()), 0);
     Found found;
@@ -72,10 +72,10 @@ JoinedSeams join_seams(Conversation& talk, RankSlice& slice, const SliceBounds& 
         if (talk.rank() == 0)
             found = weld_band(band, distance);
     }
-    seams.vertices = talk.tell_all(found.vertices);
+    seams.vertices = talk.broadcast(found.vertices);
     if (seams.vertices.empty())
         return seams;
-    const auto counts = talk.tell_all(std::vector<Index>{found.n_vertices, found.n_edges});
+    const auto counts = talk.broadcast(std::vector<Index>{found.n_vertices, found.n_edges});
     seams.remark = remark_on_seams(counts[0], counts[1]);
     const std::int64_t begin = bounds.vertices[talk.rank()];
     for (const SeamVertex& one : seams.vertices) {

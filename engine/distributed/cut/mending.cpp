@@ -59,7 +59,7 @@ class Mender {
   private:
     [[nodiscard]] bool anywhere(bool at_first)
     {
-        return talk_.tell_all(std::vector<std::uint8_t>{at_first ? std::uint8_t{1} : std::uint8_t{0}}).front() != 0;
+        return talk_.broadcast(std::vector<std::uint8_t>{at_first ? std::uint8_t{1} : std::uint8_t{0}}).front() != 0;
     }
 
     [[nodiscard]] Band band_around(const std::vector<Number>& vertices, int layers)
@@ -87,7 +87,7 @@ class Mender {
                 for (const Index f : components[component])
                     moved.push_back({band.part.face_numbers[f], joined[component]});
         }
-        n_parts_ = talk_.tell_all(std::vector<Index>{n_parts_}).front();
+        n_parts_ = talk_.broadcast(std::vector<Index>{n_parts_}).front();
         apply(moved);
         queue_.insert(queue_.end(), corners.begin(), corners.end());
         sort_unique(queue_);
@@ -118,7 +118,7 @@ class Mender {
         std::vector<Index> touched;
         if (talk_.rank() == 0)
             mend_within(band, pinched, moved, touched);
-        parts_ = talk_.tell_all(touched);
+        parts_ = talk_.broadcast(touched);
         apply(moved);
     }
 
@@ -228,7 +228,7 @@ void Mender::merge_pinched_at(const std::vector<Number>& pinched)
             pairs.push_back(from);
         }
     }
-    pairs = talk_.tell_all(pairs);
+    pairs = talk_.broadcast(pairs);
     std::map<Index, Index> name;
     for (std::size_t i = 0; i < pairs.size(); i += 2)
         name[pairs[i + 1]] = pairs[i];

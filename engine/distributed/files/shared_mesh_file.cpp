@@ -149,7 +149,7 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
 {
     std::uint64_t size = 0;
     talk.at_first_rank([&] { size = bytes_in(path); });
-    size = talk.tell_all(std::vector<std::uint64_t>{size}).front();
+    size = talk.broadcast(std::vector<std::uint64_t>{size}).front();
     const auto format = format_of(path);
     if (size <= sharing.whole_up_to || !format)
         return std::make_unique<WholeMeshFile>(path, sharing, loop);
@@ -161,7 +161,7 @@ std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::fil
                                          path.string(), size, sharing.whole_up_to));
         text = is_text(path, *format);
     });
-    text = talk.tell_all(std::vector<char>{static_cast<char>(text ? 1 : 0)}).front() != 0;
+    text = talk.broadcast(std::vector<char>{static_cast<char>(text ? 1 : 0)}).front() != 0;
     return open_sliced(path, *format, text, sharing, loop);
 }
 

@@ -209,7 +209,7 @@ std::vector<Bytes> Conversation::exchange_with(std::span<const int> others, std:
     return from_each;
 }
 
-std::vector<Bytes> Conversation::gather_to_all(Bytes own)
+std::vector<Bytes> Conversation::allgather(Bytes own)
 {
     // Every rank passes on what it knows: of itself and of the ranks before it, in each round of twice as many.
     std::vector<Bytes> known{std::move(own)};
@@ -246,7 +246,7 @@ std::vector<Bytes> Conversation::bytes_at_first(Bytes own)
 /// If any rank has failed, all throw what the lowest of them has said.
 void Conversation::agree_on(const WorkOutcome& own)
 {
-    for (const Bytes& bytes : gather_to_all(own.kind == Kind::Done ? Bytes() : packed_outcome(own))) {
+    for (const Bytes& bytes : allgather(own.kind == Kind::Done ? Bytes() : packed_outcome(own))) {
         if (bytes.empty())
             continue;
         // Others may learn that this rank has ended before they learn of this.
@@ -292,20 +292,20 @@ std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
 {
     for (int r = 0; r < size(); ++r)
         if (r != rank())
-            insist([&] { communicator_->send(r, EndTag, packed_outcome(own)); });
-    insist([&] { ended_[rank()] = own; });
+            retry([&] { communicator_->send(r, EndTag, packed_outcome(own)); });
+    retry([&] { ended_[rank()] = own; });
     std::vector<Message> of_next_work;
     while (!std::ranges::all_of(ended_, [](const auto& outcome) { return outcome.has_value(); })) {
         std::optional<Message> message;
-        insist([&] { message = communicator_->receive(patience_of_wait); });
+        retry([&] { message = communicator_->receive(patience_of_wait); });
         if (message && ended_[message->from])
-            insist([&] { of_next_work.push_back(std::move(*message)); });
+            retry([&] { of_next_work.push_back(std::move(*message)); });
         else if (message && message->tag == EndTag)
-            insist([&] { ended_[message->from] = unpacked_outcome(message->bytes); });
+            retry([&] { ended_[message->from] = unpacked_outcome(message->bytes); });
     }
-    insist([&] { communicator_->put_back(of_next_work); });
+    retry([&] { communicator_->put_back(of_next_work); });
     std::vector<WorkOutcome> outcomes;
-    insist([&] {
+    retry([&] {
         outcomes.clear();
         for (const auto& outcome : ended_)
             outcomes.push_back(*outcome);
@@ -316,9 +316,9 @@ std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
 void run_work_together(Communicator& communicator, const std::function<void(Conversation&)>& work)
 {
     std::optional<Conversation> conversation;
-    insist([&] { conversation.emplace(communicator); });
+    retry([&] { conversation.emplace(communicator); });
     WorkOutcome own = outcome_of([&] { work(*conversation); });
-    insist([&] { own.host = communicator.host(); });
+    retry([&] { own.host = communicator.host(); });
     own.is_agreed = conversation->has_agreed_ && own.kind != Kind::OutOfMemory;
     require_success(conversation->part(own));
 }

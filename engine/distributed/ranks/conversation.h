@@ -46,7 +46,7 @@ struct WorkOutcome {
 /// then.
 /// @throws what the action throws, std::bad_alloc after some seconds.
 template <class Action>
-void insist(Action&& action)
+void retry(Action&& action)
 {
     constexpr int most_attempts = 500;
     constexpr std::chrono::milliseconds pause{10};
@@ -73,14 +73,14 @@ class Conversation {
     [[nodiscard]] int size() const { return communicator_->size(); }
 
     /// What every rank gives, in the order of ranks.
-    std::vector<Bytes> gather_to_all(Bytes own);
+    std::vector<Bytes> allgather(Bytes own);
 
     /// The same for a list of values each, joined.
     template <class Value>
     std::vector<Value> gather_all(const std::vector<Value>& own)
     {
         std::vector<Value> all;
-        for (const Bytes& bytes : gather_to_all(packed(own)))
+        for (const Bytes& bytes : allgather(packed(own)))
             Unpacker(bytes).append_all(all);
         return all;
     }
@@ -97,7 +97,7 @@ class Conversation {
 
     /// What rank 0 gives; what the others give is passed over.
     template <class Value>
-    std::vector<Value> tell_all(const std::vector<Value>& of_first)
+    std::vector<Value> broadcast(const std::vector<Value>& of_first)
     {
         return gather_all(rank() == 0 ? of_first : std::vector<Value>{});
     }
