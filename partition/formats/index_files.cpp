@@ -15,6 +15,7 @@
 #include "partition/formats/ply_source.h"
 #include "partition/index_lists.h"
 #include "partition/io/input_file.h"
+#include "partition/io/input_position.h"
 
 namespace seamflow {
 
@@ -49,7 +50,7 @@ std::string place_of_line(const std::filesystem::path& path, std::size_t line)
 [[noreturn]] void refuse_line(const std::filesystem::path& path, std::size_t line, std::string_view text,
                               const std::string& why)
 {
-    throw InputError(fmt::format("{}'{}' {}", place_of_line(path, line), text.substr(0, 40), why));
+    throw InputError(fmt::format("{}{} {}", place_of_line(path, line), in_quotes(text), why));
 }
 
 bool is_weight(double value)

@@ -105,6 +105,8 @@ TEST_CASE("bad lines of a set of vertices are named")
     const Files files;
     CHECK(files.refusal("a.txt", "1\n8\n", 8).starts_with(":2: there is no vertex 8"));
     CHECK(files.refusal("a.txt", "1 2\n", 8).starts_with(":1: '1 2' is not the number of a vertex"));
+    const std::string zero = std::string("1").append(1, '\0').append("2\n");
+    CHECK(files.refusal("a.txt", zero, 8).starts_with(":1: '1?2' is not the number of a vertex"));
     CHECK(files.refusal("a.txt", "-1\n", 8).starts_with(":1: '-1' is negative"));
     CHECK(files.refusal("a.txt", "99999999999\n", 8).starts_with(":1: '99999999999' is too large"));
     CHECK_THROWS_AS(read_vertex_set(files.directory / "none.txt", 8, "fixed"), InputError);
