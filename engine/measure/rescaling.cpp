@@ -70,9 +70,9 @@ Rescaling::Rescaling(const PolygonMesh& mesh, const Topology& topology, Rescale 
 {
     if (kind_ == Rescale::None)
         return;
-    require_movable(topology, mesh.n_vertices());
     if (kind_ == Rescale::Volume)
         require_closed(mesh, topology);
+    require_movable(topology, mesh.n_vertices());
     first_ = measure(mesh.vertices);
     // A volume this small against the area is what rounding leaves of parts that cancel each other.
     const double least = kind_ == Rescale::Volume ? 1e-12 * first_.area * std::sqrt(first_.area) : 0.0;

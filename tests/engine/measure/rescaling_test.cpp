@@ -117,6 +117,9 @@ TEST_CASE("an open surface keeps its area where its boundary is free, and has no
     CHECK(measure(mesh, moved.vertices).area == relative(measure(mesh, mesh.vertices).area, 1e-12));
     options.motion.rescale = Rescale::Volume;
     CHECK_THROWS_WITH_AS(mean_curvature_flow(moved, options), doctest::Contains("low-pass"), InputError);
+    // A boundary that moves would not help.
+    options.motion.boundary = Boundary::Fixed;
+    CHECK_THROWS_WITH_AS(mean_curvature_flow(moved, options), doctest::Contains("only a closed surface"), InputError);
 }
 
 TEST_CASE("what cannot be scaled is refused")
