@@ -32,6 +32,22 @@ TEST_CASE("the help of ranks offers only what they take")
         CHECK(help.find(own) != std::string::npos);
 }
 
+TEST_CASE("ranks print what a preset has chosen, as smooth does")
+{
+    const Workshop w;
+    const auto preset_line = [&] {
+        const std::string said = w.said();
+        const std::size_t begin = said.find("preset     fair: ");
+        REQUIRE(begin != std::string::npos);
+        return said.substr(begin, said.find('\n', begin) - begin);
+    };
+    REQUIRE(on_ranks(w, 2, "mesh.obj ranks.obj --preset fair") == 0);
+    const std::string of_ranks = preset_line();
+    REQUIRE(w.smooth("mesh.obj one.obj --preset fair") == 0);
+    CHECK(of_ranks == preset_line());
+    CHECK(of_ranks.ends_with("--radius 3%"));
+}
+
 TEST_CASE("the file is the same for any number of ranks, and that of smooth with the same cut")
 {
     const Workshop w;
