@@ -1,26 +1,29 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "partition/index.h"
 
 namespace seamflow {
 
-/// Many lists of indices in two flat arrays.
-struct IndexLists {
+/// Many lists in two flat arrays.
+template <class Value>
+struct Lists {
     /// Number of lists + 1; list i is values[offsets[i]] to values[offsets[i + 1] - 1].
     std::vector<Index> offsets{0};
-    std::vector<Index> values;
+    std::vector<Value> values;
 
     [[nodiscard]] Index size() const { return static_cast<Index>(offsets.size()) - 1; }
 
-    [[nodiscard]] std::span<const Index> operator[](Index i) const
+    [[nodiscard]] std::span<const Value> operator[](Index i) const
     {
         const std::size_t begin = at(offsets[i]);
-        return std::span<const Index>(values).subspan(begin, at(offsets[i + 1]) - begin);
+        return std::span<const Value>(values).subspan(begin, at(offsets[i + 1]) - begin);
     }
 
     /// Appends a list that has been pushed onto `values` entry by entry.
@@ -34,20 +37,22 @@ struct IndexLists {
     }
 };
 
-/// Puts entries into lists, each behind those that came before it.
+using IndexLists = Lists<Index>;
+
+/// Puts entries into lists, each behind those that came before it: a counting sort.
 /// @param for_each_entry called twice with a function that it calls with the list and the value of every entry, in the
 ///        same order both times.
-template <class ForEachEntry>
-IndexLists make_lists(Index n_lists, ForEachEntry&& for_each_entry)
+template <class Value = Index, class ForEachEntry>
+Lists<Value> make_lists(Index n_lists, ForEachEntry&& for_each_entry)
 {
-    IndexLists lists;
+    Lists<Value> lists;
     auto& offsets = lists.offsets;
     // Where each list begins stands one further, and moves on to where it ends: that is where the next one begins.
     offsets.assign(at(n_lists) + 2, 0);
-    for_each_entry([&](Index list, Index) { ++offsets[list + 2]; });
+    for_each_entry([&](Index list, const Value&) { ++offsets[list + 2]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
     lists.values.resize(offsets.back());
-    for_each_entry([&](Index list, Index value) { lists.values[offsets[list + 1]++] = value; });
+    for_each_entry([&](Index list, const Value& value) { lists.values[offsets[list + 1]++] = value; });
     offsets.pop_back();
     return lists;
 }
@@ -58,6 +63,21 @@ void sort_unique(std::vector<Value>& values)
 {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Where a value stands among ascending ones, or where it would have to be put in.
+template <class Ascending, class Value>
+Index place_in(const Ascending& ascending, const Value& value)
+{
+    return static_cast<Index>(std::ranges::lower_bound(ascending, value) - std::ranges::begin(ascending));
+}
+
+/// Where a value stands among ascending ones, or -1.
+template <class Ascending, class Value>
+Index position_in(const Ascending& ascending, const Value& value)
+{
+    const Index place = place_in(ascending, value);
+    return std::cmp_less(place, std::size(ascending)) && ascending[place] == value ? place : -1;
 }
 
 }  // namespace seamflow

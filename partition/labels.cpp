@@ -14,7 +14,7 @@ Index compact_sparse(std::vector<Index>& labels)
     std::vector<Index> distinct = labels;
     sort_unique(distinct);
     for (Index& label : labels)
-        label = static_cast<Index>(std::lower_bound(distinct.begin(), distinct.end(), label) - distinct.begin());
+        label = place_in(distinct, label);
     return static_cast<Index>(distinct.size());
 }
 

@@ -49,37 +49,45 @@ void for_each_block(const Loop& loop, Index n, Body&& body)
     });
 }
 
+/// What add(total, i) makes of an empty total for each i from 0 to n - 1, block by block; join(total, part) puts the
+/// blocks together. Always in the same order.
+template <class Total, class Add, class Join>
+Total reduce(const Loop& loop, Index n, const Total& empty, Add&& add, Join&& join)
+{
+    std::vector<Total> of_block(at(n / block_size) + 1, empty);
+    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+        Total total = empty;
+        for (Index i = begin; i < end; ++i)
+            add(total, i);
+        of_block[block] = std::move(total);
+    });
+    Total total = empty;
+    for (const Total& part : of_block)
+        join(total, part);
+    return total;
+}
+
 /// Those of 0 … n - 1 for which `holds`, in ascending order.
 template <class Predicate>
 std::vector<Index> select(const Loop& loop, Index n, Predicate&& holds)
 {
-    std::vector<std::vector<Index>> of_block(at(n / block_size) + 1);
-    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
+    return reduce(
+        loop, n, std::vector<Index>{},
+        [&](std::vector<Index>& selected, Index i) {
             if (holds(i))
-                of_block[block].push_back(i);
-    });
-    std::vector<Index> selected;
-    for (const auto& found : of_block)
-        selected.insert(selected.end(), found.begin(), found.end());
-    return selected;
+                selected.push_back(i);
+        },
+        [](auto& selected, const auto& part) { selected.insert(selected.end(), part.begin(), part.end()); });
 }
 
 /// The sum of value(i) over 0 … n - 1. Always added up in the same order.
-template <class Value>
-double sum(const Loop& loop, Index n, Value&& value)
+/// @param zero where the sum begins.
+template <class Value, class Sum = double>
+Sum sum(const Loop& loop, Index n, Value&& value, const Sum& zero = 0.0)
 {
-    std::vector<double> of_block(at(n / block_size) + 1, 0.0);
-    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
-        double total = 0.0;
-        for (Index i = begin; i < end; ++i)
-            total += value(i);
-        of_block[block] = total;
-    });
-    double total = 0.0;
-    for (const double part : of_block)
-        total += part;
-    return total;
+    return reduce(
+        loop, n, zero, [&](Sum& total, Index i) { total += value(i); },
+        [](Sum& total, const Sum& part) { total += part; });
 }
 
 /// The middle of the i-th of k equal parts of the numbers from 0 to n - 1: so k of them are spread evenly, for any n.

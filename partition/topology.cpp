@@ -235,10 +235,7 @@ std::vector<Fan> fans_at(const PolygonMesh& mesh, const Topology& topology, Inde
     const auto belongs = [&](Index f) { return labels.empty() || labels[f] == label; };
     const auto corners = topology.corners_at(v);
     std::vector<bool> visited(corners.size(), false);
-    const auto mark = [&](Index corner) {
-        visited[static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), corner) - corners.begin())] =
-            true;
-    };
+    const auto mark = [&](Index corner) { visited[at(place_in(corners, corner))] = true; };
 
     std::vector<Fan> fans;
     for (std::size_t i = 0; i < corners.size(); ++i) {

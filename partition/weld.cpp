@@ -310,14 +310,11 @@ Index place_in_middle(const std::vector<Index>& first, Points& positions)
             has_copies.push_back(first[v]);
         }
     sort_unique(has_copies);
-    const auto place_of = [&](Index v) {
-        return std::lower_bound(has_copies.begin(), has_copies.end(), v) - has_copies.begin();
-    };
     // Of equal places the middle is just the same.
     Points offsets = Points::Zero(std::ssize(has_copies), 3);
     std::vector<int> counts(has_copies.size(), 1);
     for (const Index v : copies) {
-        const auto i = place_of(first[v]);
+        const auto i = place_in(has_copies, first[v]);
         offsets.row(i) += positions.row(v) - positions.row(first[v]);
         ++counts[static_cast<std::size_t>(i)];
     }

@@ -101,11 +101,8 @@ void list(std::vector<Member> all, const RankMesh& mesh, SmallComponents& small)
             enter(place.at(all[row].component), static_cast<Index>(row));
     });
     const auto& known = mesh.part.vertex_numbers;
-    for (const Member& member : all) {
-        const auto found = std::ranges::lower_bound(known, member.vertex);
-        small.vertices.push_back(
-            found != known.end() && *found == member.vertex ? static_cast<Index>(found - known.begin()) : Index{-1});
-    }
+    for (const Member& member : all)
+        small.vertices.push_back(position_in(known, member.vertex));
 }
 
 Points gather_table(Conversation& talk, const RankMesh& mesh, const std::vector<Index>& vertices, const Points& values)

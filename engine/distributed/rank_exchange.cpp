@@ -109,11 +109,8 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
             Interest& interest = listeners_[s].emplace_back();
             interest.rank = rank;
             for (auto& rows : interest.rows)
-                for (const std::int64_t number : unpacker.get_all<std::int64_t>()) {
-                    const auto vertex = std::ranges::lower_bound(part_->vertex_numbers, number);
-                    rows.push_back(local_index(decomposition.sub_meshes[s],
-                                               static_cast<Index>(vertex - part_->vertex_numbers.begin())));
-                }
+                for (const std::int64_t number : unpacker.get_all<std::int64_t>())
+                    rows.push_back(local_index(decomposition.sub_meshes[s], place_in(part_->vertex_numbers, number)));
             interest.predicts = unpacker.get_all<std::uint8_t>();
         }
 }

@@ -366,10 +366,8 @@ RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Dec
         result.rank.push_back(rank_of_all[place]);
     const std::vector<Index> order = reverse_cuthill_mckee(adjacency);
     for (const Index place : order)
-        if (const auto found = std::ranges::lower_bound(places, place);
-            found != places.end() && *found == place &&
-            mesh.is_own[static_cast<std::size_t>(found - places.begin())] != 0)
-            result.factor_order.push_back(static_cast<Index>(found - places.begin()));
+        if (const Index s = position_in(places, place); s >= 0 && mesh.is_own[s] != 0)
+            result.factor_order.push_back(s);
     result.least_window = sufficient_window(adjacency, rank_of_all, order);
     return result;
 }

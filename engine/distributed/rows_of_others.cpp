@@ -17,9 +17,8 @@ RowsOfOthers::RowsOfOthers(Conversation& talk, const RankMesh& mesh, const std::
         std::vector<Index>& rows = theirs_.emplace_back();
         std::vector<Index> places;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
-            const auto found = std::ranges::lower_bound(known, numbers[i]);
-            const auto v = static_cast<Index>(found - known.begin());
-            if (found == known.end() || *found != numbers[i] || !mesh.has_own_faces(v))
+            const Index v = position_in(known, numbers[i]);
+            if (v < 0 || !mesh.has_own_faces(v))
                 continue;
             rows.push_back(v);
             places.push_back(static_cast<Index>(i));

@@ -71,28 +71,23 @@ DisplacementStatistics DisplacementMeter::add_step(const Points& before, const P
     if (normal_.rows() == 0)
         begin(before);
     const auto n = static_cast<Index>(after.rows());
-    std::vector<Sums> of_block(at(n / block_size) + 1);
-    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
-        Sums& sums = of_block[block];
-        for (Index v = begin; v < end; ++v) {
-            const Point normal_after = normals_(v, after);
-            const Displacement d = split_displacement(after.row(v) - before.row(v), normal_.row(v), normal_after);
-            normal_.row(v) = normal_after;
-            drift_.row(v) += d.tangential;
-            if (!d.defined)
-                continue;
-            const double tangential = d.tangential.norm();
-            add(path_.tangential[v], tangential);
-            add(path_.normal[v], std::abs(d.normal));
-            sums.tangential.add(tangential);
-            sums.normal.add(d.normal);
-        }
+    const auto measure_vertex = [&](Sums& sums, Index v) {
+        const Point normal_after = normals_(v, after);
+        const Displacement d = split_displacement(after.row(v) - before.row(v), normal_.row(v), normal_after);
+        normal_.row(v) = normal_after;
+        drift_.row(v) += d.tangential;
+        if (!d.defined)
+            return;
+        const double tangential = d.tangential.norm();
+        add(path_.tangential[v], tangential);
+        add(path_.normal[v], std::abs(d.normal));
+        sums.tangential.add(tangential);
+        sums.normal.add(d.normal);
+    };
+    const Sums all = reduce(run_in_parallel, n, Sums{}, measure_vertex, [](Sums& total, const Sums& part) {
+        total.tangential.add(part.tangential);
+        total.normal.add(part.normal);
     });
-    Sums all;
-    for (const Sums& sums : of_block) {
-        all.tangential.add(sums.tangential);
-        all.normal.add(sums.normal);
-    }
     return {.tangential = all.tangential.statistics(), .normal = all.normal.statistics()};
 }
 

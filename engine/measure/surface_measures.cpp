@@ -18,21 +18,14 @@ BoundingBox box_of(Index n, Position&& position)
 {
     if (n == 0)
         return {};
-    std::vector<BoundingBox> of_block(at(n / block_size) + 1, {position(0), position(0)});
-    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
-        BoundingBox box = of_block[block];
-        for (Index i = begin; i < end; ++i) {
-            box.low = box.low.cwiseMin(position(i));
-            box.high = box.high.cwiseMax(position(i));
-        }
-        of_block[block] = box;
-    });
-    BoundingBox box = of_block.front();
-    for (const BoundingBox& part : of_block) {
-        box.low = box.low.cwiseMin(part.low);
-        box.high = box.high.cwiseMax(part.high);
-    }
-    return box;
+    const auto grow = [](BoundingBox& box, const auto& low, const auto& high) {
+        box.low = box.low.cwiseMin(low);
+        box.high = box.high.cwiseMax(high);
+    };
+    return reduce(
+        run_in_parallel, n, BoundingBox{position(0), position(0)},
+        [&](BoundingBox& box, Index i) { grow(box, position(i), position(i)); },
+        [&](BoundingBox& box, const BoundingBox& part) { grow(box, part.low, part.high); });
 }
 
 double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
@@ -41,6 +34,18 @@ double curvature_at(const PolygonMesh& mesh, const Topology& topology, const Poi
     return topology.moves(v) && topology.kind[v] == VertexKind::Interior
                ? mean_curvature_vector(mesh, topology, positions, laplacian, v).norm()
                : 0.0;
+}
+
+/// The largest finite one of value(0) … value(n - 1), or 0.
+template <class Value>
+double largest_finite(Index n, Value&& value)
+{
+    const auto keep_larger = [](double& largest, double found) {
+        if (std::isfinite(found))
+            largest = std::max(largest, found);
+    };
+    return reduce(
+        run_in_parallel, n, 0.0, [&](double& largest, Index i) { keep_larger(largest, value(i)); }, keep_larger);
 }
 
 }  // namespace
@@ -77,23 +82,14 @@ std::vector<double> measure_curvature(const PolygonMesh& mesh, const Topology& t
 
 double largest_curvature(const std::vector<double>& curvature)
 {
-    double largest = 0.0;
-    for (const double value : curvature)
-        if (std::isfinite(value))
-            largest = std::max(largest, value);
-    return largest;
+    return largest_finite(static_cast<Index>(curvature.size()), [&](Index v) { return curvature[v]; });
 }
 
 double measure_largest_curvature(const PolygonMesh& mesh, const Topology& topology, const Points& positions,
                                  const ScaledLaplacian& laplacian)
 {
-    std::vector<double> of_block(at(mesh.n_vertices() / block_size) + 1, 0.0);
-    for_each_block(run_in_parallel, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
-        for (Index v = begin; v < end; ++v)
-            if (const double value = curvature_at(mesh, topology, positions, laplacian, v); std::isfinite(value))
-                of_block[block] = std::max(of_block[block], value);
-    });
-    return largest_curvature(of_block);
+    return largest_finite(mesh.n_vertices(),
+                          [&](Index v) { return curvature_at(mesh, topology, positions, laplacian, v); });
 }
 
 }  // namespace seamflow

@@ -38,15 +38,11 @@ Index farthest_mover(const Points& before, const Points& after, double unit)
         return to.allFinite() ? std::min(((to - from) * scale).squaredNorm(), std::numeric_limits<double>::max())
                               : std::numeric_limits<double>::infinity();
     };
-    std::vector<Mover> of_block(at(n / block_size) + 1);
-    for_each_block(run_in_parallel, n, [&](Index block, Index begin, Index end) {
-        for (Index v = begin; v < end; ++v)
-            of_block[block].meet(v, square_of(after.row(v), before.row(v)));
-    });
-    Mover farthest;
-    for (const Mover& mover : of_block)
-        farthest.meet(mover.vertex, mover.square);
-    return farthest.vertex;
+    return reduce(
+               run_in_parallel, n, Mover{},
+               [&](Mover& farthest, Index v) { farthest.meet(v, square_of(after.row(v), before.row(v))); },
+               [](Mover& farthest, const Mover& mover) { farthest.meet(mover.vertex, mover.square); })
+        .vertex;
 }
 
 }  // namespace

@@ -45,15 +45,14 @@ double shortest_edge_squared(const PolygonMesh& mesh, const Topology& topology, 
 
 double largest_explicit_step(const PolygonMesh& mesh, const Topology& topology, const Points& positions)
 {
-    std::vector<double> of_block(at(mesh.n_vertices() / block_size) + 1, infinity);
-    for_each_block(run_in_parallel, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
-        double shortest = infinity;
-        for (Index v = begin; v < end; ++v)
+    const auto keep_shorter = [](double& shortest, double found) { shortest = std::min(shortest, found); };
+    return reduce(
+        run_in_parallel, mesh.n_vertices(), infinity,
+        [&](double& shortest, Index v) {
             if (topology.moves(v))
-                shortest = std::min(shortest, shortest_edge_squared(mesh, topology, positions, v));
-        of_block[block] = shortest;
-    });
-    return *std::min_element(of_block.begin(), of_block.end());
+                keep_shorter(shortest, shortest_edge_squared(mesh, topology, positions, v));
+        },
+        keep_shorter);
 }
 
 ExplicitStepper::ExplicitStepper(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options,

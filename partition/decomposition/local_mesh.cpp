@@ -59,12 +59,6 @@ void mark_fixed(const Topology& topology, SubMesh& sub_mesh)
 
 }  // namespace
 
-Index position_in(std::span<const Index> ascending, Index value)
-{
-    const auto found = std::lower_bound(ascending.begin(), ascending.end(), value);
-    return found != ascending.end() && *found == value ? static_cast<Index>(found - ascending.begin()) : -1;
-}
-
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v)
 {
     return topology.moves(v) && is_mixed(topology, labels, v);

@@ -12,9 +12,6 @@
 /// What all sub-meshes are made of, whether they overlap or not.
 namespace seamflow {
 
-/// Position of `value` in the ascending range, or -1.
-Index position_in(std::span<const Index> ascending, Index value);
-
 /// Whether vertex v may move and has faces of several labels: whether it lies on Γ.
 bool is_on_interface(const Topology& topology, std::span<const Index> labels, Index v);
 

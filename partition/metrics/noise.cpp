@@ -140,10 +140,7 @@ class Surroundings {
     [[nodiscard]] Index size() const { return static_cast<Index>(vertices_.size()); }
     [[nodiscard]] Index vertex(Index i) const { return vertices_[i]; }
 
-    [[nodiscard]] Index local(Index v) const
-    {
-        return static_cast<Index>(std::ranges::lower_bound(vertices_, v) - vertices_.begin());
-    }
+    [[nodiscard]] Index local(Index v) const { return place_in(vertices_, v); }
 
     [[nodiscard]] bool are_neighbours(Index v, Index w) const { return std::ranges::binary_search(neighbours_[v], w); }
 

@@ -46,23 +46,16 @@ std::uint64_t place_on_curve(const Box& box, const Box& whole)
 /// All triangles of all faces with finite corners, face by face.
 std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
 {
-    std::vector<std::vector<Piece>> of_block(at(mesh.n_faces() / block_size) + 1);
-    for_each_block(loop, mesh.n_faces(), [&](Index block, Index begin, Index end) {
+    const auto add_face = [&](std::vector<Piece>& pieces, Index f) {
+        if (!std::ranges::all_of(mesh.face(f), [&](Index v) { return positions.row(v).allFinite(); }))
+            return;
         std::vector<Triangle> triangles;
-        for (Index f = begin; f < end; ++f) {
-            if (!std::ranges::all_of(mesh.face(f), [&](Index v) { return positions.row(v).allFinite(); }))
-                continue;
-            triangles.clear();
-            triangulate(mesh.face(f), positions, triangles);
-            for (const Triangle& t : triangles)
-                of_block[block].push_back({t, f});
-        }
-    });
-    std::vector<Piece> pieces;
-    pieces.reserve(at(mesh.n_corners()) - 2 * at(mesh.n_faces()));
-    for (const auto& of_faces : of_block)
-        pieces.insert(pieces.end(), of_faces.begin(), of_faces.end());
-    return pieces;
+        triangulate(mesh.face(f), positions, triangles);
+        for (const Triangle& t : triangles)
+            pieces.push_back({t, f});
+    };
+    return reduce(loop, mesh.n_faces(), std::vector<Piece>{}, add_face,
+                  [](auto& pieces, const auto& part) { pieces.insert(pieces.end(), part.begin(), part.end()); });
 }
 
 /// The triangles of a mesh, neighbours together, and a tree over them.

@@ -25,23 +25,17 @@ XXH64_hash_t hash_of_half_edge(Index from, Index to)
 /// Half-edges and their opposites cancel each other: the sum of their hashes is 0 then, and hardly ever else.
 bool encloses_volume(const PolygonMesh& mesh, const Loop& loop)
 {
-    std::vector<XXH64_hash_t> of_block(at(mesh.n_faces() / block_size) + 1, 0);
-    for_each_block(loop, mesh.n_faces(), [&](Index block, Index begin, Index end) {
-        XXH64_hash_t sum = 0;
-        for (Index f = begin; f < end; ++f) {
-            const std::span<const Index> corners = mesh.face(f);
-            Index from = corners.back();
-            for (const Index to : corners) {
-                sum += hash_of_half_edge(from, to);
-                from = to;
-            }
+    const auto hash_of_face = [&](Index f) {
+        const std::span<const Index> corners = mesh.face(f);
+        XXH64_hash_t of_face = 0;
+        Index from = corners.back();
+        for (const Index to : corners) {
+            of_face += hash_of_half_edge(from, to);
+            from = to;
         }
-        of_block[block] = sum;
-    });
-    XXH64_hash_t sum = 0;
-    for (const XXH64_hash_t part : of_block)
-        sum += part;
-    return mesh.n_faces() > 0 && sum == 0;
+        return of_face;
+    };
+    return mesh.n_faces() > 0 && sum(loop, mesh.n_faces(), hash_of_face, XXH64_hash_t{0}) == 0;
 }
 
 double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Loop& loop)

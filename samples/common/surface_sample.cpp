@@ -4,6 +4,8 @@
 
 #include <xxhash.h>
 
+#include "partition/index_lists.h"
+
 namespace seamflow {
 
 namespace {
@@ -26,7 +28,7 @@ PolygonMesh extract(const IndexLists& faces, const std::vector<Index>& vertices)
     for (Index f = 0; f < faces.size(); ++f) {
         corners.clear();
         for (const Index v : faces[f])
-            corners.push_back(static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin()));
+            corners.push_back(place_in(vertices, v));
         part.add_face(corners);
     }
     return part;

@@ -9,11 +9,6 @@ namespace seamflow {
 
 namespace {
 
-Index column_of(std::span<const Index> columns, Index v)
-{
-    return static_cast<Index>(std::lower_bound(columns.begin(), columns.end(), v) - columns.begin());
-}
-
 /// Of the fan of the given faces at a vertex with neighbours `before` and `after` along the fan's boundary.
 std::optional<Conormal> conormal_of(std::span<const Index> fan, const IndexLists& faces, Index vertex, Index before,
                                     Index after, const Points& positions)
@@ -48,10 +43,10 @@ DerivativeStencils make_derivative_stencils(const SubMesh& sub_mesh)
         sort_unique(columns);
         for (const Index f : interface.own_faces[i])
             for (const Index v : sub_mesh.face_vertices[f])
-                stencils.corner_places.values.push_back(column_of(columns, v));
-        stencils.centre.push_back(column_of(columns, interface.vertices[i]));
-        stencils.before.push_back(column_of(columns, interface.before[i]));
-        stencils.after.push_back(column_of(columns, interface.after[i]));
+                stencils.corner_places.values.push_back(place_in(columns, v));
+        stencils.centre.push_back(place_in(columns, interface.vertices[i]));
+        stencils.before.push_back(place_in(columns, interface.before[i]));
+        stencils.after.push_back(place_in(columns, interface.after[i]));
         stencils.columns.values.insert(stencils.columns.values.end(), columns.begin(), columns.end());
         stencils.columns.close();
         stencils.corner_places.close();

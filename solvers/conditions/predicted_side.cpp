@@ -67,10 +67,10 @@ class PredictedSide final : public TransmissionCondition {
         double diagonal = 1.0;
         for (std::size_t k = 0; k < columns.size(); ++k)
             if (columns[k] < sub_mesh_->n_vertices)
-                row[place_of(i, columns[k])] += time_step_ * star[k];
+                row[at(place_in(columns_[i], columns[k]))] += time_step_ * star[k];
             else
                 diagonal += time_step_ * star[k] * responses(i)[k];
-        row[place_of(i, sub_mesh_->interface.vertices[i])] += diagonal;
+        row[at(place_in(columns_[i], sub_mesh_->interface.vertices[i]))] += diagonal;
     }
 
     [[nodiscard]] Point right_hand_side(Index i, const Points& positions, const Points& other_side) const override
@@ -156,12 +156,6 @@ class PredictedSide final : public TransmissionCondition {
         return std::span(responses_).subspan(at(star_.columns().offsets[i]), star_.columns()[i].size());
     }
 
-    [[nodiscard]] std::size_t place_of(Index i, Index column) const
-    {
-        const auto columns = columns_[i];
-        return static_cast<std::size_t>(std::lower_bound(columns.begin(), columns.end(), column) - columns.begin());
-    }
-
     /// Robin's columns are some of this condition's: its row is computed in front, then spread from the end.
     void robin_left_hand_side(Index i, const Points& positions, std::span<double> row) const
     {
@@ -169,7 +163,7 @@ class PredictedSide final : public TransmissionCondition {
         robin_.left_hand_side(i, positions, row.first(columns.size()));
         for (std::size_t k = columns.size(); k-- > 0;) {
             const double coefficient = std::exchange(row[k], 0.0);
-            row[place_of(i, columns[k])] = coefficient;
+            row[at(place_in(columns_[i], columns[k]))] = coefficient;
         }
     }
 

@@ -40,12 +40,7 @@ StarLaplacian::StarLaplacian(const SubMesh& sub_mesh, const ScaledLaplacian& lap
 void StarLaplacian::make_slots(const SubMeshInterface& interface)
 {
     const auto entries = assembler_->entries();
-    const auto row_of = [&](Index vertex) {
-        const auto found = std::lower_bound(interface.vertices.begin(), interface.vertices.end(), vertex);
-        return found != interface.vertices.end() && *found == vertex
-                   ? static_cast<Index>(found - interface.vertices.begin())
-                   : -1;
-    };
+    const auto row_of = [&](Index vertex) { return position_in(interface.vertices, vertex); };
     std::vector<std::vector<Index>> columns(interface.vertices.size());
     for (const MatrixEntry& entry : entries)
         if (const Index row = row_of(entry.row); row >= 0)
@@ -62,9 +57,7 @@ void StarLaplacian::make_slots(const SubMeshInterface& interface)
             slots_.push_back(unread);
             continue;
         }
-        const auto of_row = columns_[row];
-        const auto place = std::lower_bound(of_row.begin(), of_row.end(), entry.column) - of_row.begin();
-        slots_.push_back(columns_.offsets[row] + static_cast<Index>(place));
+        slots_.push_back(columns_.offsets[row] + place_in(columns_[row], entry.column));
     }
     values_.resize(at(unread) + 1);
 }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "partition/index_lists.h"
+
 namespace seamflow {
 
 namespace {
@@ -56,7 +58,7 @@ FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topolog
             return;
         neighbours[i] = neighbours_of(mesh, topology, v);
         for (Index& w : neighbours[i])
-            w = static_cast<Index>(std::ranges::lower_bound(sample.vertices, w) - sample.vertices.begin());
+            w = place_in(sample.vertices, w);
     });
     for (Index i = 0; i < n_places; ++i) {
         sample.neighbours.values.insert(sample.neighbours.values.end(), neighbours[i].begin(), neighbours[i].end());

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -91,12 +90,7 @@ void LdlSolver::list_updates(const std::vector<Index>& supernode_of)
             }
         }
     };
-    update_offsets_.assign(at(pattern_.n_supernodes()) + 1, 0);
-    for_each_update([&](Index later, const Update&) { ++update_offsets_[later + 1]; });
-    std::partial_sum(update_offsets_.begin(), update_offsets_.end(), update_offsets_.begin());
-    updates_.resize(update_offsets_.back());
-    std::vector<Index> next = update_offsets_;
-    for_each_update([&](Index later, const Update& update) { updates_[next[later]++] = update; });
+    updates_ = make_lists<Update>(pattern_.n_supernodes(), for_each_update);
 }
 
 /// An entry of column j belongs to the supernode of its row, which is eliminated first; where j stands among the rows
@@ -150,8 +144,7 @@ void LdlSolver::subtract_updates(const LdlPanel<Number>& later, Index supernode,
 {
     for (std::size_t i = 0; i < later.rows.size(); ++i)
         workspace.row_of[later.rows[i]] = static_cast<Index>(i);
-    for (Index u = update_offsets_[supernode]; u < update_offsets_[supernode + 1]; ++u) {
-        const Update& update = updates_[u];
+    for (const Update& update : updates_[supernode]) {
         const LdlPanel<Number> earlier = panel(factor, update.earlier);
         const auto rows = earlier.rows.subspan(update.place);
         for (std::size_t i = 0; i < rows.size(); ++i)

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "partition/index_lists.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/direct/columns.h"
 #include "solvers/direct/factor_memory.h"
@@ -108,9 +109,8 @@ class LdlSolver {
     SymbolicFactor pattern_;
     /// Per supernode, where it begins in the factor, and where the last one ends.
     std::vector<Index> panels_{0};
-    /// Per supernode, and one more.
-    std::vector<Index> update_offsets_;
-    std::vector<Update> updates_;
+    /// Per supernode.
+    Lists<Update> updates_;
 };
 
 /// L D Lᵀ of one matrix, in units of scale(), without the block of the last unknowns.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace seamflow {
@@ -61,18 +60,13 @@ LuSolver::LuSolver(const SparsePattern& pattern)
 /// A value belongs to that of its row and its column which is eliminated first.
 void LuSolver::list_loads(const SparsePattern& pattern)
 {
-    const auto for_each_value = [&](auto use) {
+    loads_ = make_lists<Load>(pattern.n(), [&](auto&& add) {
         for (Index column = 0; column < pattern.n(); ++column)
-            for (Index slot = pattern.column_offsets[column]; slot < pattern.column_offsets[column + 1]; ++slot)
-                use(slot, pattern_.position[pattern.rows[slot]], pattern_.position[column]);
-    };
-    load_offsets_.assign(at(pattern.n()) + 1, 0);
-    for_each_value([&](Index, Index row, Index column) { ++load_offsets_[std::min(row, column) + 1]; });
-    std::partial_sum(load_offsets_.begin(), load_offsets_.end(), load_offsets_.begin());
-    loads_.resize(pattern.rows.size());
-    std::vector<Index> next = load_offsets_;
-    for_each_value([&](Index slot, Index row, Index column) {
-        loads_[next[std::min(row, column)]++] = {slot, row >= column ? 2 * row : 2 * column + 1};
+            for (Index slot = pattern.column_offsets[column]; slot < pattern.column_offsets[column + 1]; ++slot) {
+                const Index row = pattern_.position[pattern.rows[slot]];
+                const Index place = pattern_.position[column];
+                add(std::min(row, place), Load{slot, row >= place ? 2 * row : 2 * place + 1});
+            }
     });
 }
 
@@ -96,8 +90,7 @@ void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspa
 {
     workspace.row_sizes.assign(pattern_.n(), 0.0);
     for (Index u = 0; u < pattern_.n(); ++u)
-        for (Index k = load_offsets_[u]; k < load_offsets_[u + 1]; ++k) {
-            const auto [slot, place] = loads_[k];
+        for (const auto& [slot, place] : loads_[u]) {
             const Index row = place % 2 == 0 ? place / 2 : u;
             workspace.row_sizes[row] += std::abs(values[slot]);
         }
@@ -105,10 +98,8 @@ void LuSolver::measure_rows(std::span<const double> values, LuWorkspace& workspa
 
 void LuSolver::load(Index unknown, std::span<const double> values, LuWorkspace& workspace) const
 {
-    for (Index k = load_offsets_[unknown]; k < load_offsets_[unknown + 1]; ++k) {
-        const auto [slot, place] = loads_[k];
+    for (const auto& [slot, place] : loads_[unknown])
         workspace.elimination[place / 2][place % 2] = values[slot];
-    }
 }
 
 /// Takes away what earlier columns contribute, those of the same supernode last.

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "partition/index_lists.h"
 #include "solvers/direct/columns.h"
 #include "solvers/direct/factor_memory.h"
 #include "solvers/direct/solver_workspace.h"
@@ -54,9 +55,8 @@ class LuSolver {
     bool store(Index supernode, Index column, const Factor& factor, LuWorkspace& workspace) const;
 
     SymbolicFactor pattern_;
-    /// Number of unknowns + 1, and what is loaded for each.
-    std::vector<Index> load_offsets_;
-    std::vector<Load> loads_;
+    /// Per unknown what is loaded for it.
+    Lists<Load> loads_;
     /// Per supernode, where its columns begin, and where the last one ends.
     std::vector<std::size_t> panels_{0};
 };

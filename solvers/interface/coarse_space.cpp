@@ -21,21 +21,10 @@ constexpr double regularisation = 1e-8;
 /// The values are the indices whose list it is, ascending.
 IndexLists inverse_lists(std::span<const Index> list_of, Index n_lists)
 {
-    IndexLists lists;
-    lists.offsets.assign(at(n_lists) + 1, 0);
-    for (const Index list : list_of)
-        ++lists.offsets[list + 1];
-    std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
-    std::vector<Index> next(lists.offsets.begin(), lists.offsets.end() - 1);
-    lists.values.resize(list_of.size());
-    for (std::size_t i = 0; i < list_of.size(); ++i)
-        lists.values[next[list_of[i]]++] = static_cast<Index>(i);
-    return lists;
-}
-
-std::ptrdiff_t place_in(std::span<const Index> ascending, Index value)
-{
-    return std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin();
+    return make_lists(n_lists, [&](auto&& add) {
+        for (std::size_t i = 0; i < list_of.size(); ++i)
+            add(list_of[i], static_cast<Index>(i));
+    });
 }
 
 // Rows are used eight at a time.

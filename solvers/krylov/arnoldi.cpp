@@ -77,19 +77,10 @@ RowVector3d KrylovBasis::products_with_column(Eigen::Index c, const Loop& loop) 
 /// Vᵀ W for all V.
 std::vector<Matrix3d> KrylovBasis::project(const Loop& loop) const
 {
-    const Index n_blocks = n_ / block_size + 1;
-    std::vector<Matrix3d> of_block(at(n_blocks) * n_used_, Matrix3d::Zero());
-    for_each_block(loop, n_, [&](Index block, Index begin, Index end) {
-        for (std::size_t k = 0; k < n_used_; ++k) {
-            Matrix3d total = Matrix3d::Zero();
-            for (Index i = begin; i < end; ++i)
-                total += blocks_[k].row(i).transpose() * product_.row(i);
-            of_block[at(block) * n_used_ + k] = total;
-        }
-    });
-    std::vector<Matrix3d> sums(n_used_, Matrix3d::Zero());
-    for (std::size_t b = 0; b < of_block.size(); ++b)
-        sums[b % n_used_] += of_block[b];
+    std::vector<Matrix3d> sums;
+    for (std::size_t k = 0; k < n_used_; ++k)
+        sums.push_back(sum_of<Matrix3d>(
+            loop, n_, [&](Index i) -> Matrix3d { return blocks_[k].row(i).transpose() * product_.row(i); }));
     return sums;
 }
 

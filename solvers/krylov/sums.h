@@ -17,17 +17,8 @@ namespace seamflow {
 template <class Sum, class Value>
 Sum sum_of(const Loop& loop, Index n, Value&& value)
 {
-    std::vector<Sum> of_block(at(n / block_size) + 1, Sum::Zero());
-    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
-        Sum total = Sum::Zero();
-        for (Index i = begin; i < end; ++i)
-            total += value(i);
-        of_block[block] = total;
-    });
-    Sum total = Sum::Zero();
-    for (const Sum& part : of_block)
-        total += part;
-    return total;
+    const Sum zero = Sum::Zero();
+    return sum(loop, n, value, zero);
 }
 
 /// The inner products of each column of A with the same of B.

@@ -1,7 +1,6 @@
 #include "solvers/laplacian/edge_lists.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace seamflow {
 
@@ -21,18 +20,14 @@ void for_each_halfedge(const IndexLists& faces, Action&& action)
 /// Each of them once, in ascending order.
 OuterEdges by_number_of_faces(const std::vector<VertexPair>& edges, Index n_vertices)
 {
-    // By first vertices: where those of each begin, which moves on to where they end.
-    std::vector<Index> ends(at(n_vertices) + 1, 0);
-    for (const VertexPair& e : edges)
-        ++ends[e.first + 1];
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Index> seconds(edges.size());
-    for (const VertexPair& e : edges)
-        seconds[ends[e.first]++] = e.second;
+    IndexLists seconds = make_lists(n_vertices, [&](auto&& add) {
+        for (const VertexPair& e : edges)
+            add(e.first, e.second);
+    });
     OuterEdges outer;
-    auto second = seconds.begin();
+    auto second = seconds.values.begin();
     for (Index first = 0; first < n_vertices; ++first) {
-        const auto end = seconds.begin() + ends[first];
+        const auto end = seconds.values.begin() + seconds.offsets[first + 1];
         std::sort(second, end);
         while (second != end) {
             const auto next = std::find_if(second, end, [&](Index v) { return v != *second; });

@@ -70,11 +70,8 @@ class TwoRingAssembler final : public LaplacianAssembler {
         stencil_.values.erase(std::unique(first, stencil_.values.end()), stencil_.values.end());
         stencil_.close();
         for (Index h = faces_.offsets[f]; h < faces_.offsets[f + 1]; ++h)
-            for (const Index v : faces_.face(face_across(h))) {
-                const auto columns = stencil_[f];
-                place_.push_back(
-                    static_cast<Index>(std::lower_bound(columns.begin(), columns.end(), v) - columns.begin()));
-            }
+            for (const Index v : faces_.face(face_across(h)))
+                place_.push_back(place_in(stencil_[f], v));
     }
 
     void measure_areas(const Points& positions)

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <numeric>
 #include <string>
+#include <utility>
 
 #include "partition/errors.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -20,18 +21,6 @@ Index SparsePattern::slot(MatrixEntry entry) const
 }
 
 namespace {
-
-void sort_into_columns(Index n, const std::vector<MatrixEntry>& entries, SparsePattern& pattern)
-{
-    pattern.column_offsets.assign(at(n) + 1, 0);
-    for (const MatrixEntry& entry : entries)
-        ++pattern.column_offsets[entry.column + 1];
-    std::partial_sum(pattern.column_offsets.begin(), pattern.column_offsets.end(), pattern.column_offsets.begin());
-    std::vector<Index> next(pattern.column_offsets.begin(), pattern.column_offsets.end() - 1);
-    pattern.rows.resize(entries.size());
-    for (const MatrixEntry& entry : entries)
-        pattern.rows[next[entry.column]++] = entry.row;
-}
 
 /// Also sorts the rows of each column.
 void leave_one_of_each(SparsePattern& pattern)
@@ -56,8 +45,11 @@ SparsePattern make_pattern(Index n, const std::vector<MatrixEntry>& entries)
     if (entries.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
         throw ComputationError("a system of " + std::to_string(n) +
                                " unknowns has too many entries: cut the mesh into more sub-meshes");
-    SparsePattern pattern;
-    sort_into_columns(n, entries, pattern);
+    IndexLists columns = make_lists(n, [&](auto&& add) {
+        for (const MatrixEntry& entry : entries)
+            add(entry.column, entry.row);
+    });
+    SparsePattern pattern{std::move(columns.offsets), std::move(columns.values)};
     leave_one_of_each(pattern);
     return pattern;
 }

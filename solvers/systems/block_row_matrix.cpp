@@ -53,10 +53,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
         lists[block] = {pattern(block), {}};
         for (Index i = begin; i < end; ++i) {
             const std::span<const Index> columns = lists[block].rows[i - begin];
-            const auto place = [&](Index column) {
-                return static_cast<Index>(std::lower_bound(columns.begin(), columns.end(), column) - columns.begin());
-            };
-            const std::array parts{place(begin), place(i), place(end)};
+            const std::array parts{place_in(columns, begin), place_in(columns, i), place_in(columns, end)};
             lists[block].parts.push_back(parts);
             lower_.begin[i + 1] = parts[1] - parts[0];
             upper_.begin[i + 1] = parts[2] - parts[1];

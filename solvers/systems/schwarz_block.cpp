@@ -16,12 +16,6 @@ void keep_one_of_each(std::vector<Value>& values)
     sort_unique(values);
 }
 
-template <class Value>
-Index place_of(const std::vector<Value>& ascending, const Value& value)
-{
-    return static_cast<Index>(std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin());
-}
-
 }  // namespace
 
 SchwarzBlock::SchwarzBlock(const GrownPart& part, Laplacian laplacian, Factorisation factorisation)
@@ -76,12 +70,12 @@ std::vector<Index> SchwarzBlock::make_slots(const std::vector<MatrixEntry>& entr
         else if (unknown_of[column] >= 0)
             slots.push_back(pattern.slot({unknown_of[column], unknown}));
         else if (part_->sub_mesh.fixed[column] != 0)
-            slots.push_back(first_fixed + place_of(fixed_couplings_, Coupling{unknown, column}));
+            slots.push_back(first_fixed + place_in(fixed_couplings_, Coupling{unknown, column}));
         else
-            slots.push_back(first_beyond + place_of(beyond_couplings_, Coupling{unknown, column}));
+            slots.push_back(first_beyond + place_in(beyond_couplings_, Coupling{unknown, column}));
     }
     for (Coupling& coupling : beyond_couplings_)
-        coupling.vertex = place_of(beyond_, coupling.vertex);
+        coupling.vertex = place_in(beyond_, coupling.vertex);
     return slots;
 }
 

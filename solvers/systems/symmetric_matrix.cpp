@@ -25,40 +25,29 @@ PairsOfUnknowns pairs_of_unknowns(const std::vector<VertexPair>& pairs, const st
     require_countable(2 * pairs.size() + at(n), n);
     const auto n_own = static_cast<Index>(unknown_of.size());
     const auto unknown = [&](Index v) { return v < n_own ? unknown_of[v] : -1; };
-    const auto for_each_entry = [&](auto&& action) {
-        for (std::size_t i = 0; i < pairs.size(); ++i) {
-            const Index a = unknown(pairs[i].first);
-            const Index b = unknown(pairs[i].second);
-            if (a >= 0 && b >= 0) {
-                action(a, b, i);
-                action(b, a, i);
-            }
-        }
-    };
-    PairsOfUnknowns of;
-    of.n_pairs = pairs.size();
-    // Where those of each begin stands one further, and moves on to where they end.
-    of.offsets.assign(at(n) + 2, 0);
-    for_each_entry([&](Index u, Index, std::size_t) { ++of.offsets[u + 2]; });
-    std::partial_sum(of.offsets.begin(), of.offsets.end(), of.offsets.begin());
-    of.entries.resize(of.offsets.back());
-    for_each_entry([&](Index u, Index other, std::size_t pair) {
-        of.entries[of.offsets[u + 1]++] = {other, static_cast<Index>(pair)};
-    });
-    of.offsets.pop_back();
-    return of;
+    return {make_lists<PairsOfUnknowns::Entry>(n,
+                                               [&](auto&& add) {
+                                                   for (std::size_t i = 0; i < pairs.size(); ++i) {
+                                                       const Index a = unknown(pairs[i].first);
+                                                       const Index b = unknown(pairs[i].second);
+                                                       if (a < 0 || b < 0)
+                                                           continue;
+                                                       add(a, {b, static_cast<Index>(i)});
+                                                       add(b, {a, static_cast<Index>(i)});
+                                                   }
+                                               }),
+            pairs.size()};
 }
 
 SparsePattern neighbours_of(const PairsOfUnknowns& pairs)
 {
     SparsePattern neighbours;
-    neighbours.column_offsets.reserve(pairs.offsets.size());
-    neighbours.rows.resize(pairs.entries.size());
+    neighbours.column_offsets.reserve(pairs.of.offsets.size());
+    neighbours.rows.resize(pairs.of.values.size());
     std::vector<Index> seen_in(pairs.n(), -1);
     Index end = 0;
     for (Index u = 0; u < pairs.n(); ++u) {
-        for (Index k = pairs.offsets[u]; k < pairs.offsets[u + 1]; ++k) {
-            const Index other = pairs.entries[k].other;
+        for (const auto& [other, pair] : pairs.of[u]) {
             neighbours.rows[end] = other;
             end += std::exchange(seen_in[other], u) != u ? 1 : 0;
         }
@@ -78,12 +67,9 @@ UpperPattern upper_pattern(const PairsOfUnknowns& pairs, const std::vector<Index
     const auto for_each_entry_above_diagonal = [&](auto&& action) {
         std::vector<Index> last_row_of(n, -1);
         for (Index row = 0; row < n; ++row)
-            for (Index k = pairs.offsets[order[row]]; k < pairs.offsets[order[row] + 1]; ++k) {
-                const auto& entry = pairs.entries[k];
-                const Index column = number_of[entry.other];
-                if (column > row)
-                    action(row, column, entry.pair, std::exchange(last_row_of[column], row) != row);
-            }
+            for (const auto& [other, pair] : pairs.of[order[row]])
+                if (const Index column = number_of[other]; column > row)
+                    action(row, column, pair, std::exchange(last_row_of[column], row) != row);
     };
     // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
     UpperPattern upper;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "partition/index_lists.h"
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sparse/sparse_pattern.h"
@@ -18,13 +19,11 @@ struct PairsOfUnknowns {
         Index other;
         Index pair;
     };
-    /// n + 1.
-    std::vector<Index> offsets;
-    std::vector<Entry> entries;
+    Lists<Entry> of;
     /// Number of all pairs, those among them of which not both are unknown.
     std::size_t n_pairs = 0;
 
-    [[nodiscard]] Index n() const { return static_cast<Index>(offsets.size()) - 1; }
+    [[nodiscard]] Index n() const { return of.size(); }
 };
 
 /// @param unknown_of per vertex, or -1; vertices beyond its end are not unknown.

@@ -118,8 +118,7 @@ MeshPart part_of(const ArrivedFaces& arrived)
     for (const std::size_t i : order) {
         corners.clear();
         for (const Number corner : arrived.corners_of(i))
-            corners.push_back(static_cast<Index>(std::ranges::lower_bound(part.vertex_numbers, corner) -
-                                                 part.vertex_numbers.begin()));
+            corners.push_back(place_in(part.vertex_numbers, corner));
         part.mesh.add_face(corners);
         part.face_numbers.push_back(arrived.headers[i].number);
         part.labels.push_back(arrived.headers[i].label);

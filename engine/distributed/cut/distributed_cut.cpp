@@ -263,10 +263,8 @@ class TogetherCut {
         sort_unique(faces);
         const std::vector<Index> found = fetch_labels(talk_, labels, bounds_, faces);
         for (Chunk& chunk : chunks)
-            for (std::size_t f = 0; f < chunk.part.face_numbers.size(); ++f) {
-                const auto place = std::ranges::lower_bound(faces, chunk.part.face_numbers[f]) - faces.begin();
-                chunk.part.labels[f] = found[static_cast<std::size_t>(place)];
-            }
+            for (std::size_t f = 0; f < chunk.part.face_numbers.size(); ++f)
+                chunk.part.labels[f] = found[place_in(faces, chunk.part.face_numbers[f])];
     }
 
     /// @param chunks with their labels, which come into the stretches.

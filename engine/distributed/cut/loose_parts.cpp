@@ -7,6 +7,7 @@
 
 #include "engine/tasks/parallel_loop.h"
 #include "partition/connected_components.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
 
@@ -23,10 +24,7 @@ struct WholeParts {
 WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vector<Index>& parts)
 {
     const RankSlice& slice = cut.slice;
-    const auto place_of = [&](Index label) {
-        const auto found = std::ranges::lower_bound(parts, label);
-        return found != parts.end() && *found == label ? found - parts.begin() : std::ptrdiff_t{-1};
-    };
+    const auto place_of = [&](Index label) { return position_in(parts, label); };
     const auto wanted =
         select(run_in_parallel, slice.n_faces(), [&](Index f) { return place_of(slice.labels[f]) >= 0; });
     std::vector<Packer> to_each(talk.size());
@@ -57,8 +55,7 @@ WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vecto
     whole.part.vertex_numbers = corners;
     sort_unique(whole.part.vertex_numbers);
     for (const std::int64_t corner : corners)
-        whole.part.mesh.face_vertices.push_back(static_cast<Index>(
-            std::ranges::lower_bound(whole.part.vertex_numbers, corner) - whole.part.vertex_numbers.begin()));
+        whole.part.mesh.face_vertices.push_back(place_in(whole.part.vertex_numbers, corner));
     // Nobody asks where they are.
     whole.part.mesh.vertices = Points::Zero(std::ssize(whole.part.vertex_numbers), 3);
     return whole;
@@ -119,8 +116,7 @@ IndexLists components_in(const Band& band, const LooseFaces& loose)
     IndexLists components;
     for (const auto& component : sorted) {
         for (const std::int64_t face : component)
-            components.values.push_back(static_cast<Index>(std::ranges::lower_bound(band.part.face_numbers, face) -
-                                                           band.part.face_numbers.begin()));
+            components.values.push_back(place_in(band.part.face_numbers, face));
         components.close();
     }
     return components;

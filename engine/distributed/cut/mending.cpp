@@ -7,6 +7,7 @@
 #include "engine/distributed/cut/band.h"
 #include "engine/distributed/cut/loose_parts.h"
 #include "engine/tasks/parallel_loop.h"
+#include "partition/index_lists.h"
 #include "partition/labels.h"
 #include "partition/repair/pinches.h"
 
@@ -170,8 +171,7 @@ void Mender::mend_within(const Band& band, const std::vector<Number>& pinched, s
     };
     std::vector<Index> next;
     for (const Number number : pinched)
-        next.push_back(static_cast<Index>(std::ranges::lower_bound(band.part.vertex_numbers, number) -
-                                          band.part.vertex_numbers.begin()));
+        next.push_back(place_in(band.part.vertex_numbers, number));
     for (int round = 0; round < max_rounds && !next.empty(); ++round) {
         std::vector<Index> faces;
         std::vector<Index> labels_before;
@@ -216,8 +216,7 @@ void Mender::merge_pinched_at(const std::vector<Number>& pinched)
             return label;
         };
         for (const Number number : pinched) {
-            const auto v = static_cast<Index>(std::ranges::lower_bound(band.part.vertex_numbers, number) -
-                                              band.part.vertex_numbers.begin());
+            const auto v = place_in(band.part.vertex_numbers, number);
             const auto [larger, smaller] = pinches.pinched_and_between(v);
             const Index root = root_of(values[larger]);
             if (const Index other = root_of(values[smaller]); other != root)
@@ -250,9 +249,8 @@ Index compact_labels_together(Conversation& talk, std::vector<Index>& labels)
     sort_unique(names);
     names = talk.gather_all(names);
     sort_unique(names);
-    for_each(run_in_parallel, static_cast<Index>(labels.size()), [&](Index f) {
-        labels[f] = static_cast<Index>(std::ranges::lower_bound(names, labels[f]) - names.begin());
-    });
+    for_each(run_in_parallel, static_cast<Index>(labels.size()),
+             [&](Index f) { labels[f] = place_in(names, labels[f]); });
     return static_cast<Index>(names.size());
 }
 

@@ -101,8 +101,7 @@ std::vector<Index> labels_of_all_faces(Conversation& talk, const RankSlice& slic
     sort_unique(firsts);
     const std::vector<Index> found = fetch_labels(talk, labels, bounds, firsts);
     for (std::size_t i = 0; i < left_out.faces.size(); ++i)
-        labels[left_out.faces[i]] =
-            found[static_cast<std::size_t>(std::ranges::lower_bound(firsts, left_out.firsts[i]) - firsts.begin())];
+        labels[left_out.faces[i]] = found[place_in(firsts, left_out.firsts[i])];
     return labels;
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/ranks/conversation.h"
+#include "partition/index_lists.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -22,7 +23,7 @@ class CornerPositions {
     {
         if (is_own(corner))
             return slice_.vertices.row(corner - first_);
-        return positions_.row(std::ranges::lower_bound(others_, corner) - others_.begin());
+        return positions_.row(place_in(others_, corner));
     }
 
   private:

@@ -68,10 +68,7 @@ class Owners {
         }
     }
 
-    [[nodiscard]] int operator[](Index label) const
-    {
-        return ranks_[static_cast<std::size_t>(std::ranges::lower_bound(labels_, label) - labels_.begin())];
-    }
+    [[nodiscard]] int operator[](Index label) const { return ranks_[place_in(labels_, label)]; }
 
   private:
     std::vector<Index> labels_;

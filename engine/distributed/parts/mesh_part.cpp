@@ -132,11 +132,6 @@ class VertexDirectory {
     std::vector<VertexAtRank> owners_;
 };
 
-Index local_number(std::span<const Number> numbers, Number number)
-{
-    return static_cast<Index>(std::ranges::lower_bound(numbers, number) - numbers.begin());
-}
-
 Bytes packed_part(const MeshPart& part)
 {
     Packer packer;
@@ -248,8 +243,7 @@ MeshPart joined(const MeshPart& own, std::span<const MeshPart> parts)
         own.face_numbers, faces, [&](Index f) { add_face(own, f, [&](Index v) { return place_of_own[v]; }); },
         [&](const Place& place) {
             const MeshPart& part = parts[place.part];
-            add_face(part, place.index,
-                     [&](Index v) { return local_number(all.vertex_numbers, part.vertex_numbers[v]); });
+            add_face(part, place.index, [&](Index v) { return place_in(all.vertex_numbers, part.vertex_numbers[v]); });
         });
     return all;
 }
@@ -259,7 +253,7 @@ std::vector<Index> faces_around(const MeshPart& part, const IndexLists& faces_at
 {
     std::vector<Index> faces;
     for (const Number vertex : vertices) {
-        const auto around = faces_at[local_number(part.vertex_numbers, vertex)];
+        const auto around = faces_at[place_in(part.vertex_numbers, vertex)];
         faces.insert(faces.end(), around.begin(), around.end());
     }
     sort_unique(faces);
