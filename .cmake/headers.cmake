@@ -7,11 +7,13 @@ set(SEAMFLOW_HEADERS
     engine/distributed/cut/joined_seams.h
     engine/distributed/cut/repeated_faces.h
     engine/distributed/distributed_flow.h
+    engine/distributed/files/open_together.h
     engine/distributed/files/shared_mesh_file.h
     engine/distributed/parts/deal.h
     engine/distributed/parts/mesh_part.h
     engine/distributed/parts/slice_measures.h
     engine/distributed/parts/whole_mesh.h
+    engine/distributed/rank_report.h
     engine/distributed/ranks/communicator.h
     engine/distributed/ranks/conversation.h
     engine/distributed/ranks/mpi_communicator.h
@@ -25,6 +27,7 @@ set(SEAMFLOW_HEADERS
     engine/options/flow_options.h
     engine/options/flow_report.h
     engine/options/schedule.h
+    engine/options/valid_options.h
     engine/setup/presets.h
     engine/setup/smoothed_radius.h
     engine/state/checkpoint.h
@@ -33,6 +36,7 @@ set(SEAMFLOW_HEADERS
     engine/tasks/parallel_loop.h
     partition/eigen.h
     partition/errors.h
+    partition/formats/mesh_file.h
     partition/formats/mesh_io.h
     partition/formats/palette.h
     partition/index.h
@@ -52,7 +56,8 @@ set(SEAMFLOW_HEADERS
     solvers/conditions/robin_parameter.h
     solvers/direct/factorisation.h
     solvers/filters/step_filter.h
-    solvers/laplacian/laplacian.h)
+    solvers/laplacian/laplacian.h
+    solvers/laplacian/laplacian_kind.h)
 
 function(seamflow_copy_headers)
     foreach(header IN LISTS SEAMFLOW_HEADERS)

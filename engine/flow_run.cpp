@@ -11,6 +11,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
+#include "engine/steppers/make_stepper.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"

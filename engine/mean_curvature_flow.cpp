@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/flow_run.h"
+#include "engine/options/valid_options.h"
 #include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/setup/smoothed_radius.h"

@@ -39,6 +39,29 @@ struct Lists {
 
 using IndexLists = Lists<Index>;
 
+/// Lists whose arrays somebody else keeps.
+struct IndexListsView {
+    std::span<const Index> offsets = {};
+    std::span<const Index> values = {};
+
+    IndexListsView() = default;
+    IndexListsView(std::span<const Index> list_offsets, std::span<const Index> list_values)
+        : offsets(list_offsets)
+        , values(list_values)
+    {
+    }
+    IndexListsView(const IndexLists& lists)
+        : IndexListsView(lists.offsets, lists.values)
+    {
+    }
+
+    [[nodiscard]] Index size() const { return offsets.empty() ? 0 : static_cast<Index>(offsets.size()) - 1; }
+    [[nodiscard]] std::span<const Index> operator[](Index i) const
+    {
+        return values.subspan(at(offsets[i]), at(offsets[i + 1] - offsets[i]));
+    }
+};
+
 /// Puts entries into lists, each behind those that came before it: a counting sort.
 /// @param for_each_entry called twice with a function that it calls with the list and the value of every entry, in the
 ///        same order both times.

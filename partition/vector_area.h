@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -12,6 +13,9 @@ namespace seamflow {
 
 /// One position or vector, a row of Points.
 using Point = Eigen::RowVector3d;
+
+/// Where the corners of a triangle are, in units of length.
+using TriangleCorners = std::array<Point, 3>;
 
 /// Vector area ½ Σ vᵢ × vᵢ₊₁ of a polygon, planar or not, in length² (paper, section Discrete Laplacians). Taken
 /// relative to the first corner, so that an offset of the whole mesh costs no precision.

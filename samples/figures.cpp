@@ -10,6 +10,7 @@
 #include "samples/common/output_files.h"
 #include "samples/figures/claims.h"
 #include "samples/figures/curves.h"
+#include "samples/figures/experiments.h"
 #include "samples/figures/figures_command.h"
 #include "samples/figures/index_page.h"
 #include "samples/figures/runner.h"

@@ -33,11 +33,13 @@
 #include "samples/common/long_run.h"
 #include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
+#include "samples/common/parse_smooth_command.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
 #include "samples/common/schedule_files.h"
 #include "samples/common/smooth_command.h"
 #include "samples/page/page_html.h"
+#include "samples/page/read_file_colours.h"
 
 using namespace seamflow;
 

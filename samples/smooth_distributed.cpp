@@ -15,6 +15,7 @@
 
 #include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/files/open_together.h"
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/slice_measures.h"

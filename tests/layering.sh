@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fails when a folder includes upwards (partition <- solvers <- engine <- samples, tests), when folders at any depth
-# include each other in a circle, or when a header lets in a library that only source files may use.
+# Fails when a folder includes upwards (partition <- solvers <- engine <- samples, tests), when folders at any depth or
+# files include each other in a circle, or when a header lets in a library that only source files may use.
 #
 #     tests/layering.sh [ROOT]
 
@@ -45,14 +45,18 @@ forbid '#include <(umfpack|cholmod|oneapi|tbb)' 'meshes know no solvers' partiti
 forbid_in_headers '#include <(metis|umfpack|cholmod|oneapi|tbb|OpenMesh|CGAL|omp)' \
     'libraries other than Eigen are for source files' partition solvers engine
 
-# Every pair of folders of which the first includes from the second, for tsort, which knows what a circle is.
-folder_includes() {
-    grep -roE --include='*.h' --include='*.cpp' '^#include "[^"]+/' "$@" |
-        sed -E 's|/[^/:]*:#include "| |; s|/$||' | awk '$1 != $2' | sort -u
+# require_no_circle WHAT: of what stands before and behind each blank, by tsort, which knows what a circle is.
+require_no_circle() {
+    local circles
+    if ! circles="$(sort -u | tsort 2>&1 >/dev/null)" || [[ -n $circles ]]; then
+        printf '%s include each other in a circle:\n%s\n\n' "$1" "$circles"
+        status=1
+    fi
 }
 
-if ! circles="$(folder_includes partition solvers engine samples | tsort 2>&1 >/dev/null)" || [[ -n $circles ]]; then
-    printf 'folders include each other in a circle:\n%s\n\n' "$circles"
-    status=1
-fi
+includes="$(grep -roE --include='*.h' --include='*.cpp' '^#include "[^"]+"' partition solvers engine samples |
+    sed -E 's|:#include "| |; s|"$||')"
+require_no_circle folders < <(sed -E 's|/[^/ ]*( \|$)|\1|g' <<<"$includes" | awk '$1 != $2')
+# A header and its source are one room.
+require_no_circle files < <(sed -E 's#\.(h|cpp)( |$)#\2#g' <<<"$includes" | awk '$1 != $2')
 exit "$status"

@@ -20,6 +20,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
+#include "engine/options/valid_options.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/origin_offset.h"
 #include "engine/steppers/schur_stepper.h"

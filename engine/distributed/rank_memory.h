@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/rank_report.h"
 #include "engine/distributed/rank_setup.h"
 #include "engine/distributed/ranks/conversation.h"
 #include "engine/state/flow_state.h"

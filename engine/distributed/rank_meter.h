@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "engine/distributed/distributed_flow.h"
+#include "engine/distributed/rank_report.h"
 #include "engine/distributed/rank_setup.h"
 #include "engine/distributed/ranks/conversation.h"
 #include "partition/index_lists.h"

@@ -67,23 +67,6 @@ class Stepper {
     virtual void describe(FlowReport& report) const = 0;
 };
 
-/// The way of taking steps that the options ask for: steps that keep edges, explicit Euler steps, backward Euler steps
-/// of the whole mesh by conjugate gradients, converged ones by the Schur complement or, of Laplacians without symmetry,
-/// by GMRES, or sweeps.
-/// @param mesh, topology, progress must outlive the stepper.
-/// @param options with the tolerance that was chosen, if any.
-/// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
-/// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
-///         Cancelled.
-std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                      const FlowOptions& options, const std::vector<double>& curvature,
-                                      Progress& progress);
-
-/// Backward Euler steps of the whole mesh as one, whatever the options say of sub-meshes and memory.
-std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
-                                                   const FlowOptions& options, const std::vector<double>& curvature,
-                                                   Progress& progress);
-
 /// Stepper::move of positions of which there are no copies.
 void move_rows(std::span<const Index> vertices, const Points& to, Points& positions);
 

@@ -20,6 +20,7 @@
 #include <sys/resource.h>
 
 #include "engine/options/flow_options.h"
+#include "engine/options/valid_options.h"
 #include "engine/tasks/library_threads.h"
 #include "engine/tasks/parallel_loop.h"
 #include "engine/tasks/thread_sanitizer.h"

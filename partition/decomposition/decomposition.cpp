@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "partition/decomposition/local_mesh.h"
+#include "partition/decomposition/make_sub_mesh.h"
 #include "partition/labels.h"
 
 namespace seamflow {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "partition/decomposition/local_mesh.h"
+#include "partition/decomposition/make_sub_mesh.h"
 #include "partition/labels.h"
 
 namespace seamflow {

@@ -64,14 +64,10 @@ struct SubMesh {
     SubMeshSeam seam;
 };
 
-/// Cuts out the sub-mesh of the given faces. `interface.sharing` and `index_in_sharing` are left empty: they need all
-/// sub-meshes (see decompose). May be called for several sub-meshes at once.
-/// @param labels #F, the sub-mesh of every face.
-/// @param faces the faces of one sub-mesh in ascending order. They must form one fan around each vertex of Γ.
-SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
-                      std::vector<Index> faces);
-
 /// The local index of a vertex among the sub-mesh's own vertices, or -1.
-Index local_index(const SubMesh& sub_mesh, Index global_vertex);
+inline Index local_index(const SubMesh& sub_mesh, Index global_vertex)
+{
+    return position_in(std::span<const Index>(sub_mesh.local_to_global).first(sub_mesh.n_vertices), global_vertex);
+}
 
 }  // namespace seamflow

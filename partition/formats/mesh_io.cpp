@@ -113,17 +113,8 @@ void MeshSource::require_same_faces(const std::filesystem::path& path, const Pol
 
 namespace {
 
-/// A format and what reads and writes it.
+/// What reads and writes a format.
 struct Format {
-    FileFormat format;
-    /// In messages.
-    const char* name;
-    /// In lower case.
-    std::string_view extension;
-    /// It has this encoding and those before it.
-    Encoding last_encoding;
-    /// Whether its faces may have more than three sides.
-    bool holds_polygons;
     MeshFile (*read)(const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                      FaultLog* faults);
     /// Throws OutputError for a mesh that the format cannot hold, and says what a user should know; null: it holds all
@@ -139,13 +130,9 @@ struct Format {
                                        const Slicing& slicing);
 };
 
+/// One for each FileFormat, in its order.
 constexpr std::array<Format, 4> all_formats = {{
-    {.format = FileFormat::Obj,
-     .name = "OBJ",
-     .extension = ".obj",
-     .last_encoding = Encoding::Ascii,
-     .holds_polygons = true,
-     .read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+    {.read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                 FaultLog* faults) -> MeshFile {
          return {read_obj(path, content, slicing, faults), {FileFormat::Obj, Encoding::Ascii}};
      },
@@ -154,12 +141,7 @@ constexpr std::array<Format, 4> all_formats = {{
                  const Slicing& slicing) { write_obj(file, mesh, slicing); },
      .rewrite = rewrite_obj,
      .extras = extras_of_obj},
-    {.format = FileFormat::Off,
-     .name = "OFF",
-     .extension = ".off",
-     .last_encoding = Encoding::Ascii,
-     .holds_polygons = true,
-     .read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
+    {.read = [](const std::filesystem::path& path, std::string_view content, const Slicing& slicing,
                 FaultLog* faults) -> MeshFile {
          return {read_off(path, content, slicing, faults), {FileFormat::Off, Encoding::Ascii}};
      },
@@ -169,43 +151,19 @@ constexpr std::array<Format, 4> all_formats = {{
      .rewrite = rewrite_off,
      .extras = [](const std::filesystem::path& path, std::string_view content,
                   const Slicing&) { return extras_of_off(path, content); }},
-    {.format = FileFormat::Ply,
-     .name = "PLY",
-     .extension = ".ply",
-     .last_encoding = Encoding::BinaryBigEndian,
-     .holds_polygons = true,
-     .read = read_ply,
+    {.read = read_ply,
      .require_fits = nullptr,
      .write = [](OutputFile& file, const PolygonMesh& mesh, Encoding encoding,
                  const Slicing& slicing) { write_ply(file, mesh, encoding, slicing); },
      .rewrite = rewrite_ply,
      .extras = [](const std::filesystem::path& path, std::string_view content,
                   const Slicing&) { return extras_of_ply(path, content); }},
-    {.format = FileFormat::Stl,
-     .name = "STL",
-     .extension = ".stl",
-     .last_encoding = Encoding::BinaryLittleEndian,
-     .holds_polygons = false,
-     .read = read_stl,
+    {.read = read_stl,
      .require_fits = require_fits_stl,
      .write = write_stl,
      .rewrite = rewrite_stl,
      .extras = extras_of_stl},
 }};
-
-/// The format with that value of a member, or null.
-template <class Value>
-const Format* find_format(Value Format::*member, const Value& value)
-{
-    const auto found = std::ranges::find(all_formats, value, member);
-    return found != all_formats.end() ? &*found : nullptr;
-}
-
-const Format* format_named_by(const std::filesystem::path& path)
-{
-    const std::filesystem::path unpacked = is_gzip_name(path) ? path.stem() : path;
-    return find_format(&Format::extension, std::string_view(lower_case(unpacked.extension().string())));
-}
 
 /// The format of what has no name. OBJ has no mark of its own.
 FileFormat recognised_format(std::string_view content)
@@ -220,40 +178,19 @@ FileFormat recognised_format(std::string_view content)
     return word.ends_with("OFF") ? FileFormat::Off : FileFormat::Obj;
 }
 
-const Format& format_of(const FileKind& kind)
+const Format& functions_of(FileFormat format)
 {
-    return *find_format(&Format::format, kind.format);
+    return all_formats[static_cast<std::size_t>(format)];
 }
 
-/// "a, b or c".
-std::string choice_of(const std::vector<std::string_view>& words)
-{
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
-    return text;
-}
-
-/// The format that the extension names.
-/// @throws Error if there is none.
-template <class Error>
-const Format& require_format(const std::filesystem::path& path)
-{
-    if (const Format* const format = format_named_by(path))
-        return *format;
-    if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
-        throw Error(fmt::format("{}: is a directory; name a file in it", path.string()));
-    throw Error(fmt::format("{}: the extension '{}' is none of {}; give the file the extension of its format",
-                            path.string(), path.extension().string(), extensions_of(FormatGroup::All)));
-}
-
+/// @param format nothing: it is recognised from the content.
 /// @param faults null: they are thrown. With faults that are not of faces alone the file is no source for others.
-MeshFile read_open(OpenFile open, const Format* format, const Loop& loop, FaultLog* faults)
+MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Loop& loop, FaultLog* faults)
 {
     const InputFile input(open);
-    if (format == nullptr)
-        format = find_format(&Format::format, recognised_format(input.content()));
-    MeshFile file = format->read(open.path(), input.content(), {loop}, faults);
+    if (!format)
+        format = recognised_format(input.content());
+    MeshFile file = functions_of(*format).read(open.path(), input.content(), {loop}, faults);
     if (faults == nullptr || faults->of_faces_alone)
         file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, loop);
     return file;
@@ -262,7 +199,7 @@ MeshFile read_open(OpenFile open, const Format* format, const Loop& loop, FaultL
 /// Finds the format and reads; a lack of memory comes out with the name of the file.
 MeshFile read(const std::filesystem::path& path, const Loop& loop, FaultLog* faults)
 {
-    const Format* const format = is_input_stream(path) ? nullptr : &require_format<InputError>(path);
+    const auto format = is_input_stream(path) ? std::nullopt : std::optional(require_format(path));
     try {
         return read_open(OpenFile(path), format, loop, faults);
     } catch (const std::bad_alloc&) {
@@ -272,9 +209,10 @@ MeshFile read(const std::filesystem::path& path, const Loop& loop, FaultLog* fau
     }
 }
 
-void require_encoding(const Format& format, Encoding encoding)
+void require_encoding(const FileKind& kind)
 {
-    if (encoding <= format.last_encoding)
+    const FormatTraits& format = traits_of(kind.format);
+    if (kind.encoding <= format.last_encoding)
         return;
     std::vector<std::string_view> names{"Ascii", "BinaryLittleEndian", "BinaryBigEndian"};
     names.resize(static_cast<std::size_t>(format.last_encoding) + 1);
@@ -295,36 +233,6 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
 
 }  // namespace
 
-std::optional<FileFormat> format_of(const std::filesystem::path& path)
-{
-    const Format* const format = format_named_by(path);
-    return format != nullptr ? std::optional(format->format) : std::nullopt;
-}
-
-std::filesystem::path before_extension(const std::filesystem::path& path)
-{
-    std::string name = path.string();
-    name.resize(name.size() - path.extension().string().size());
-    if (is_gzip_name(path))
-        name.resize(name.size() - path.stem().extension().string().size());
-    return name;
-}
-
-std::string extension_of(FileFormat format)
-{
-    return std::string(find_format(&Format::format, format)->extension);
-}
-
-std::string extensions_of(FormatGroup group)
-{
-    std::vector<std::string_view> extensions;
-    for (const Format& format : all_formats)
-        if (group == FormatGroup::All || (group == FormatGroup::Polygons && format.holds_polygons) ||
-            (group == FormatGroup::Text && format.last_encoding == Encoding::Ascii))
-            extensions.push_back(format.extension);
-    return choice_of(extensions);
-}
-
 MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop)
 {
     return read(path, loop, nullptr);
@@ -335,21 +243,11 @@ MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, c
     return read(path, loop, &faults);
 }
 
-FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source)
-{
-    if (is_standard_stream(path))
-        return source;
-    const Format& format = require_format<OptionError>(path);
-    if (format.format == source.format)
-        return source;
-    return {format.format, std::min(Encoding::BinaryLittleEndian, format.last_encoding)};
-}
-
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
                                     const Loop& loop)
 {
-    const Format& format = format_of(kind);
-    require_encoding(format, kind.encoding);
+    const Format& format = functions_of(kind.format);
+    require_encoding(kind);
     require_readable(path, mesh, loop);
     std::vector<std::string> remarks;
     if (format.require_fits != nullptr)
@@ -365,7 +263,7 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
 {
     require_readable(path, mesh, loop);
     source.require_same_faces(path, mesh, loop);
-    const Format& format = format_of(source.kind());
+    const Format& format = functions_of(source.kind().format);
     const InputFile input = source.read_again(loop);
     OutputFile file(path);
     auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {loop});
@@ -375,7 +273,7 @@ std::vector<std::string> write_mesh_like(const MeshSource& source, const std::fi
 
 std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop)
 {
-    const Format& format = format_of(source.kind());
+    const Format& format = functions_of(source.kind().format);
     const InputFile input = source.read_again(loop);
     return format.extras(source.path(), input.content(), {loop});
 }

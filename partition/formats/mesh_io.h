@@ -7,60 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "partition/formats/mesh_file.h"
 #include "partition/formats/palette.h"
 #include "partition/io/fault_log.h"
 #include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
-
-/// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
-enum class FileFormat { Obj, Off, Ply, Stl };
-
-/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, of whose binary files only write_mesh_like
-/// makes others; STL is Ascii or BinaryLittleEndian.
-enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
-
-/// Format and encoding of one file.
-struct FileKind {
-    FileFormat format = FileFormat::Obj;
-    Encoding encoding = Encoding::Ascii;
-
-    friend bool operator==(const FileKind&, const FileKind&) = default;
-};
-
-/// Some of the formats, to be named in a message.
-enum class FormatGroup {
-    All,
-    /// Those whose faces may have any number of sides.
-    Polygons,
-    /// Those that are always written as text.
-    Text,
-};
-
-/// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
-std::string extensions_of(FormatGroup group = FormatGroup::All);
-
-/// The format that the extension of a path names, in upper or lower case and perhaps with `.gz` behind it; nothing if
-/// it names none.
-std::optional<FileFormat> format_of(const std::filesystem::path& path);
-
-/// ".obj" and so on.
-std::string extension_of(FileFormat format);
-
-/// A path without the extension of its format, and without `.gz` behind that.
-std::filesystem::path before_extension(const std::filesystem::path& path);
-
-/// A mesh file that has been read, as the form for others; see write_mesh_like.
-class MeshSource;
-
-/// A mesh together with the file it came from.
-struct MeshFile {
-    PolygonMesh mesh;
-    FileKind kind;
-    /// The file, which stays open, but not in memory, as long as this or a copy of it lives.
-    std::shared_ptr<const MeshSource> source = {};
-};
 
 /// Reads OBJ, OFF, PLY or STL; the format follows from the extension (upper or lower case), the encoding from the file
 /// itself. Coordinates are read in double precision, correctly rounded. Corners of STL facets with equal coordinates
@@ -84,11 +37,6 @@ MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_ser
 /// such faces and numbers stay.
 /// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
 MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
-
-/// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
-/// same format, else binary little-endian where the format has it. For `-`, standard output, the kind of the source.
-/// @throws OptionError for an extension that names no format.
-FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source);
 
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
 /// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
@@ -128,14 +76,6 @@ std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop = 
 /// @throws OutputError naming the file.
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
                         const Loop& loop = run_serially);
-
-/// A number for each vertex of a mesh, with a name.
-struct VertexValues {
-    /// Letters, digits and underscores.
-    std::string name;
-    /// #V.
-    std::vector<double> values;
-};
 
 /// As write_mesh, with one colour and any numbers per vertex, for looking at what was measured there. Each vertex gets
 /// the properties red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "partition/formats/mesh_io.h"
+#include "partition/formats/mesh_file.h"
+#include "partition/formats/palette.h"
+#include "partition/formats/ply_header.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"
 #include "partition/io/slices.h"
@@ -21,6 +24,12 @@ namespace seamflow {
 /// @throws InputError naming the line, or the element and its byte; also for a surface made of triangle strips.
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing,
                   FaultLog* faults = nullptr);
+
+/// Reads the elements of a binary file, which may be of another format that is laid out like one.
+/// @param begin of the first element in the file. @param header with vertices whose coordinates are single numbers.
+/// @throws InputError naming the element and its byte.
+PolygonMesh read_ply_elements(const std::filesystem::path& path, std::string_view file, std::size_t begin,
+                              const PlyHeader& header, const Slicing& slicing, FaultLog* faults = nullptr);
 
 /// What a PLY file can hold beside the mesh; empty: nothing.
 struct PlyExtras {
@@ -46,9 +55,5 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
 /// @throws OutputError
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
                                      const PolygonMesh& mesh, const Slicing& slicing);
-
-/// What such a file holds besides a surface, in a few words each; comments do not count.
-/// @param path for messages only.
-std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace seamflow

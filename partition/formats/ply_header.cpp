@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "partition/formats/ply.h"
 
 namespace seamflow {
 

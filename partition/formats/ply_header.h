@@ -3,12 +3,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "partition/formats/mesh_io.h"
+#include "partition/formats/mesh_file.h"
 #include "partition/io/text_scanner.h"
 
 namespace seamflow {
@@ -94,5 +95,9 @@ struct PlyHeader {
 /// Reads the header of a PLY file, up to and including the line end_header; what follows is scanner.rest().
 /// @throws InputError naming the line; also for counts that the rest of the file is too short for.
 PlyHeader read_ply_header(TextScanner& scanner);
+
+/// What such a file holds besides a surface, in a few words each; comments do not count.
+/// @param path for messages only.
+std::vector<std::string> extras_of_ply(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace seamflow

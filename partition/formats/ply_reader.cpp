@@ -93,13 +93,13 @@ std::optional<PolygonMesh> read_across_lines(TextScanner after_header, const Ply
 }
 
 /// @throws InputError if there is any fault, not necessarily naming it.
-PolygonMesh read_binary_slices(const TextScanner& after_header, const std::filesystem::path& path,
-                               std::string_view file, const PlyHeader& header, const Slicing& slicing)
+PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_view file, std::size_t data,
+                               const PlyHeader& header, const Slicing& slicing)
 {
     if (header.element("vertex")->count > std::numeric_limits<Index>::max())
         throw InputError("too many vertices");
     const auto n_vertices = static_cast<Index>(header.element("vertex")->count);
-    const std::vector<PlySlice> slices = slice_ply(file, after_header, header.encoding, header.elements, slicing);
+    const std::vector<PlySlice> slices = slice_elements(file, data, header.encoding, header.elements, slicing);
     const auto source_of = [&](std::string_view bytes) {
         return PlyBinarySource(path, file, static_cast<std::size_t>(bytes.data() - file.data()), header.encoding);
     };
@@ -146,27 +146,34 @@ void require_surface(const TextScanner& scanner, const PlyHeader& header)
         require_corners(scanner, *strips);
 }
 
+PolygonMesh read_ply_elements(const std::filesystem::path& path, std::string_view file, std::size_t begin,
+                              const PlyHeader& header, const Slicing& slicing, FaultLog* faults)
+{
+    const auto in_one_go = [&] {
+        return read_elements(PlyBinarySource(path, file, begin, header.encoding), header, faults);
+    };
+    if (file.size() - begin <= slicing.bytes)
+        return in_one_go();
+    return read_in_slices_if_faultless([&] { return read_binary_slices(path, file, begin, header, slicing); },
+                                       in_one_go);
+}
+
 MeshFile read_ply(const std::filesystem::path& path, std::string_view file, const Slicing& slicing, FaultLog* faults)
 {
     TextScanner scanner(path, file, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     require_surface(scanner, header);
+    const FileKind kind{FileFormat::Ply, header.encoding};
+    if (header.encoding != Encoding::Ascii)
+        return {read_ply_elements(path, file, file.size() - scanner.rest().size(), header, slicing, faults), kind};
     const auto in_one_go = [&] {
-        if (header.encoding != Encoding::Ascii)
-            return read_elements(PlyBinarySource(path, file, file.size() - scanner.rest().size(), header.encoding),
-                                 header, faults);
         if (std::optional<PolygonMesh> mesh = read_across_lines(scanner, header, faults))
             return *std::move(mesh);
         return read_elements(PlyTextSource(scanner), header, faults);
     };
-    const FileKind kind{FileFormat::Ply, header.encoding};
     if (scanner.rest().size() <= slicing.bytes)
         return {in_one_go(), kind};
-    const auto in_slices = [&] {
-        return header.encoding == Encoding::Ascii ? read_text_slices(path, file, slicing)
-                                                  : read_binary_slices(scanner, path, file, header, slicing);
-    };
-    return {read_in_slices_if_faultless(in_slices, in_one_go), kind};
+    return {read_in_slices_if_faultless([&] { return read_text_slices(path, file, slicing); }, in_one_go), kind};
 }
 
 }  // namespace seamflow

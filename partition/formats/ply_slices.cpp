@@ -154,15 +154,32 @@ std::size_t pass_over_elements(std::string_view file, std::size_t offset, std::e
     return slicer.offset();
 }
 
+bool are_all_elements(std::string_view file, std::size_t begin, const PlyHeader& header)
+{
+    try {
+        for (const PlyElement& element : header.elements)
+            begin = pass_over_elements(file, begin, order_of(header.encoding), element, element.count);
+    } catch (const InputError&) {
+        return false;
+    }
+    return file.find_first_not_of(padding, begin) == std::string_view::npos;
+}
+
+std::vector<PlySlice> slice_elements(std::string_view file, std::size_t begin, Encoding encoding,
+                                     std::span<const PlyElement> elements, const Slicing& slicing)
+{
+    BinarySlicer slicer(file, begin, order_of(encoding));
+    for (const PlyElement& element : elements)
+        slicer.add(element, slicing);
+    return slicer.take();
+}
+
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
                                 std::span<const PlyElement> elements, const Slicing& slicing)
 {
     if (encoding == Encoding::Ascii)
         return slice_text(after_header, slicing);
-    BinarySlicer slicer(file, file.size() - after_header.rest().size(), order_of(encoding));
-    for (const PlyElement& element : elements)
-        slicer.add(element, slicing);
-    return slicer.take();
+    return slice_elements(file, file.size() - after_header.rest().size(), encoding, elements, slicing);
 }
 
 }  // namespace seamflow

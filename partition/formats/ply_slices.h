@@ -28,6 +28,15 @@ struct PlySlice {
 std::vector<PlySlice> slice_ply(std::string_view file, const TextScanner& after_header, Encoding encoding,
                                 std::span<const PlyElement> elements, const Slicing& slicing);
 
+/// Cuts the elements of a binary file into slices.
+/// @param begin the byte at which the first of them begins. @param elements see slice_ply.
+/// @throws InputError if they are not all there.
+std::vector<PlySlice> slice_elements(std::string_view file, std::size_t begin, Encoding encoding,
+                                     std::span<const PlyElement> elements, const Slicing& slicing);
+
+/// Whether a binary file has all elements from `begin` on, and nothing but padding behind them.
+bool are_all_elements(std::string_view file, std::size_t begin, const PlyHeader& header);
+
 /// Goes past n elements of one kind in a binary file.
 /// @param offset the byte at which the first of them begins.
 /// @returns where the last one ends.

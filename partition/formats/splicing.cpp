@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "partition/formats/mesh_io.h"
+#include "partition/formats/mesh_file.h"
 
 namespace seamflow {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "partition/formats/mesh_io.h"
+#include "partition/formats/mesh_file.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/output_file.h"

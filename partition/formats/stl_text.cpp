@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/formats/mesh_file.h"
 #include "partition/formats/stl.h"
 #include "partition/formats/stl_facets.h"
 #include "partition/io/mesh_builder.h"

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
+#include "partition/formats/mesh_file.h"
 #include "partition/formats/stl.h"
 
 namespace seamflow {

@@ -24,7 +24,7 @@ void ByteScanner::require_end()
 {
     element_ = {};
     last_ = next_;
-    const auto left = file_.find_first_not_of(std::string_view("\0 \t\r\n", 5), next_);
+    const auto left = file_.find_first_not_of(padding, next_);
     if (left == std::string_view::npos)
         return;
     last_ = left;

@@ -12,6 +12,9 @@
 
 namespace seamflow {
 
+/// What may stand behind the last element of a binary file.
+inline constexpr std::string_view padding("\0 \t\r\n", 5);
+
 /// Walks through binary data in memory number by number.
 class ByteScanner final : public InputPosition {
   public:

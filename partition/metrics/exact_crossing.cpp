@@ -15,35 +15,35 @@ Kernel::Point_3 at(const Point& p)
     return {p[0], p[1], p[2]};
 }
 
-Kernel::Triangle_3 triangle(const Corners& t)
+Kernel::Triangle_3 triangle(const TriangleCorners& t)
 {
     return {at(t[0]), at(t[1]), at(t[2])};
 }
 
 /// The edge opposite to the first corner.
-Kernel::Segment_3 opposite_edge(const Corners& t)
+Kernel::Segment_3 opposite_edge(const TriangleCorners& t)
 {
     return {at(t[1]), at(t[2])};
 }
 
 }  // namespace
 
-bool is_flat(const Corners& t)
+bool is_flat(const TriangleCorners& t)
 {
     return CGAL::collinear(at(t[0]), at(t[1]), at(t[2]));
 }
 
-bool meet(const Corners& a, const Corners& b)
+bool meet(const TriangleCorners& a, const TriangleCorners& b)
 {
     return CGAL::do_intersect(triangle(a), triangle(b));
 }
 
-bool meet_beyond_corner(const Corners& a, const Corners& b)
+bool meet_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
 {
     return CGAL::do_intersect(triangle(a), opposite_edge(b)) || CGAL::do_intersect(triangle(b), opposite_edge(a));
 }
 
-bool meet_beyond_edge(const Corners& a, const Corners& b)
+bool meet_beyond_edge(const TriangleCorners& a, const TriangleCorners& b)
 {
     return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
            CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;

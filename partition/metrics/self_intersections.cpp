@@ -79,7 +79,7 @@ class CrossingSearch {
     }
 
   private:
-    [[nodiscard]] Corners corners(const Piece& piece) const
+    [[nodiscard]] TriangleCorners corners(const Piece& piece) const
     {
         const auto& [a, b, c] = piece.vertices;
         return {positions_.row(a), positions_.row(b), positions_.row(c)};

@@ -53,7 +53,7 @@ struct Span {
     double low;
     double high;
 
-    Span(const Point& axis, const Corners& t)
+    Span(const Point& axis, const TriangleCorners& t)
     {
         const Estimate e[3] = {dot(axis, t[0]), dot(axis, t[1]), dot(axis, t[2])};
         low = std::min({e[0].value - e[0].error, e[1].value - e[1].error, e[2].value - e[2].error});
@@ -61,14 +61,14 @@ struct Span {
     }
 };
 
-bool separates(const Point& axis, const Corners& a, const Corners& b)
+bool separates(const Point& axis, const TriangleCorners& a, const TriangleCorners& b)
 {
     const Span of_a(axis, a);
     const Span of_b(axis, b);
     return of_a.high < of_b.low || of_b.high < of_a.low;
 }
 
-Corners edges_of(const Corners& t)
+TriangleCorners edges_of(const TriangleCorners& t)
 {
     return {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
 }
@@ -76,10 +76,10 @@ Corners edges_of(const Corners& t)
 /// Whether a plane lies between the triangles: along one of their edges and normal to the triangle, as where both are
 /// of one smooth surface, parallel to one of them, or parallel to an edge of each. Exact numbers would leave none out;
 /// rounding leaves out triangles that nearly touch.
-bool are_apart(const Corners& a, const Corners& b)
+bool are_apart(const TriangleCorners& a, const TriangleCorners& b)
 {
-    const Corners edges_a = edges_of(a);
-    const Corners edges_b = edges_of(b);
+    const TriangleCorners edges_a = edges_of(a);
+    const TriangleCorners edges_b = edges_of(b);
     const Point normal_a = edges_a[0].cross(edges_a[1]);
     const Point normal_b = edges_b[0].cross(edges_b[1]);
     const auto is_between = [&](const Point& axis) { return separates(axis, a, b); };
@@ -100,9 +100,9 @@ bool are_on_one_side(const Point& a, const Point& b, const Point& p, const Point
 
 /// Of triangles whose first corner is the origin: whether a plane through it has them on different sides, or one of
 /// them and the other on one side.
-bool are_apart_beyond_corner(const Corners& a, const Corners& b)
+bool are_apart_beyond_corner(const TriangleCorners& a, const TriangleCorners& b)
 {
-    const auto middle = [](const Corners& t) -> Point { return t[1].normalized() + t[2].normalized(); };
+    const auto middle = [](const TriangleCorners& t) -> Point { return t[1].normalized() + t[2].normalized(); };
     const Point axis = middle(a) - middle(b);
     return (dot(axis, a[1]).is_positive() && dot(axis, a[2]).is_positive() && dot(axis, b[1]).is_negative() &&
             dot(axis, b[2]).is_negative()) ||
@@ -111,7 +111,7 @@ bool are_apart_beyond_corner(const Corners& a, const Corners& b)
 
 /// Of triangles with their first corner at the origin and the second one in common: whether they span a volume, or lie
 /// on different sides of their edge.
-bool are_apart_beyond_edge(const Corners& a, const Corners& b)
+bool are_apart_beyond_edge(const TriangleCorners& a, const TriangleCorners& b)
 {
     const Estimate same_side{a[1].cross(a[2]).dot(a[1].cross(b[2])),
                              rounding * size_of_cross(a[1], a[2]).dot(size_of_cross(a[1], b[2])) + underflow};
@@ -120,7 +120,7 @@ bool are_apart_beyond_edge(const Corners& a, const Corners& b)
 
 /// Moves corners of the same position to the front, in the same order.
 /// @returns how many there are.
-std::size_t bring_shared_to_front(Corners& a, Corners& b)
+std::size_t bring_shared_to_front(TriangleCorners& a, TriangleCorners& b)
 {
     std::size_t n = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -135,25 +135,25 @@ std::size_t bring_shared_to_front(Corners& a, Corners& b)
 }
 
 /// Relative to a place near both.
-Corners seen_from(const Point& origin, const Corners& t)
+TriangleCorners seen_from(const Point& origin, const TriangleCorners& t)
 {
     return {t[0] - origin, t[1] - origin, t[2] - origin};
 }
 
-bool have_area(const Corners& a, const Corners& b)
+bool have_area(const TriangleCorners& a, const TriangleCorners& b)
 {
     return !exact::is_flat(a) && !exact::is_flat(b);
 }
 
 }  // namespace
 
-bool cross(const Corners& first, const Corners& second)
+bool cross(const TriangleCorners& first, const TriangleCorners& second)
 {
-    Corners a = first;
-    Corners b = second;
+    TriangleCorners a = first;
+    TriangleCorners b = second;
     const std::size_t n_shared = bring_shared_to_front(a, b);
-    const Corners near_a = seen_from(a[0], a);
-    const Corners near_b = seen_from(a[0], b);
+    const TriangleCorners near_a = seen_from(a[0], a);
+    const TriangleCorners near_b = seen_from(a[0], b);
     switch (n_shared) {
     case 0:
         return !are_apart(near_a, near_b) && have_area(a, b) && exact::meet(a, b);

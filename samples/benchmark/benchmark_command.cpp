@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/valid_options.h"
 #include "partition/errors.h"
 #include "samples/common/command_line.h"
 #include "samples/common/flow_choices.h"

@@ -96,6 +96,19 @@ std::size_t parse_bytes(std::string_view text)
     return static_cast<std::size_t>(bytes);
 }
 
+LengthOnMesh parse_length(std::string_view text)
+{
+    const bool of_diagonal = text.ends_with('%');
+    try {
+        if (!of_diagonal)
+            return {parse_real(text, positive()), false};
+        return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
+    } catch (const OptionError&) {
+        throw OptionError("\"" + std::string(text) +
+                          "\" is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
+    }
+}
+
 CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
                       const std::string& description)
 {

@@ -11,10 +11,10 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "engine/options/flow_options.h"
 #include "engine/options/option_names.h"
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
-#include "samples/common/smoothing_request.h"
 
 namespace seamflow {
 
@@ -40,6 +40,10 @@ long long parse_integer(std::string_view text, long long least, long long most);
 /// same) or KiB, MiB, GiB or TiB (powers of 1024): "500000000", "500M", "1.5GiB". Fractions of a byte are cut off.
 /// @throws OptionError saying what was expected.
 std::size_t parse_bytes(std::string_view text);
+
+/// Reads a positive length: "0.5" in units of length, "2%" of the diagonal.
+/// @throws OptionError saying what was expected.
+LengthOnMesh parse_length(std::string_view text);
 
 /// Adds an option whose text `parse` turns into the target's value; an OptionError that it throws gets the name of the
 /// option.

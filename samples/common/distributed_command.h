@@ -5,6 +5,7 @@
 
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "samples/common/exit_status.h"
+#include "samples/common/parse_smooth_command.h"
 #include "samples/common/smooth_command.h"
 
 namespace seamflow {

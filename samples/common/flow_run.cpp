@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/setup/presets.h"
+#include "samples/common/parse_smooth_command.h"
 #include "samples/common/presets.h"
 
 namespace seamflow {

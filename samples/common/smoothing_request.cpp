@@ -6,7 +6,6 @@
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/command_line.h"
 
 namespace seamflow {
 
@@ -20,19 +19,6 @@ double require_step(double time_step, const char* option)
 }
 
 }  // namespace
-
-LengthOnMesh parse_length(std::string_view text)
-{
-    const bool of_diagonal = text.ends_with('%');
-    try {
-        if (!of_diagonal)
-            return {parse_real(text, positive()), false};
-        return {parse_real(text.substr(0, text.size() - 1), positive()) / 100.0, true};
-    } catch (const OptionError&) {
-        throw OptionError("\"" + std::string(text) +
-                          "\" is neither a positive length (0.5) nor a part of the bounding box's diagonal (2%)");
-    }
-}
 
 MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
 {

@@ -1,16 +1,11 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 
 #include "engine/setup/smoothed_radius.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
-
-/// Reads a positive length: "0.5" in units of length, "2%" of the diagonal.
-/// @throws OptionError saying what was expected.
-LengthOnMesh parse_length(std::string_view text);
 
 /// The sizes of a mesh that amounts of smoothing are measured by, in units of length.
 struct MeshScale {

@@ -7,6 +7,7 @@
 
 #include "samples/common/output_files.h"
 #include "samples/figures/experiment.h"
+#include "samples/figures/experiments.h"
 #include "samples/figures/measured.h"
 
 namespace seamflow {

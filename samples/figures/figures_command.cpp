@@ -9,6 +9,7 @@
 #include "samples/common/command_line.h"
 #include "samples/common/output_files.h"
 #include "samples/figures/experiment.h"
+#include "samples/figures/experiments.h"
 #include "samples/page/page_html.h"
 
 namespace seamflow {

@@ -14,6 +14,7 @@
 #include "partition/metrics/roughness.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
+#include "samples/figures/experiments.h"
 #include "samples/figures/figure_page.h"
 #include "samples/figures/pictures.h"
 

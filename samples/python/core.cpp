@@ -23,6 +23,7 @@
 #include "partition/errors.h"
 #include "partition/version.h"
 #include "samples/common/option_words.h"
+#include "samples/common/parse_smooth_command.h"
 #include "samples/common/smooth_command.h"
 #include "samples/python/flow_call.h"
 

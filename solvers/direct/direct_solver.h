@@ -69,17 +69,10 @@ class DirectSolver::Factor {
     std::unique_ptr<DirectSolver, Free> solver_;
 };
 
-/// For symmetric positive definite matrices, in the order in which the unknowns are.
-/// @param upper the entries on and above the diagonal, the whole diagonal among them.
-/// @param factorisation not Umfpack.
-/// @param tree where it is known already; otherwise empty.
-/// @throws ComputationError if the analysis fails (memory).
-std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
-                                                    SolverWorkspace& workspace, const EliminationTree& tree = {});
-
-/// For any matrices.
-/// @param pattern must outlive the solver.
-/// @throws ComputationError if the analysis fails (memory).
-std::unique_ptr<DirectSolver> make_general_solver(const SparsePattern& pattern, Factorisation factorisation);
+inline std::optional<DirectSolver::Factor> DirectSolver::factorise(std::span<const double> values, FactorMemory& memory,
+                                                                   SolverWorkspace& workspace)
+{
+    return make_factor(values, memory, workspace) ? std::optional(Factor(*this)) : std::nullopt;
+}
 
 }  // namespace seamflow

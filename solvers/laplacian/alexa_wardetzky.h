@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solvers/laplacian/geometry.h"
-#include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/laplacian_kind.h"
 
 namespace seamflow {
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Calls action(h, start, end) for every half-edge h.
 template <class Action>
-void for_each_halfedge(const IndexLists& faces, Action&& action)
+void for_each_halfedge(const IndexListsView& faces, Action&& action)
 {
     for (Index f = 0; f < faces.size(); ++f) {
         const auto corners = faces[f];

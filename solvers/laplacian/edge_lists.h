@@ -1,10 +1,38 @@
 #pragma once
 
+#include <compare>
+#include <span>
 #include <vector>
 
-#include "solvers/laplacian/symmetric_laplacian.h"
+#include "partition/index_lists.h"
 
 namespace seamflow {
+
+/// Two different vertices.
+struct VertexPair {
+    Index first = 0;
+    Index second = 0;
+    friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
+};
+
+/// Whose contributions a SymmetricLaplacian adds up.
+enum class Contributions {
+    /// Those of the faces on both sides of Γ: right at all vertices of the sub-mesh.
+    BothSides,
+    /// Those of the own faces, half of an edge on Γ being either side's: over all sub-meshes they add up to the whole.
+    OwnFaces,
+};
+
+/// Faces of a sub-mesh, and those beyond its Γ.
+struct FacesOnBothSides {
+    IndexListsView own;
+    IndexListsView beyond;
+    /// Of the own faces: see SubMesh::twin.
+    std::span<const Index> twin;
+    /// Of all vertices.
+    Index n_vertices;
+    Contributions contributions = Contributions::BothSides;
+};
 
 /// Edges by the number of faces that they have here.
 struct OuterEdges {

@@ -51,22 +51,15 @@ class LaplacianAssembler {
     virtual void add(const Points& positions, double factor, std::span<const Index> slots,
                      std::span<double> values) = 0;
 
-    /// Measures M alone, for `mass`.
-    virtual void measure_mass(const Points& positions) = 0;
-
-    /// M_v of the positions last added or measured: row v times this is the sum of what edges or faces contribute.
+    /// M_v of the positions last added: row v times this is the sum of what edges or faces contribute.
     [[nodiscard]] virtual double mass(Index v) const = 0;
 };
 
-/// The assembler of one Laplacian on the given faces, which must outlive it.
-std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FaceView& faces);
-
-/// An assembler of M⁻¹ K with the K of certain positions whatever the mesh does, which is assembled once; M follows the
-/// mesh.
-/// @param assembler of a symmetric Laplacian.
-/// @param positions at least #V by 3; needed only during the call.
-std::unique_ptr<LaplacianAssembler> keep_stiffness(std::unique_ptr<LaplacianAssembler> assembler,
-                                                   const Points& positions);
+/// The assembler of one Laplacian on the given faces, whose arrays must outlive it.
+/// @param stiffness_at at least #V by 3: the positions whose K the Laplacian, which is symmetric, keeps while M follows
+///        the mesh; needed only during the call. nullptr: K follows the mesh, too.
+std::unique_ptr<LaplacianAssembler> make_assembler(const ScaledLaplacian& laplacian, const FaceView& faces,
+                                                   const Points* stiffness_at = nullptr);
 
 /// The assembler of Δ_P (see PtackovaVelho).
 std::unique_ptr<LaplacianAssembler> make_two_ring_assembler(const FaceView& faces);

@@ -4,7 +4,7 @@
 
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"
-#include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/laplacian_kind.h"
 
 namespace seamflow {
 

@@ -129,10 +129,10 @@ template <FaceKernel Kernel>
 class SymmetricFaces final : public SymmetricLaplacian {
   public:
     explicit SymmetricFaces(const FacesOnBothSides& faces)
-        : lists_{&faces.own}
+        : lists_{faces.own}
     {
         if (faces.contributions == Contributions::BothSides)
-            lists_.push_back(&faces.beyond);
+            lists_.push_back(faces.beyond);
     }
 
     [[nodiscard]] bool uses_faces() const override { return true; }
@@ -140,9 +140,9 @@ class SymmetricFaces final : public SymmetricLaplacian {
     [[nodiscard]] std::vector<VertexPair> pairs() const override
     {
         std::vector<VertexPair> pairs;
-        for (const IndexLists* faces : lists_)
-            for (Index f = 0; f < faces->size(); ++f) {
-                const auto corners = (*faces)[f];
+        for (const IndexListsView& faces : lists_)
+            for (Index f = 0; f < faces.size(); ++f) {
+                const auto corners = faces[f];
                 for (std::size_t i = 0; i < corners.size(); ++i)
                     for (std::size_t k = i + 1; k < corners.size(); ++k)
                         pairs.push_back({corners[i], corners[k]});
@@ -171,18 +171,18 @@ class SymmetricFaces final : public SymmetricLaplacian {
                     }
                 }
             };
-            for (const IndexLists* faces : lists_)
-                for (Index f = 0; f < faces->size(); ++f)
-                    measure_face<Kernel>((*faces)[f], positions, scratch_, add);
+            for (const IndexListsView& faces : lists_)
+                for (Index f = 0; f < faces.size(); ++f)
+                    measure_face<Kernel>(faces[f], positions, scratch_, add);
         });
     }
 
     void measure_mass(const Points& positions, std::span<double> mass) const override
     {
         std::fill(mass.begin(), mass.end(), 0.0);
-        for (const IndexLists* faces : lists_)
-            for (Index f = 0; f < faces->size(); ++f) {
-                const auto corners = (*faces)[f];
+        for (const IndexListsView& faces : lists_)
+            for (Index f = 0; f < faces.size(); ++f) {
+                const auto corners = faces[f];
                 const double share = Kernel::corner_mass(Kernel::size(corners, positions), corners.size());
                 for (const Index v : corners)
                     mass[v] += share;
@@ -190,7 +190,7 @@ class SymmetricFaces final : public SymmetricLaplacian {
     }
 
   private:
-    std::vector<const IndexLists*> lists_;
+    std::vector<IndexListsView> lists_;
     typename Kernel::Scratch scratch_;
 };
 

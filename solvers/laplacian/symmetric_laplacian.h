@@ -1,22 +1,15 @@
 #pragma once
 
-#include <compare>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "partition/index_lists.h"
+#include "solvers/laplacian/edge_lists.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
-
-/// Two different vertices.
-struct VertexPair {
-    Index first = 0;
-    Index second = 0;
-    friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
-};
 
 /// A product with factor · K at positions V.
 struct StiffnessProduct {
@@ -55,27 +48,8 @@ class SymmetricLaplacian {
     virtual void measure_mass(const Points& positions, std::span<double> mass) const = 0;
 };
 
-/// Whose contributions a SymmetricLaplacian adds up.
-enum class Contributions {
-    /// Those of the faces on both sides of Γ: right at all vertices of the sub-mesh.
-    BothSides,
-    /// Those of the own faces, half of an edge on Γ being either side's: over all sub-meshes they add up to the whole.
-    OwnFaces,
-};
-
-/// Faces of a sub-mesh, and those beyond its Γ.
-struct FacesOnBothSides {
-    const IndexLists& own;
-    const IndexLists& beyond;
-    /// Of the own faces: see SubMesh::twin.
-    std::span<const Index> twin;
-    /// Of all vertices.
-    Index n_vertices;
-    Contributions contributions = Contributions::BothSides;
-};
-
 /// @param laplacian one that is symmetric.
-/// @param faces their lists must outlive the result if it uses them, the twins need not.
+/// @param faces the arrays of their lists must outlive the result if it uses them, the twins need not.
 std::unique_ptr<SymmetricLaplacian> make_symmetric_laplacian(const ScaledLaplacian& laplacian,
                                                              const FacesOnBothSides& faces);
 

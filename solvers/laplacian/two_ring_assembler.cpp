@@ -48,8 +48,6 @@ class TwoRingAssembler final : public LaplacianAssembler {
         }
     }
 
-    void measure_mass(const Points& positions) override { measure_areas(positions); }
-
     [[nodiscard]] double mass(Index v) const override { return vertex_areas_[v]; }
 
   private:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solvers/laplacian/geometry.h"
-#include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/laplacian_kind.h"
 
 namespace seamflow {
 

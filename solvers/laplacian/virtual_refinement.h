@@ -13,7 +13,7 @@
 
 #include "solvers/laplacian/alexa_wardetzky.h"
 #include "solvers/laplacian/geometry.h"
-#include "solvers/laplacian/laplacian.h"
+#include "solvers/laplacian/laplacian_kind.h"
 
 namespace seamflow {
 

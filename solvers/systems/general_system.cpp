@@ -19,10 +19,11 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
     make_rows();
     attachment_ = make_attachment(parts.terms, std::span(sub_mesh.local_to_global).first(at(sub_mesh.n_vertices)));
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
+    const Points first =
+        parts.terms.keeps_stiffness ? rows_of(*parts.terms.first, sub_mesh.local_to_global) : Points(0, 3);
     auto assembler = make_assembler(
-        parts.laplacian, {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, twin_, sub_mesh.n_vertices});
-    if (parts.terms.keeps_stiffness)
-        assembler = keep_stiffness(std::move(assembler), rows_of(*parts.terms.first, sub_mesh.local_to_global));
+        parts.laplacian, {sub_mesh.face_vertices.offsets, sub_mesh.face_vertices.values, twin_, sub_mesh.n_vertices},
+        parts.terms.keeps_stiffness ? &first : nullptr);
     const std::vector<MatrixEntry> laplacian_entries = assembler->entries();
 
     std::vector<MatrixEntry> entries;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/direct/make_solver.h"
 #include "solvers/systems/checks.h"
 
 namespace seamflow {

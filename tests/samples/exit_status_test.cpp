@@ -6,6 +6,7 @@
 
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
+#include "samples/common/parse_smooth_command.h"
 #include "samples/common/smooth_command.h"
 
 using namespace seamflow;

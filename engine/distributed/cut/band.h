@@ -9,6 +9,15 @@
 
 namespace seamflow {
 
+/// A cut of a mesh that no rank has as a whole.
+struct SlicedCut {
+    /// Labelled with the parts.
+    RankSlice& slice;
+    const SliceBounds& bounds;
+    /// One entry per corner of the stretch: whether its half-edge has one of another face beside it (see Topology).
+    const std::vector<std::uint8_t>& has_twin;
+};
+
 /// The faces around some vertices, as rank 0 gets them from all ranks.
 struct Band {
     MeshPart part;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/distributed/cut/band.h"
-#include "engine/distributed/cut/mending.h"
 #include "engine/distributed/ranks/conversation.h"
 #include "partition/index_lists.h"
 

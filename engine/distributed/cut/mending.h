@@ -3,19 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/distributed/cut/band.h"
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/ranks/conversation.h"
 
 namespace seamflow {
-
-/// A cut of a mesh that no rank has as a whole.
-struct SlicedCut {
-    /// Labelled with the parts.
-    RankSlice& slice;
-    const SliceBounds& bounds;
-    /// One entry per corner of the stretch: whether its half-edge has one of another face beside it (see Topology).
-    const std::vector<std::uint8_t>& has_twin;
-};
 
 /// Where a cut may have defects (see repair); elsewhere it is known to have none.
 struct SlicedDefects {

@@ -114,7 +114,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         talk.look_together([&] {
             if (ply.n_vertices() == 0)
                 throw InputError(fmt::format("{}: byte {}: the file has no vertices; export the mesh again",
-                                             file_.path().string(), ply.header_bytes().size() - 4));
+                                             file_.path().string(), ply.header_bytes().size()));
             if (talk.rank() == talk.size() - 1)
                 ply.require_end(others_.end);
         });

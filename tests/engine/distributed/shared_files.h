@@ -12,6 +12,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/distributed/files/open_together.h"
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/ranks/thread_communicator.h"

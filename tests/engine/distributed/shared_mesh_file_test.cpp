@@ -13,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/distributed/files/open_together.h"
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/slice_measures.h"
 #include "engine/distributed/parts/whole_mesh.h"

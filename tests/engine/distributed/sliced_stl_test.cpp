@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/distributed/files/open_together.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/io/slices.h"

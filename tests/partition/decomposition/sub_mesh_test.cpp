@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "partition/decomposition/make_sub_mesh.h"
 #include "partition/decomposition/sub_mesh.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"

@@ -24,7 +24,7 @@ using Pairs = std::vector<FacePair>;
 /// All pairs of faces, one after the other. How two triangles cross is for other tests.
 Pairs brute_force(const PolygonMesh& mesh)
 {
-    std::vector<std::vector<Corners>> pieces(at(mesh.n_faces()));
+    std::vector<std::vector<TriangleCorners>> pieces(at(mesh.n_faces()));
     for (Index f = 0; f < mesh.n_faces(); ++f) {
         std::vector<Triangle> triangles;
         triangulate(mesh.face(f), mesh.vertices, triangles);
@@ -34,8 +34,8 @@ Pairs brute_force(const PolygonMesh& mesh)
     Pairs pairs;
     for (Index f = 0; f < mesh.n_faces(); ++f)
         for (Index g = f + 1; g < mesh.n_faces(); ++g)
-            if (std::ranges::any_of(pieces[f], [&](const Corners& a) {
-                    return std::ranges::any_of(pieces[g], [&](const Corners& b) { return cross(a, b); });
+            if (std::ranges::any_of(pieces[f], [&](const TriangleCorners& a) {
+                    return std::ranges::any_of(pieces[g], [&](const TriangleCorners& b) { return cross(a, b); });
                 }))
                 pairs.push_back({f, g});
     return pairs;

@@ -12,13 +12,13 @@ using namespace seamflow;
 
 namespace {
 
-const Corners flat{Point(0, 0, 0), Point(4, 0, 0), Point(0, 4, 0)};
+const TriangleCorners flat{Point(0, 0, 0), Point(4, 0, 0), Point(0, 4, 0)};
 
 /// Whatever the order of triangles and corners, and however large and where they are.
-bool cross_somehow(const Corners& a, const Corners& b)
+bool cross_somehow(const TriangleCorners& a, const TriangleCorners& b)
 {
     const bool result = cross(a, b);
-    Corners turned = b;
+    TriangleCorners turned = b;
     do {
         CHECK(cross(a, turned) == result);
         CHECK(cross(turned, a) == result);
@@ -26,18 +26,20 @@ bool cross_somehow(const Corners& a, const Corners& b)
                  return std::ranges::lexicographical_compare(p, q);
              }).found);
     for (const double scale : {0x1p-100, 0x1p-40, 0x1p90}) {
-        const auto scaled = [&](const Corners& t) { return Corners{t[0] * scale, t[1] * scale, t[2] * scale}; };
+        const auto scaled = [&](const TriangleCorners& t) {
+            return TriangleCorners{t[0] * scale, t[1] * scale, t[2] * scale};
+        };
         CHECK(cross(scaled(a), scaled(b)) == result);
     }
     for (const Point& by : {Point(1024, -512, 64), Point(-0x1p30, 0x1p20, 3)}) {
-        const auto moved = [&](const Corners& t) { return Corners{t[0] + by, t[1] + by, t[2] + by}; };
+        const auto moved = [&](const TriangleCorners& t) { return TriangleCorners{t[0] + by, t[1] + by, t[2] + by}; };
         CHECK(cross(moved(a), moved(b)) == result);
     }
     return result;
 }
 
 /// By exact predicates alone.
-bool cross_exactly(Corners a, Corners b)
+bool cross_exactly(TriangleCorners a, TriangleCorners b)
 {
     std::size_t shared = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -121,8 +123,8 @@ TEST_CASE("numbers of any size decide as exact ones do")
         RandomNumbers random(7);
         int n_crossing = 0;
         for (int i = 0; i < 3000; ++i) {
-            std::array<Corners, 2> t;
-            for (Corners& corners : t)
+            std::array<TriangleCorners, 2> t;
+            for (TriangleCorners& corners : t)
                 for (Point& p : corners)
                     p = scale * Point(random.below(4) - 1.5, random.below(4) - 1.5, random.below(3) - 1);
             CHECK(cross(t[0], t[1]) == cross_exactly(t[0], t[1]));
@@ -137,13 +139,13 @@ TEST_CASE("triangles that nearly touch decide as exact numbers do")
     RandomNumbers random(11);
     const auto point = [&] { return Point(random.symmetric(), random.symmetric(), random.symmetric()); };
     for (int i = 0; i < 20000; ++i) {
-        const Corners a{point(), point(), point()};
+        const TriangleCorners a{point(), point(), point()};
         const double s = random.unit();
         const double t = random.unit() * (1.0 - s);
         // Some corners are those of the first triangle, or rounded from places on it.
         const auto near = [&]() -> Point { return a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0]); };
         const Point other = random.below(2) == 0 ? near() : point();
-        const Corners b{random.below(2) == 0 ? a[2] : near(), random.below(3) == 0 ? a[0] : other, point()};
+        const TriangleCorners b{random.below(2) == 0 ? a[2] : near(), random.below(3) == 0 ? a[0] : other, point()};
         CHECK(cross(a, b) == cross_exactly(a, b));
     }
 }

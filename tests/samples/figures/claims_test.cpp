@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "samples/figures/claims.h"
+#include "samples/figures/experiments.h"
 #include "tests/samples/figures/made_up.h"
 #include "tests/support/temporary_directory.h"
 

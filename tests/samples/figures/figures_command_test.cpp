@@ -7,6 +7,7 @@
 
 #include "partition/errors.h"
 #include "samples/figures/experiment.h"
+#include "samples/figures/experiments.h"
 #include "samples/figures/figures_command.h"
 #include "tests/support/temporary_directory.h"
 

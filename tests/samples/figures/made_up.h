@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "samples/figures/experiments.h"
 #include "samples/figures/runner.h"
 
 /// Experiments and tables of the tests of figures.

@@ -9,6 +9,7 @@
 #include "partition/errors.h"
 #include "samples/figures/curves.h"
 #include "samples/figures/drawing.h"
+#include "samples/figures/experiments.h"
 #include "samples/figures/index_page.h"
 #include "tests/samples/figures/made_up.h"
 #include "tests/support/relative.h"

@@ -8,6 +8,7 @@
 
 #include "partition/formats/mesh_io.h"
 #include "samples/figures/claims.h"
+#include "samples/figures/experiments.h"
 #include "samples/figures/index_page.h"
 #include "tests/samples/figures/made_up.h"
 #include "tests/support/relative.h"

@@ -4,6 +4,7 @@
 
 #include "partition/formats/mesh_io.h"
 #include "samples/page/file_colours.h"
+#include "samples/page/read_file_colours.h"
 #include "samples/page/texture_images.h"
 #include "tests/support/temporary_directory.h"
 

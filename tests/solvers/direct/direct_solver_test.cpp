@@ -3,6 +3,7 @@
 
 #include "partition/errors.h"
 #include "solvers/direct/direct_solver.h"
+#include "solvers/direct/make_solver.h"
 #include "tests/support/heap.h"
 #include "tests/support/matrices.h"
 #include "tests/support/symmetric_matrices.h"

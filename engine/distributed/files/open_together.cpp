@@ -1,4 +1,4 @@
-#include "engine/distributed/files/shared_mesh_file.h"
+#include "engine/distributed/files/open_together.h"
 
 #include <array>
 #include <fstream>

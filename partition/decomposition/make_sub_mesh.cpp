@@ -1,4 +1,4 @@
-#include "partition/decomposition/sub_mesh.h"
+#include "partition/decomposition/make_sub_mesh.h"
 
 #include <algorithm>
 #include <cassert>
@@ -101,11 +101,6 @@ void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, I
 }
 
 }  // namespace
-
-Index local_index(const SubMesh& sub_mesh, Index global_vertex)
-{
-    return position_in(std::span<const Index>(sub_mesh.local_to_global).first(sub_mesh.n_vertices), global_vertex);
-}
 
 SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
                       std::vector<Index> faces)

@@ -1,4 +1,4 @@
-#include "samples/page/file_colours.h"
+#include "samples/page/read_file_colours.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "samples/common/smooth_command.h"
+#include "samples/common/parse_smooth_command.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "solvers/direct/direct_solver.h"
+#include "solvers/direct/make_solver.h"
 
 #include <cassert>
 #include <optional>
@@ -95,12 +95,6 @@ class OwnLu final : public DirectSolver {
 };
 
 }  // namespace
-
-std::optional<DirectSolver::Factor> DirectSolver::factorise(std::span<const double> values, FactorMemory& memory,
-                                                            SolverWorkspace& workspace)
-{
-    return make_factor(values, memory, workspace) ? std::optional(Factor(*this)) : std::nullopt;
-}
 
 std::unique_ptr<DirectSolver> make_symmetric_solver(SparsePattern upper, Factorisation factorisation,
                                                     SolverWorkspace& workspace, const EliminationTree& tree)

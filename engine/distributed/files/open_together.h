@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "engine/distributed/files/shared_mesh_file.h"
+#include "engine/distributed/ranks/conversation.h"
+#include "partition/loop.h"
+
+namespace seamflow {
+
+/// @param loop runs what is done slice by slice, as long as the file is used.
+/// @throws InputError for a file that cannot be opened, and for one that rank 0 does not read alone and that is packed.
+std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
+                                              const FileSharing& sharing = {}, const Loop& loop = run_serially);
+
+}  // namespace seamflow

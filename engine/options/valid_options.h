@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/options/flow_options.h"
+
+namespace seamflow {
+
+/// @throws OptionError for a number of threads below 0, or above ResourceOptions::most_threads.
+void require_threads(int threads);
+
+/// Checks every field against its limits.
+/// @throws OptionError naming the field, its value and its limits; InputError naming the face for a negative label.
+void require_valid(const FlowOptions& options);
+
+}  // namespace seamflow

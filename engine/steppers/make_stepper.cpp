@@ -1,0 +1,41 @@
+#include "engine/steppers/make_stepper.h"
+
+#include "engine/steppers/conjugate_gradient_stepper.h"
+#include "engine/steppers/edge_keeping_stepper.h"
+#include "engine/steppers/explicit_stepper.h"
+#include "engine/steppers/schur_stepper.h"
+#include "engine/steppers/schwarz_gmres_stepper.h"
+#include "engine/steppers/sweep_stepper.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                      const FlowOptions& options, const std::vector<double>& curvature,
+                                      Progress& progress)
+{
+    if (options.keep_edges)
+        return std::make_unique<EdgeKeepingStepper>(mesh, topology, options, progress);
+    if (options.scheme == Scheme::ExplicitEuler)
+        return std::make_unique<ExplicitStepper>(mesh, topology, options, progress);
+    if (options.accuracy.approach == Approach::ConjugateGradients)
+        return std::make_unique<ConjugateGradientStepper>(mesh, topology, options, progress);
+    if (options.accuracy.tolerance && is_symmetric(options.laplacian))
+        return std::make_unique<SchurStepper>(mesh, topology, cut, options, progress);
+    if (options.accuracy.tolerance)
+        return std::make_unique<SchwarzGmresStepper>(mesh, topology, cut, options, progress);
+    return std::make_unique<SweepStepper>(mesh, topology, cut, options, curvature, progress);
+}
+
+std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
+                                                   const FlowOptions& options, const std::vector<double>& curvature,
+                                                   Progress& progress)
+{
+    // The whole mesh is one factor, which no limit for the sub-meshes fits.
+    FlowOptions undecomposed = options;
+    undecomposed.resources.memory_limit.reset();
+    return std::make_unique<SweepStepper>(mesh, topology, cut_into(mesh, topology, 1), undecomposed, curvature,
+                                          progress);
+}
+
+}  // namespace seamflow

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "engine/steppers/stepper.h"
+#include "engine/tasks/progress.h"
+#include "partition/cut/cut.h"
+#include "partition/topology.h"
+
+namespace seamflow {
+
+/// The way of taking steps that the options ask for: steps that keep edges, explicit Euler steps, backward Euler steps
+/// of the whole mesh by conjugate gradients, converged ones by the Schur complement or, of Laplacians without symmetry,
+/// by GMRES, or sweeps.
+/// @param mesh, topology, progress must outlive the stepper.
+/// @param options with the tolerance that was chosen, if any.
+/// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
+/// @throws ComputationError naming the sub-mesh if an analysis fails; OptionError if the memory limit is too low;
+///         Cancelled.
+std::unique_ptr<Stepper> make_stepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                      const FlowOptions& options, const std::vector<double>& curvature,
+                                      Progress& progress);
+
+/// Backward Euler steps of the whole mesh as one, whatever the options say of sub-meshes and memory.
+std::unique_ptr<Stepper> make_undecomposed_stepper(const PolygonMesh& mesh, const Topology& topology,
+                                                   const FlowOptions& options, const std::vector<double>& curvature,
+                                                   Progress& progress);
+
+}  // namespace seamflow

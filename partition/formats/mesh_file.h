@@ -1,0 +1,98 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "partition/polygon_mesh.h"
+
+/// What a mesh file is.
+namespace seamflow {
+
+/// The file formats that can be read and written. All hold faces of any number of sides but STL, which holds triangles.
+enum class FileFormat { Obj, Off, Ply, Stl };
+
+/// How the numbers of a file are stored. OBJ is always Ascii; so is OFF, of whose binary files only write_mesh_like
+/// makes others; STL is Ascii or BinaryLittleEndian.
+enum class Encoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
+
+/// Format and encoding of one file.
+struct FileKind {
+    FileFormat format = FileFormat::Obj;
+    Encoding encoding = Encoding::Ascii;
+
+    friend bool operator==(const FileKind&, const FileKind&) = default;
+};
+
+/// What there is to know of a format.
+struct FormatTraits {
+    FileFormat format;
+    /// In messages.
+    std::string_view name;
+    /// In lower case.
+    std::string_view extension;
+    /// It has this encoding and those before it.
+    Encoding last_encoding;
+    /// Whether its faces may have more than three sides.
+    bool holds_polygons;
+};
+
+const FormatTraits& traits_of(FileFormat format);
+
+/// Some of the formats, to be named in a message.
+enum class FormatGroup {
+    All,
+    /// Those whose faces may have any number of sides.
+    Polygons,
+    /// Those that are always written as text.
+    Text,
+};
+
+/// The extensions of the formats, for help and messages: ".obj, .off, .ply or .stl".
+std::string extensions_of(FormatGroup group = FormatGroup::All);
+
+/// The format that the extension of a path names, in upper or lower case and perhaps with `.gz` behind it; nothing if
+/// it names none.
+std::optional<FileFormat> format_of(const std::filesystem::path& path);
+
+/// ".obj" and so on.
+std::string extension_of(FileFormat format);
+
+/// A path without the extension of its format, and without `.gz` behind that.
+std::filesystem::path before_extension(const std::filesystem::path& path);
+
+/// The kind in which `path` is to be written: the format of its extension, in the encoding of `source` if that has the
+/// same format, else binary little-endian where the format has it. For `-`, standard output, the kind of the source.
+/// @throws OptionError for an extension that names no format.
+FileKind kind_for_writing(const std::filesystem::path& path, const FileKind& source);
+
+/// The format that the extension of a path names.
+/// @throws InputError naming the file if it names none.
+FileFormat require_format(const std::filesystem::path& path);
+
+/// "a, b or c".
+std::string choice_of(const std::vector<std::string_view>& words);
+
+/// A mesh file that has been read, as the form for others; see write_mesh_like.
+class MeshSource;
+
+/// A mesh together with the file it came from.
+struct MeshFile {
+    PolygonMesh mesh;
+    FileKind kind;
+    /// The file, which stays open, but not in memory, as long as this or a copy of it lives.
+    std::shared_ptr<const MeshSource> source = {};
+};
+
+/// A number for each vertex of a mesh, with a name.
+struct VertexValues {
+    /// Letters, digits and underscores.
+    std::string name;
+    /// #V.
+    std::vector<double> values;
+};
+
+}  // namespace seamflow
