@@ -14,26 +14,26 @@ set(SEAMFLOW_HEADERS
     engine/distributed/parts/slice_measures.h
     engine/distributed/parts/whole_mesh.h
     engine/distributed/rank_report.h
+    engine/distributed/ranks/transport.h
     engine/distributed/ranks/communicator.h
-    engine/distributed/ranks/conversation.h
-    engine/distributed/ranks/mpi_communicator.h
+    engine/distributed/ranks/mpi_transport.h
     engine/distributed/ranks/packing.h
-    engine/distributed/ranks/thread_communicator.h
+    engine/distributed/ranks/thread_transport.h
     engine/eigen.h
     engine/mean_curvature_flow.h
     engine/measure/displacement_meter.h
     engine/openmesh.h
     engine/options/flow_control.h
     engine/options/flow_options.h
-    engine/options/flow_report.h
-    engine/options/schedule.h
+    engine/measure/flow_report.h
+    engine/tasks/schedule.h
     engine/options/valid_options.h
     engine/setup/presets.h
     engine/setup/smoothed_radius.h
     engine/state/checkpoint.h
     engine/state/flow_identity.h
     engine/state/flow_state.h
-    engine/tasks/parallel_loop.h
+    engine/tasks/parallel_executor.h
     partition/eigen.h
     partition/errors.h
     partition/formats/mesh_file.h
@@ -41,7 +41,7 @@ set(SEAMFLOW_HEADERS
     partition/formats/palette.h
     partition/index.h
     partition/io/fault_log.h
-    partition/loop.h
+    partition/executor.h
     partition/metrics/displacement.h
     partition/metrics/length_statistics.h
     partition/metrics/roughness.h

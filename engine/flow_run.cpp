@@ -12,7 +12,7 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
 #include "engine/steppers/make_stepper.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
 #include "partition/metrics/surface_distance.h"
@@ -80,16 +80,16 @@ void rescale(Stepper& stepper, const Rescaling& rescaling)
 {
     Points rescaled = stepper.positions();
     const Similarity similarity = rescaling.apply(rescaled);
-    stepper.go_on_from(rescaled, similarity);
+    stepper.continue_from(rescaled, similarity);
 }
 
 /// @throws InputError where a state does not fit the mesh.
 void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 {
     if (memory.positions.rows() != mesh.vertices.rows())
-        throw InputError("the state to go on from has not the vertices of this mesh");
+        throw InputError("the state to resume from has not the vertices of this mesh");
     if (!memory.positions.allFinite())
-        throw InputError("the state to go on from has positions that are not finite: it has been changed");
+        throw InputError("the state to resume from has positions that are not finite: it has been changed");
 }
 
 }  // namespace
@@ -166,13 +166,13 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 void FlowRun::restore(const FlowState& state, const std::function<void(Points& positions)>& make_result)
 {
     if (state.cut != checksum_of(report_.cut.labels))
-        throw InputError("the state to go on from belongs to another cut of the same mesh: another version of the "
+        throw InputError("the state to resume from belongs to another cut of the same mesh: another version of the "
                          "program made it, or one with another METIS");
     require_positions(state.flow, mesh_.mesh());
     if (state.reference)
         require_positions(*state.reference, mesh_.mesh());
     if (state.reference.has_value() != (reference_ != nullptr))
-        throw InputError("the state to go on from has not the undecomposed flow");
+        throw InputError("the state to resume from has not the undecomposed flow");
     stepper_->restore(state.flow);
     if (reference_)
         reference_->restore(*state.reference);
@@ -261,7 +261,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         prepared_->topology.twin = std::vector<Index>();
     const bool is_scaled = goes_on_scaled(options());
     const bool is_scaled_apart = options().motion.rescale != Rescale::None && !is_scaled;
-    // The flow goes on from its own positions, whatever is made of them.
+    // The flow continues from its own positions, whatever is made of them.
     const bool is_result_apart = is_scaled_apart || bound || limited;
     const auto make_result = [&](Points& positions) {
         if (is_scaled_apart)

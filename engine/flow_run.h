@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
+#include "engine/measure/flow_report.h"
 #include "engine/measure/rescaling.h"
-#include "engine/options/flow_report.h"
 #include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
 #include "engine/state/flow_state.h"
@@ -25,7 +25,7 @@ class FlowRun {
             FlowReport& report);
 
     /// Takes all steps. The mesh moves when a step is complete, with that of the undecomposed flow.
-    /// @param resume the state to go on from; nullptr: from the beginning.
+    /// @param resume the state to resume from; nullptr: from the beginning.
     /// @throws ComputationError naming the step; InputError for a state that does not fit; Cancelled.
     void take_steps(const StepObserver& on_step, const FlowState* resume);
 

@@ -33,7 +33,7 @@ void require_ahead(const FlowOptions& options, const FlowState& state)
 {
     if (state.n_steps() > options.steps)
         throw OptionError(
-            fmt::format("steps is {}, but the state to go on from is after step {} already: ask for as many "
+            fmt::format("steps is {}, but the state to resume from is after step {} already: ask for as many "
                         "at least, or begin anew",
                         options.steps, state.n_steps()));
 }

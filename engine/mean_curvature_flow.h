@@ -1,8 +1,8 @@
 #pragma once
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_control.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -16,12 +16,12 @@ namespace seamflow {
 /// @param mesh its positions are moved; after an exception they are those of the last complete step. While the flow
 ///        runs it belongs to that.
 /// @param on_step called after each step.
-/// @param control says how far the flow is, stops it, or lets it go on from a step before: `mesh` is then as it was
+/// @param control says how far the flow is, stops it, or lets it resume from a step before: `mesh` is then as it was
 ///        before the first step, and the report is of all steps.
 /// @throws InputError for a mesh or labels that cannot be used, OptionError for options outside their limits, both for
-///         a state to go on from that belongs to another flow; ComputationError, naming step and sub-mesh, for a system
-///         that is singular, a result that is not finite or beyond AccuracyOptions::largest_update, and for a failure
-///         of METIS; Cancelled where control.stop was requested and work was left; std::bad_alloc.
+///         a state to resume from that belongs to another flow; ComputationError, naming step and sub-mesh, for a
+///         system that is singular, a result that is not finite or beyond AccuracyOptions::largest_update, and for a
+///         failure of METIS; Cancelled where control.stop was requested and work was left; std::bad_alloc.
 FlowReport mean_curvature_flow(PolygonMesh& mesh, const FlowOptions& options, const StepObserver& on_step = {},
                                const FlowControl& control = {});
 

@@ -9,7 +9,7 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/constraints.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {
@@ -20,7 +20,7 @@ namespace {
 FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
                            const FlowState* resume, Progress& progress)
 {
-    require_valid(mesh, progress.loop());
+    require_valid(mesh, progress.exec());
     progress.count();
     if (resume == nullptr && !is_observed)
         return {};
@@ -33,18 +33,18 @@ FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, 
 
 /// @param choices gets a sentence if the number of sub-meshes is chosen.
 Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
-             const Loop& loop, const Alongside& alongside, std::vector<std::string>& choices)
+             const Executor& exec, const Alongside& alongside, std::vector<std::string>& choices)
 {
     if (options.keep_edges || options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
-        return cut_into(mesh, topology, 1, loop);
+        return cut_into(mesh, topology, 1, exec);
     if (!options.cut.labels.empty())
-        return cut_by_labels(mesh, topology, options.cut.labels, loop);
+        return cut_by_labels(mesh, topology, options.cut.labels, exec);
     if (options.cut.subdomains > 0)
-        return cut_into(mesh, topology, options.cut.subdomains, loop, alongside);
+        return cut_into(mesh, topology, options.cut.subdomains, exec, alongside);
     const SubdomainChoice choice =
         choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
     choices.push_back(choice.reason + ".");
-    return cut_into(mesh, topology, choice.count, loop, alongside);
+    return cut_into(mesh, topology, choice.count, exec, alongside);
 }
 
 /// Joins the faces and settles which vertices move.
@@ -54,16 +54,16 @@ void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
     Topology& topology = prepared.topology;
     const auto look = [&] {
         // Part of the topology is made by one thread.
-        run_both([&] { topology = make_topology(mesh.mesh(), progress.loop()); },
+        run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },
                  [&] { prepared.size = size_of(mesh.mesh()); });
     };
     const auto constrain_it = [&] {
         prepared.remarks.clear();
-        constrain(topology, mesh.mesh(), options, progress.loop(), prepared.remarks);
+        constrain(topology, mesh.mesh(), options, progress.exec(), prepared.remarks);
         prepared.size.vertices -= mesh.n_copies();
     };
     look();
-    mesh.weld_seams(topology, options.motion, progress.loop());
+    mesh.weld_seams(topology, options.motion, progress.exec());
     constrain_it();
     // The sub-meshes as they are have all faces.
     if (options.report.keep_gaps || !mesh.leave_out_repeated_faces(topology))
@@ -89,7 +89,7 @@ void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& 
             prepared.meter.emplace(mesh, prepared.topology);
     };
     prepared.cut = make_cut(
-        mesh, prepared.size, prepared.topology, prepared.options, progress.loop(),
+        mesh, prepared.size, prepared.topology, prepared.options, progress.exec(),
         [&](const std::function<void()>& serial) { run_both(serial, measure); }, prepared.choices);
     if (!is_measured)
         measure();

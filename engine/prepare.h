@@ -42,7 +42,7 @@ struct PreparedFlow {
 /// sub-meshes there are.
 /// @param mesh must outlive the result; vertices along seams are joined, faces that repeat others are left out.
 /// @param is_observed whether somebody may ask for the state of the flow.
-/// @param resume the state that the flow is to go on from; nullptr: it begins.
+/// @param resume the state that the flow is to resume from; nullptr: it begins.
 /// @throws InputError for a mesh, labels or a state that cannot be used; OptionError; ComputationError for a failure of
 ///         METIS; Cancelled.
 std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,

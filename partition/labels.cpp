@@ -57,9 +57,9 @@ bool is_mixed(const Topology& topology, std::span<const Index> labels, Index v)
     });
 }
 
-std::vector<Index> mixed_vertices(const Topology& topology, std::span<const Index> labels, const Loop& loop)
+std::vector<Index> mixed_vertices(const Topology& topology, std::span<const Index> labels, const Executor& exec)
 {
-    return select(loop, static_cast<Index>(topology.kind.size()),
+    return select(exec, static_cast<Index>(topology.kind.size()),
                   [&](Index v) { return is_mixed(topology, labels, v); });
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/topology.h"
 
 /// The labels of faces, which say what part of a cut each belongs to.
@@ -24,6 +24,6 @@ bool is_mixed(const Topology& topology, std::span<const Index> labels, Index v);
 /// The vertices whose faces have different labels, ascending.
 /// @param labels #F.
 std::vector<Index> mixed_vertices(const Topology& topology, std::span<const Index> labels,
-                                  const Loop& loop = run_serially);
+                                  const Executor& exec = run_serially);
 
 }  // namespace seamflow

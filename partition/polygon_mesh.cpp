@@ -67,24 +67,24 @@ bool is_valid_face(const PolygonMesh& mesh, Index f)
 
 }  // namespace
 
-void require_valid(const PolygonMesh& mesh, const Loop& loop)
+void require_valid(const PolygonMesh& mesh, const Executor& exec)
 {
     require_valid_offsets(mesh);
-    const auto bad_faces = select(loop, mesh.n_faces(), [&](Index f) { return !is_valid_face(mesh, f); });
+    const auto bad_faces = select(exec, mesh.n_faces(), [&](Index f) { return !is_valid_face(mesh, f); });
     if (!bad_faces.empty())
         refuse_face(mesh, bad_faces.front());
     const auto bad_vertices =
-        select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
+        select(exec, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     if (!bad_vertices.empty())
         throw InputError(
             fmt::format("vertex {} (numbered from 0) has a coordinate that is not a finite number: mend or remove it",
                         bad_vertices.front()));
 }
 
-void copy(const Loop& loop, const Points& from, Points& to)
+void copy(const Executor& exec, const Points& from, Points& to)
 {
     to.resize(from.rows(), 3);
-    for_each_block(loop, static_cast<Index>(from.rows()), [&](Index, Index begin, Index end) {
+    for_each_block(exec, static_cast<Index>(from.rows()), [&](Index, Index begin, Index end) {
         to.middleRows(begin, end - begin) = from.middleRows(begin, end - begin);
     });
 }

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "partition/executor.h"
 #include "partition/index.h"
-#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -45,10 +45,10 @@ struct PolygonMesh {
 /// Checks that the arrays fit together, that every face has at least three corners, all different and in range, and
 /// that all coordinates are finite.
 /// @throws InputError naming the first offending face or vertex (numbered from 0).
-void require_valid(const PolygonMesh& mesh, const Loop& loop = run_serially);
+void require_valid(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// Makes `to` what `from` is.
 /// @param from, to #V by 3.
-void copy(const Loop& loop, const Points& from, Points& to);
+void copy(const Executor& exec, const Points& from, Points& to);
 
 }  // namespace seamflow

@@ -141,7 +141,7 @@ Index common_degree(const PolygonMesh& mesh)
 
 }  // namespace
 
-FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop)
+FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Executor& exec)
     : degree_(common_degree(mesh))
 {
     if (degree_ > 0) {
@@ -152,23 +152,23 @@ FaceOfHalfedge::FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop)
         return;
     }
     faces_.resize(mesh.face_vertices.size());
-    for_each(loop, mesh.n_faces(), [&](Index f) {
+    for_each(exec, mesh.n_faces(), [&](Index f) {
         std::fill(faces_.begin() + mesh.face_offsets[f], faces_.begin() + mesh.face_offsets[f + 1], f);
     });
 }
 
-Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
+Topology make_topology(const PolygonMesh& mesh, const Executor& exec)
 {
     Topology topology;
-    topology.face_of = FaceOfHalfedge(mesh, loop);
-    for_each(loop, 2, [&](Index one_of_both) {
+    topology.face_of = FaceOfHalfedge(mesh, exec);
+    for_each(exec, 2, [&](Index one_of_both) {
         if (one_of_both == 0)
             list_corners(mesh, topology);
         else
             topology.twin.assign(mesh.face_vertices.size(), -1);
     });
     std::atomic<bool> oriented = true;
-    loop(mesh.n_vertices(), [&](Index begin, Index end) {
+    exec(mesh.n_vertices(), [&](Index begin, Index end) {
         std::vector<Spoke> spokes;
         bool opposite = true;
         for (Index v = begin; v < end; ++v)
@@ -179,11 +179,11 @@ Topology make_topology(const PolygonMesh& mesh, const Loop& loop)
     topology.oriented = oriented;
     topology.kind.resize(mesh.n_vertices());
     topology.fixed.resize(mesh.n_vertices());
-    for_each(loop, mesh.n_vertices(), [&](Index v) {
+    for_each(exec, mesh.n_vertices(), [&](Index v) {
         topology.kind[v] = classify(mesh, topology, v);
         topology.fixed[v] = topology.kind[v] == VertexKind::Interior ? 0 : 1;
     });
-    for_each(loop, mesh.n_corners(), [&](Index h) { topology.twin[h] = std::max(topology.twin[h], -1); });
+    for_each(exec, mesh.n_corners(), [&](Index h) { topology.twin[h] = std::max(topology.twin[h], -1); });
     return topology;
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -26,7 +26,7 @@ enum class VertexKind : std::uint8_t {
 class FaceOfHalfedge {
   public:
     FaceOfHalfedge() = default;
-    FaceOfHalfedge(const PolygonMesh& mesh, const Loop& loop);
+    FaceOfHalfedge(const PolygonMesh& mesh, const Executor& exec);
 
     Index operator[](std::size_t h) const
     {
@@ -99,7 +99,7 @@ struct Topology {
 
 /// Pairs the half-edges of a valid mesh (see require_valid) and classifies its vertices. Linear in the size of the
 /// mesh.
-Topology make_topology(const PolygonMesh& mesh, const Loop& loop = run_serially);
+Topology make_topology(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// The length of the edge of half-edge h, the same bits for its twin.
 inline double edge_length(const PolygonMesh& mesh, const Topology& topology, Index h)

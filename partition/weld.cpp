@@ -107,14 +107,14 @@ std::vector<Index> join_near(const std::vector<PointNumbers::Place>& points, dou
 /// The edges of one face.
 class Rims {
   public:
-    Rims(const PolygonMesh& mesh, const Topology& topology, double distance, const Loop& loop)
+    Rims(const PolygonMesh& mesh, const Topology& topology, double distance, const Executor& exec)
         : mesh_(mesh)
         , topology_(topology)
         , distance_(distance)
     {
         // Edges of three faces have no twins either.
         const auto is_on_boundary = [&](Index v) { return topology.kind[v] == VertexKind::Boundary; };
-        halfedges_ = select(loop, mesh.n_corners(), [&](Index h) {
+        halfedges_ = select(exec, mesh.n_corners(), [&](Index h) {
             return topology.twin[h] < 0 && is_on_boundary(start(h)) && is_on_boundary(end(h));
         });
         number_places();
@@ -209,10 +209,10 @@ std::vector<std::array<Index, 2>> Rims::pairs() const
 /// A mesh in which edges are joined.
 class Welding {
   public:
-    Welding(const PolygonMesh& mesh, const Rims& rims, std::vector<std::array<Index, 2>> pairs, const Loop& loop)
+    Welding(const PolygonMesh& mesh, const Rims& rims, std::vector<std::array<Index, 2>> pairs, const Executor& exec)
         : mesh_(mesh)
         , rims_(rims)
-        , loop_(loop)
+        , exec_(exec)
         , pairs_(std::move(pairs))
     {
         join();
@@ -225,12 +225,12 @@ class Welding {
         give_up(twice_in_faces());
         if (pairs_.empty())
             return;
-        topology_ = make_topology(welded_, loop_);
+        topology_ = make_topology(welded_, exec_);
         std::vector<std::uint8_t> is_bad(first_.size(), 0);
-        for_each(loop_, mesh_.n_vertices(),
+        for_each(exec_, mesh_.n_vertices(),
                  [&](Index v) { is_bad[v] = topology_.kind[v] == VertexKind::NonManifold ? 1 : 0; });
         if (give_up(is_bad) && !pairs_.empty())
-            topology_ = make_topology(welded_, loop_);
+            topology_ = make_topology(welded_, exec_);
     }
 
     std::optional<Weld> take();
@@ -252,7 +252,7 @@ class Welding {
         first_ = lots.all_lowest();
         welded_.face_offsets = mesh_.face_offsets;
         welded_.face_vertices.resize(mesh_.face_vertices.size());
-        for_each(loop_, mesh_.n_corners(), [&](Index h) { welded_.face_vertices[h] = first_[mesh_.face_vertices[h]]; });
+        for_each(exec_, mesh_.n_corners(), [&](Index h) { welded_.face_vertices[h] = first_[mesh_.face_vertices[h]]; });
         // Topology knows no places.
         welded_.vertices.resize(mesh_.n_vertices(), 3);
     }
@@ -260,7 +260,7 @@ class Welding {
     /// #V: 1 for each vertex that a face would have twice.
     [[nodiscard]] std::vector<std::uint8_t> twice_in_faces() const
     {
-        const auto faces = select(loop_, mesh_.n_faces(), [&](Index f) {
+        const auto faces = select(exec_, mesh_.n_faces(), [&](Index f) {
             const auto is_joined = [&](Index v) { return first_[v] != v; };
             return std::ranges::any_of(mesh_.face(f), is_joined);
         });
@@ -290,7 +290,7 @@ class Welding {
 
     const PolygonMesh& mesh_;
     const Rims& rims_;
-    const Loop& loop_;
+    const Executor& exec_;
     std::vector<std::array<Index, 2>> pairs_;
     std::vector<Index> first_;
     PolygonMesh welded_;
@@ -327,7 +327,7 @@ std::optional<Weld> Welding::take()
 {
     if (pairs_.empty())
         return {};
-    copy(loop_, mesh_.vertices, welded_.vertices);
+    copy(exec_, mesh_.vertices, welded_.vertices);
     const Index n_vertices = place_in_middle(first_, welded_.vertices);
     return Weld{.mesh = std::move(welded_),
                 .topology = std::move(topology_),
@@ -338,13 +338,13 @@ std::optional<Weld> Welding::take()
 
 }  // namespace
 
-std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance, const Loop& loop)
+std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance, const Executor& exec)
 {
-    const Rims rims(mesh, topology, distance, loop);
+    const Rims rims(mesh, topology, distance, exec);
     std::vector<std::array<Index, 2>> pairs = rims.pairs();
     if (pairs.empty())
         return {};
-    Welding welding(mesh, rims, std::move(pairs), loop);
+    Welding welding(mesh, rims, std::move(pairs), exec);
     welding.mend();
     return welding.take();
 }

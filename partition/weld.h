@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -34,7 +34,7 @@ struct Weld {
 ///        that are so near to more than a few others are joined to none. 0: coordinates have to be equal.
 /// @returns nothing if nothing is joined.
 std::optional<Weld> weld(const PolygonMesh& mesh, const Topology& topology, double distance,
-                         const Loop& loop = run_serially);
+                         const Executor& exec = run_serially);
 
 /// What became of seams, a sentence for the user.
 /// @param n_vertices, n_edges see Weld.

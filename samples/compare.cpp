@@ -23,14 +23,14 @@ ExitStatus compare(int argc, char** argv)
     Workers workers(0);
     const auto read = [&](const std::filesystem::path& path) {
         FaultLog left_out{.of_faces_alone = true};
-        PolygonMesh mesh = read_faulty_mesh(path, left_out, workers.loop()).mesh;
+        PolygonMesh mesh = read_faulty_mesh(path, left_out, workers.exec()).mesh;
         require_faces(path, mesh.n_faces(), left_out);
         return mesh;
     };
     const PolygonMesh reference = read(command.reference);
     const PolygonMesh candidate = read(command.candidate);
 
-    Comparison comparison = compare_meshes(reference, candidate, command.direction, workers.loop());
+    Comparison comparison = compare_meshes(reference, candidate, command.direction, workers.exec());
     comparison.reference = command.reference.string();
     comparison.candidate = command.candidate.string();
     std::ostream& out = is_standard_stream(command.report) ? std::cerr : std::cout;

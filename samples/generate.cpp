@@ -56,7 +56,7 @@ ExitStatus generate(int argc, char** argv)
     require_writable(output);
 
     const PolygonMesh mesh = make_mesh(kind, vertices, variation);
-    write_mesh(output, mesh, file_kind, Workers(0).loop());
+    write_mesh(output, mesh, file_kind, Workers(0).exec());
     std::ostream& out = is_standard_stream(output) ? std::cerr : std::cout;
     out << output.string() << ": " << mesh.n_vertices() << " vertices, " << mesh.n_faces() << " faces" << std::endl;
     return ExitStatus::Success;

@@ -34,9 +34,9 @@ ExitStatus inspect_file(int argc, char** argv)
 
     FaultLog faults;
     Workers workers(0);
-    const Loop loop = workers.loop();
-    const PolygonMesh mesh = read_faulty_mesh(input, faults, loop).mesh;
-    const MeshInspection found = inspect(mesh, make_topology(mesh, loop), loop);
+    const Executor exec = workers.exec();
+    const PolygonMesh mesh = read_faulty_mesh(input, faults, exec).mesh;
+    const MeshInspection found = inspect(mesh, make_topology(mesh, exec), exec);
     if (as_json)
         std::cout << inspection_json(input.string(), faults, found);
     else

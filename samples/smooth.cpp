@@ -27,7 +27,6 @@
 #include "partition/formats/index_files.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
-#include "samples/common/flow_run.h"
 #include "samples/common/interruption.h"
 #include "samples/common/launched_processes.h"
 #include "samples/common/long_run.h"
@@ -38,6 +37,7 @@
 #include "samples/common/report_text.h"
 #include "samples/common/schedule_files.h"
 #include "samples/common/smooth_command.h"
+#include "samples/common/smoothing_run.h"
 #include "samples/page/page_html.h"
 #include "samples/page/read_file_colours.h"
 
@@ -48,7 +48,7 @@ namespace {
 /// What the command line leaves to be taken from the input.
 /// @param left_out ascending: the faces of the file that are not in the mesh.
 void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std::vector<Index>& left_out,
-                      const Loop& loop, RunRecord& run)
+                      const Executor& exec, RunRecord& run)
 {
     if (!command.labels.empty())
         command.options.cut.labels = labels_of_faces(command.labels, mesh.n_faces(), left_out);
@@ -61,7 +61,7 @@ void complete_options(SmoothCommand& command, const PolygonMesh& mesh, const std
         motion.attachment_weights =
             read_vertex_weights(command.attach_weights, mesh.n_vertices(), command.attach_property);
     try {
-        resolve_amount(command, mesh, loop, run);
+        resolve_amount(command, mesh, exec, run);
     } catch (const InputError& error) {
         throw InputError(command.input.string() + ": " + error.what());
     }
@@ -87,10 +87,10 @@ std::optional<PageFlow> make_page(const SmoothCommand& command, const PolygonMes
 
 /// Prints every step, writes it where --every-step asks for that, and hands it to the page.
 StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, double mean_edge, double& write_seconds,
-                           std::optional<PageFlow>& page, std::ostream& out, const Loop& loop)
+                           std::optional<PageFlow>& page, std::ostream& out, const Executor& exec)
 {
     PolygonMesh snapshot = command.every_step ? input.mesh : PolygonMesh{};
-    return [&command, &input, &write_seconds, &page, &out, &loop, mean_edge, snapshot](const StepState& state) mutable {
+    return [&command, &input, &write_seconds, &page, &out, &exec, mean_edge, snapshot](const StepState& state) mutable {
         if (command.verbose)
             print_step(out, state.report, state.step, command.options.steps, mean_edge);
         if (page)
@@ -100,18 +100,18 @@ StepObserver make_observer(const SmoothCommand& command, const MeshFile& input, 
         const Stopwatch watch;
         if (state.separated == nullptr)
             snapshot.vertices = state.positions;
-        write_state(command.every_step->path(state.step), snapshot, state.separated, input, loop);
+        write_state(command.every_step->path(state.step), snapshot, state.separated, input, exec);
         write_seconds += watch.seconds();
     };
 }
 
 /// @returns remarks for the user.
 std::vector<std::string> write_results(const SmoothCommand& command, const MeshFile& file, const FlowReport& report,
-                                       const Loop& loop)
+                                       const Executor& exec)
 {
-    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, loop);
+    auto remarks = write_state(command.output, file.mesh, report.separated ? &*report.separated : nullptr, file, exec);
     if (!command.parts.empty())
-        write_labelled_ply(command.parts, file.mesh, report.cut.labels, loop);
+        write_labelled_ply(command.parts, file.mesh, report.cut.labels, exec);
     return remarks;
 }
 
@@ -166,12 +166,12 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     std::ostream& out = command.quiet ? silence : is_taken ? std::cerr : std::cout;
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
-    const Loop loop = workers.loop();
+    const Executor exec = workers.exec();
     FaultLog left_out{.of_faces_alone = true};
-    MeshFile file = command.options.motion.strict ? read_mesh(command.input, loop)
-                                                  : read_faulty_mesh(command.input, left_out, loop);
+    MeshFile file = command.options.motion.strict ? read_mesh(command.input, exec)
+                                                  : read_faulty_mesh(command.input, left_out, exec);
     require_faces(command.input, file.mesh.n_faces(), left_out);
-    complete_options(command, file.mesh, left_out.faces_left_out, loop, run);
+    complete_options(command, file.mesh, left_out.faces_left_out, exec, run);
     run.read_seconds = whole.seconds();
     print_input(out, run, file.mesh.n_vertices(), file.mesh.n_faces());
     print_preset(out, run, command.chosen);
@@ -181,7 +181,7 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
         require_storable(file.mesh, command.every_step->path(1),
                          kind_for_writing(command.every_step->path(1), file.kind));
 
-    std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, loop);
+    std::vector<std::string> losses = remarks_on_losses(command.output, !command.options.report.keep_gaps, file, exec);
     if (left_out.count > 0) {
         losses.push_back(remark_on_faces(left_out, command.output, !command.options.report.keep_gaps, file.kind));
     }
@@ -191,10 +191,10 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     std::optional<PageFlow> page = make_page(command, file.mesh, left_out.faces_left_out);
     std::optional<SurfaceChangeMeter> change;
     if (!command.quiet || !command.report.empty() || !command.html.empty())
-        change.emplace(file.mesh, loop);
+        change.emplace(file.mesh, exec);
     LongRun long_run(command, file, interruption, out);
     const StepObserver on_step =
-        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, loop));
+        long_run.observing(make_observer(command, file, run.scale.mean_edge, run.write_seconds, page, out, exec));
     FlowReport report;
     try {
         const FlowControl control = long_run.control();
@@ -216,16 +216,16 @@ ExitStatus run(SmoothCommand& command, RunRecord& run)
     // Where no step is taken it does not matter how.
     if (command.options.steps == 0)
         report.choices.clear();
-    // A run that goes on from its last step has nothing to observe.
+    // A run that continues from its last step has nothing to observe.
     if (page && !page->has_undecomposed() && page->states().back().step < command.options.steps)
         page->add_step(command.options.steps, file.mesh.vertices, nullptr);
 
     const Stopwatch writing;
-    for (const auto& remarks : {losses, write_results(command, file, report, loop)})
+    for (const auto& remarks : {losses, write_results(command, file, report, exec)})
         report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
     run.write_seconds += writing.seconds();
     if (change) {
-        run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, loop);
+        run.surface = change->measure(file.mesh, report.mesh.moved_with, command.self_intersections, exec);
         remark_on_loss(command.options, run.surface, report.remarks);
         remark_on_folds(command.options, run.surface, report.remarks);
     }

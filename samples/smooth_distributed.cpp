@@ -21,7 +21,7 @@
 #include "engine/distributed/parts/slice_measures.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "engine/distributed/rank_checkpoint.h"
-#include "engine/distributed/ranks/mpi_communicator.h"
+#include "engine/distributed/ranks/mpi_transport.h"
 #include "engine/distributed/ranks/packing.h"
 #include "engine/setup/presets.h"
 #include "engine/tasks/stopwatch.h"
@@ -31,7 +31,6 @@
 #include "partition/index_lists.h"
 #include "partition/io/input_file.h"
 #include "samples/common/distributed_command.h"
-#include "samples/common/flow_run.h"
 #include "samples/common/mesh_results.h"
 #include "samples/common/output_files.h"
 #include "samples/common/peak_memory.h"
@@ -39,6 +38,7 @@
 #include "samples/common/rank_roughness.h"
 #include "samples/common/report_json.h"
 #include "samples/common/report_text.h"
+#include "samples/common/smoothing_run.h"
 
 using namespace seamflow;
 
@@ -56,10 +56,10 @@ void about_file(const std::filesystem::path& path, Action&& action)
 }
 
 /// The cores of a machine are shared by the ranks on it.
-int threads_of_rank(Conversation& talk, const std::string& host, const SmoothCommand& command)
+int threads_of_rank(Communicator& comm, const std::string& host, const SmoothCommand& command)
 {
     int n_here = 0;
-    for (const Bytes& bytes : talk.allgather(packed(std::vector<char>(host.begin(), host.end())))) {
+    for (const Bytes& bytes : comm.allgather(packed(std::vector<char>(host.begin(), host.end())))) {
         const auto other = unpacked<char>(bytes);
         n_here += std::ranges::equal(other, host) ? 1 : 0;
     }
@@ -71,7 +71,7 @@ int threads_of_rank(Conversation& talk, const std::string& host, const SmoothCom
 class RankRun {
   public:
     /// @param out where rank 0 prints, and others do not.
-    RankRun(Communicator& ranks, DistributedCommand& command, DistributedRecord& record, std::ostream& out)
+    RankRun(Transport& ranks, DistributedCommand& command, DistributedRecord& record, std::ostream& out)
         : ranks_(ranks)
         , command_(command.flow)
         , sharing_(command.sharing)
@@ -83,7 +83,7 @@ class RankRun {
     ExitStatus run()
     {
         const Stopwatch whole;
-        run_together(ranks_, [&](Conversation& talk) { begin(talk); });
+        run_together(ranks_, [&](Communicator& comm) { begin(comm); });
         FlowOptions options = command_.options;
         options.cut = {};
         options.motion.weld.reset();
@@ -93,7 +93,7 @@ class RankRun {
                 distributed_mean_curvature_flow(ranks_, part_, options, observer(), resume_ ? &*resume_ : nullptr);
         });
         record_.setup_seconds += record_.report.setup_seconds;
-        run_together(ranks_, [&](Conversation& talk) { end(talk, whole); });
+        run_together(ranks_, [&](Communicator& comm) { end(comm, whole); });
         return require_converged();
     }
 
@@ -105,42 +105,42 @@ class RankRun {
     }
 
     /// Reads, cuts, and deals the sub-meshes to the ranks.
-    void begin(Conversation& talk)
+    void begin(Communicator& comm)
     {
-        command_.options.resources.threads = threads_of_rank(talk, ranks_.host(), command_);
+        command_.options.resources.threads = threads_of_rank(comm, ranks_.host(), command_);
         workers_.emplace(command_.options.resources.threads);
         const Stopwatch reading;
-        file_ = open_together(talk, command_.input, sharing_, workers_->loop());
-        RankSlice slice = file_->read(talk);
-        about_file(command_.input, [&] { record_.size = measure(talk, slice); });
-        talk.at_first_rank([&] { require_faces(command_.input, record_.size.faces, file_->faults()); });
-        talk.look_together([&] { settle_amount(); });
-        const SliceBounds bounds = gather_bounds(talk, slice);
+        file_ = open_together(comm, command_.input, sharing_, workers_->exec());
+        RankSlice slice = file_->read(comm);
+        about_file(command_.input, [&] { record_.size = measure(comm, slice); });
+        comm.at_first_rank([&] { require_faces(command_.input, record_.size.faces, file_->faults()); });
+        comm.look_together([&] { settle_amount(); });
+        const SliceBounds bounds = gather_bounds(comm, slice);
         if (!command_.labels.empty())
-            slice.labels = read_labels_together(talk, slice);
-        const std::uint64_t mesh = command_.checkpoint.empty() ? 0 : checksum_of_mesh(talk, slice);
-        std::vector<std::int64_t> fixed = read_fixed(talk);
-        std::vector<double> weights = read_weights(talk);
+            slice.labels = read_labels_together(comm, slice);
+        const std::uint64_t mesh = command_.checkpoint.empty() ? 0 : checksum_of_mesh(comm, slice);
+        std::vector<std::int64_t> fixed = read_fixed(comm);
+        std::vector<double> weights = read_weights(comm);
         record_.run.read_seconds = reading.seconds();
         print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
         print_preset(out_, record_.run, command_.chosen);
         print_amount(out_, record_.run.scale, command_.options);
-        talk.at_first_rank([&] { look_at_results(); });
+        comm.at_first_rank([&] { look_at_results(); });
 
         const Stopwatch setting_up;
-        cut(talk, slice);
-        about_file(command_.input, [&] { part_ = deal(talk, slice); });
+        cut(comm, slice);
+        about_file(command_.input, [&] { part_ = deal(comm, slice); });
         move_with_seams(fixed);
         part_.fixed.resize(part_.vertex_numbers.size());
         std::ranges::transform(part_.vertex_numbers, part_.fixed.begin(),
                                [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
         if (!command_.checkpoint.empty())
-            find_checkpoint(talk, mesh, slice, bounds, fixed, weights);
-        deal_weights(talk, std::move(weights), bounds);
-        bring_back(talk, seams_, slice);
+            find_checkpoint(comm, mesh, slice, bounds, fixed, weights);
+        deal_weights(comm, std::move(weights), bounds);
+        bring_back(comm, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         if (tells_measures())
-            record_.run.surface.before.roughness = roughness_.emplace(part_, record_.size.vertices).measure(talk);
+            record_.run.surface.before.roughness = roughness_.emplace(part_, record_.size.vertices).measure(comm);
         record_.setup_seconds = setting_up.seconds();
     }
 
@@ -167,35 +167,35 @@ class RankRun {
         record_.time_step = command_.options.time_step;
     }
 
-    std::vector<Index> read_labels_together(Conversation& talk, const RankSlice& slice)
+    std::vector<Index> read_labels_together(Communicator& comm, const RankSlice& slice)
     {
         std::vector<Index> labels;
-        talk.at_first_rank([&] {
+        comm.at_first_rank([&] {
             labels = labels_of_faces(command_.labels, static_cast<Index>(record_.size.faces),
                                      file_->faults().faces_left_out);
         });
-        return hand_out(talk, labels, slice);
+        return hand_out(comm, labels, slice);
     }
 
     /// The vertices of --fix, ascending.
-    std::vector<std::int64_t> read_fixed(Conversation& talk)
+    std::vector<std::int64_t> read_fixed(Communicator& comm)
     {
         std::vector<std::int64_t> own;
-        talk.at_first_rank([&] {
+        comm.at_first_rank([&] {
             if (command_.fix.empty())
                 return;
             const auto fixed =
                 read_vertex_set(command_.fix, static_cast<Index>(record_.size.vertices), command_.fix_property);
             own.assign(fixed.begin(), fixed.end());
         });
-        return talk.gather_all(own);
+        return comm.gather_all(own);
     }
 
     /// The weights of --attach-weights, #V, at rank 0.
-    std::vector<double> read_weights(Conversation& talk)
+    std::vector<double> read_weights(Communicator& comm)
     {
         std::vector<double> weights;
-        talk.at_first_rank([&] {
+        comm.at_first_rank([&] {
             if (!command_.attach_weights.empty())
                 weights = read_vertex_weights(command_.attach_weights, static_cast<Index>(record_.size.vertices),
                                               command_.attach_property);
@@ -205,12 +205,12 @@ class RankRun {
 
     /// Gives the vertices of the part their weights: those of a seam the largest of all that move as one.
     /// @param weights at rank 0.
-    void deal_weights(Conversation& talk, std::vector<double> weights, const SliceBounds& bounds)
+    void deal_weights(Communicator& comm, std::vector<double> weights, const SliceBounds& bounds)
     {
         if (command_.attach_weights.empty())
             return;
-        std::vector<Bytes> to_each(static_cast<std::size_t>(talk.size()));
-        if (talk.rank() == 0) {
+        std::vector<Bytes> to_each(static_cast<std::size_t>(comm.size()));
+        if (comm.rank() == 0) {
             for (const SeamVertex& one : seams_.vertices)
                 weights[static_cast<std::size_t>(one.first)] = std::max(weights[static_cast<std::size_t>(one.first)],
                                                                         weights[static_cast<std::size_t>(one.vertex)]);
@@ -218,18 +218,18 @@ class RankRun {
                 to_each[rank] = packed(std::vector<double>(weights.begin() + bounds.vertices[rank],
                                                            weights.begin() + bounds.vertices[rank + 1]));
         }
-        const auto own = unpacked<double>(talk.exchange(std::move(to_each)).front());
+        const auto own = unpacked<double>(comm.exchange(std::move(to_each)).front());
         // As the first coordinates of points, which ranks can ask each other for.
         RankSlice as_points;
         as_points.vertices = Points::Zero(std::ssize(own), 3);
         std::ranges::copy(own, as_points.vertices.col(0).begin());
-        const Points found = fetch_positions(talk, as_points, part_.vertex_numbers, bounds.vertices);
+        const Points found = fetch_positions(comm, as_points, part_.vertex_numbers, bounds.vertices);
         part_.attachment_weights.assign(found.col(0).begin(), found.col(0).end());
     }
 
     /// Where an earlier run was, if there was one.
     /// @param mesh checksum of the input. @param slice with the labels of the cut. @param weights at rank 0.
-    void find_checkpoint(Conversation& talk, std::uint64_t mesh, const RankSlice& slice, const SliceBounds& bounds,
+    void find_checkpoint(Communicator& comm, std::uint64_t mesh, const RankSlice& slice, const SliceBounds& bounds,
                          const std::vector<std::int64_t>& fixed, const std::vector<double>& weights)
     {
         FlowOptions options = command_.options;
@@ -242,9 +242,9 @@ class RankRun {
             if (entry.name == "mesh")
                 entry.value = fmt::format("{} vertices and {} faces with checksum {:x}", record_.size.vertices,
                                           record_.size.faces, mesh);
-        identity.entries.push_back({"cut", fmt::format("that with checksum {:x}", checksum_of_labels(talk, slice))});
+        identity.entries.push_back({"cut", fmt::format("that with checksum {:x}", checksum_of_labels(comm, slice))});
         checkpoint_.emplace(command_.checkpoint, std::move(identity));
-        resume_ = checkpoint_->find(talk, bounds.vertices, command_.options.steps);
+        resume_ = checkpoint_->find(comm, bounds.vertices, command_.options.steps);
         if (!resume_)
             return;
         out_ << "resumed    after step " << resume_->step << ", from " << checkpoint_->file().string() << std::endl;
@@ -258,10 +258,10 @@ class RankRun {
     {
         const CheckpointPeriod& period = command_.checkpoint_period;
         const std::uint8_t is_due = since_kept_.seconds() >= period.seconds ? 1 : 0;
-        const bool is_kept = state.talk.broadcast(std::vector<std::uint8_t>{is_due}).front() != 0;
+        const bool is_kept = state.comm.broadcast(std::vector<std::uint8_t>{is_due}).front() != 0;
         if (state.step != command_.options.steps && (state.step % period.steps != 0 || !is_kept))
             return;
-        checkpoint_->keep(state.talk, state.capture(slice_vertices_));
+        checkpoint_->keep(state.comm, state.capture(slice_vertices_));
         since_kept_.lap();
     }
 
@@ -288,14 +288,14 @@ class RankRun {
             record_.remarks.push_back("The result has replaced the input, in one go when it was complete.");
     }
 
-    void cut(Conversation& talk, RankSlice& slice)
+    void cut(Communicator& comm, RankSlice& slice)
     {
-        DistributedCut found = command_.labels.empty() ? cut_together(talk, slice, command_.options)
-                                                       : cut_together_by_labels(talk, slice, command_.options);
+        DistributedCut found = command_.labels.empty() ? cut_together(comm, slice, command_.options)
+                                                       : cut_together_by_labels(comm, slice, command_.options);
         if (!found.choice.empty())
             record_.choices.push_back(found.choice);
         if (!command_.parts.empty())
-            labels_ = labels_of_all_faces(talk, slice, found.left_out);
+            labels_ = labels_of_all_faces(comm, slice, found.left_out);
         of_cut_ = std::move(found.remarks);
         seams_ = std::move(found.seams);
     }
@@ -321,8 +321,8 @@ class RankRun {
                 print_rank_step(out_, state, command_.options.steps, record_.size.mean_edge);
             if (command_.every_step) {
                 const Stopwatch watch;
-                file_->write(state.talk, command_.every_step->path(state.step),
-                             vertices_of_stretch(state.talk, state.part));
+                file_->write(state.comm, command_.every_step->path(state.step),
+                             vertices_of_range(state.comm, state.part));
                 record_.run.write_seconds += watch.seconds();
             }
             if (checkpoint_)
@@ -330,13 +330,13 @@ class RankRun {
         };
     }
 
-    /// Where the vertices of this rank's stretch are after steps.
-    Points vertices_of_stretch(Conversation& talk, const MeshPart& part) const
+    /// Where the vertices of this rank's range are after steps.
+    Points vertices_of_range(Communicator& comm, const MeshPart& part) const
     {
         RankSlice slice;
         slice.vertices = slice_vertices_;
-        collect_positions(talk, part.vertex_numbers, part.mesh.vertices, slice);
-        bring_back(talk, seams_, slice);
+        collect_positions(comm, part.vertex_numbers, part.mesh.vertices, slice);
+        bring_back(comm, seams_, slice);
         return std::move(slice.vertices);
     }
 
@@ -373,20 +373,20 @@ class RankRun {
     }
 
     /// Writes, and tells what was done.
-    void end(Conversation& talk, const Stopwatch& whole)
+    void end(Communicator& comm, const Stopwatch& whole)
     {
         const Stopwatch writing;
-        const Points vertices = vertices_of_stretch(talk, part_);
+        const Points vertices = vertices_of_range(comm, part_);
         if (roughness_)
-            record_.run.surface.after.roughness = roughness_->measure(talk);
+            record_.run.surface.after.roughness = roughness_->measure(comm);
         part_ = {};
         note_flow();
-        record_.run.surface.moved = measure_moves(talk, slice_vertices_, vertices);
-        const auto remarks = file_->write(talk, command_.output, vertices);
+        record_.run.surface.moved = measure_moves(comm, slice_vertices_, vertices);
+        const auto remarks = file_->write(comm, command_.output, vertices);
         record_.remarks.insert(record_.remarks.end(), remarks.begin(), remarks.end());
         remark_on_loss(command_.options, record_.run.surface, record_.remarks, false);
         if (!command_.parts.empty())
-            file_->write_labelled(talk, command_.parts, vertices, labels_);
+            file_->write_labelled(comm, command_.parts, vertices, labels_);
         record_.run.write_seconds += writing.seconds();
         record_.run.seconds = whole.seconds();
         RankRecord own{.vertices = record_.report.vertices,
@@ -397,8 +397,8 @@ class RankRun {
             own.messages += step.messages;
             own.bytes += step.bytes;
         }
-        record_.ranks = talk.gather_all(std::vector<RankRecord>{own});
-        talk.at_first_rank([&] {
+        record_.ranks = comm.gather_all(std::vector<RankRecord>{own});
+        comm.at_first_rank([&] {
             const std::string report = distributed_report_json(record_, command_.options);
             if (!command_.report.empty())
                 write_text(command_.report, report);
@@ -408,7 +408,7 @@ class RankRun {
         print_distributed_result(out_, record_);
     }
 
-    Communicator& ranks_;
+    Transport& ranks_;
     SmoothCommand& command_;
     FileSharing sharing_;
     DistributedRecord& record_;
@@ -417,7 +417,7 @@ class RankRun {
     std::unique_ptr<SharedMeshFile> file_;
     MeshPart part_;
     std::optional<RankRoughness> roughness_;
-    /// Where the vertices of this rank's stretch are in the file, and with --parts the labels of its faces.
+    /// Where the vertices of this rank's range are in the file, and with --parts the labels of its faces.
     Points slice_vertices_ = Points(0, 3);
     std::vector<Index> labels_;
     JoinedSeams seams_;
@@ -428,21 +428,21 @@ class RankRun {
 };
 
 /// Rank 0 speaks for all.
-std::optional<ExitStatus> parse_together(Communicator& ranks, int argc, char** argv, DistributedCommand& command)
+std::optional<ExitStatus> parse_together(Transport& ranks, int argc, char** argv, DistributedCommand& command)
 {
     std::optional<ExitStatus> end;
-    run_together(ranks, [&](Conversation& talk) {
-        talk.at_first_rank([&] { end = parse_distributed_command(argc, argv, 0, command); });
-        const auto ends = talk.gather_all(end ? std::vector<ExitStatus>{*end} : std::vector<ExitStatus>{});
+    run_together(ranks, [&](Communicator& comm) {
+        comm.at_first_rank([&] { end = parse_distributed_command(argc, argv, 0, command); });
+        const auto ends = comm.gather_all(end ? std::vector<ExitStatus>{*end} : std::vector<ExitStatus>{});
         if (!ends.empty())
             end = ends.front();
-        else if (talk.rank() > 0)
-            end = parse_distributed_command(argc, argv, talk.rank(), command);
+        else if (comm.rank() > 0)
+            end = parse_distributed_command(argc, argv, comm.rank(), command);
     });
     return end;
 }
 
-ExitStatus smooth_distributed(Communicator& ranks, int argc, char** argv)
+ExitStatus smooth_distributed(Transport& ranks, int argc, char** argv)
 {
     DistributedCommand command;
     if (const auto end = parse_together(ranks, argc, argv, command))
@@ -470,9 +470,9 @@ ExitStatus smooth_distributed(Communicator& ranks, int argc, char** argv)
 int main(int argc, char** argv)
 {
     // MPI ends all ranks as soon as one has ended with a failure: until rank 0 has told of it, none does.
-    std::unique_ptr<Communicator> ranks;
+    std::unique_ptr<Transport> ranks;
     return run_program("smooth-distributed", [&] {
-        ranks = make_mpi_communicator();
+        ranks = make_mpi_transport();
         try {
             return smooth_distributed(*ranks, argc, argv);
         } catch (...) {

@@ -14,7 +14,7 @@
 #include "engine/distributed/rank_memory.h"
 #include "engine/distributed/rank_meter.h"
 #include "engine/distributed/rank_setup.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "engine/distributed/rows_of_others.h"
 #include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
@@ -109,9 +109,9 @@ void in_step(int step, Body&& body)
 /// A distributed flow on one rank.
 class RankFlow {
   public:
-    RankFlow(Conversation& talk, MeshPart& part, const FlowOptions& options, const RankObserver& on_step,
+    RankFlow(Communicator& comm, MeshPart& part, const FlowOptions& options, const RankObserver& on_step,
              const RankFlowState* resume)
-        : talk_(talk)
+        : comm_(comm)
         , part_(part)
         , options_(completed(options, part))
         , on_step_(on_step)
@@ -124,35 +124,35 @@ class RankFlow {
     Points run(RankReport& report)
     {
         const Stopwatch watch;
-        const BoundingBox box = gather_box(talk_, part_.mesh);
+        const BoundingBox box = gather_box(comm_, part_.mesh);
         const Point offset = origin_offset(box);
         require_valid(options_);
-        RankMesh mesh = make_rank_mesh(talk_, part_, offset, options_);
+        RankMesh mesh = make_rank_mesh(comm_, part_, offset, options_);
         options_.motion.attachment_weights = mesh.part.attachment_weights;
         Decomposition decomposition = decompose_rank_mesh(mesh);
         const std::int64_t n_interface_vertices = decomposition.n_interface_vertices;
         std::optional<RankExchange> exchange;
-        std::vector<Index> rank_of_all(mesh.all.size(), 0);
+        std::vector<Index> stage_of_all(mesh.all.size(), 0);
         std::unique_ptr<Stepper> stepper;
         if (options_.accuracy.tolerance) {
             stepper = std::make_unique<SchurStepper>(
-                mesh.part.mesh, make_peer_sub_meshes(talk_, mesh, std::move(decomposition)), options_, progress_);
+                mesh.part.mesh, make_peer_sub_meshes(comm_, mesh, std::move(decomposition)), options_, progress_);
         } else {
-            exchange.emplace(talk_, mesh.part, mesh.known);
+            exchange.emplace(comm_, mesh.part, mesh.known);
             stepper = std::make_unique<SweepStepper>(
                 mesh.part.mesh,
-                make_rank_sub_meshes(talk_, mesh, std::move(decomposition), options_, *exchange, rank_of_all), options_,
-                progress_);
+                make_rank_sub_meshes(comm_, mesh, std::move(decomposition), options_, *exchange, stage_of_all),
+                options_, progress_);
         }
         const UpdateLimit limit(mesh.part.mesh, (box.high - box.low).stableNorm(), options_.accuracy.largest_update);
-        describe(mesh, rank_of_all, n_interface_vertices, report);
+        describe(mesh, stage_of_all, n_interface_vertices, report);
         if (options_.report.measures) {
-            meter_.emplace(talk_, mesh);
+            meter_.emplace(comm_, mesh);
             report.before = meter_->measure(mesh.part.mesh.vertices, mesh.part.mesh.vertices);
         }
         if (options_.motion.within)
             bound_.emplace(make_bound(mesh));
-        vanishing_.emplace(options_, mesh.part.mesh.vertices, find_small_components(talk_, mesh));
+        vanishing_.emplace(options_, mesh.part.mesh.vertices, find_small_components(comm_, mesh));
         report.setup_seconds = watch.seconds();
         result_ = mesh.part.mesh.vertices;
         if (resume_ != nullptr)
@@ -177,7 +177,7 @@ class RankFlow {
     /// Brings the vertices that this rank knows to where they were after a step.
     void go_on(RankMesh& mesh, Stepper& stepper)
     {
-        restore_memory(talk_, mesh, *resume_, stepper);
+        restore_memory(comm_, mesh, *resume_, stepper);
         mesh.part.mesh.vertices = stepper.positions();
         make_result(mesh);
     }
@@ -188,7 +188,7 @@ class RankFlow {
         Points positions = positions_of_part(mesh, result_, offset);
         part_.mesh.vertices.swap(positions);
         try {
-            on_step_({step, report, part_, talk_,
+            on_step_({step, report, part_, comm_,
                       [&](const Points& vertices) { return capture(mesh, step, vertices, stepper); }});
         } catch (...) {
             part_.mesh.vertices.swap(positions);
@@ -200,20 +200,20 @@ class RankFlow {
     /// All ranks call this together.
     [[nodiscard]] RankFlowState capture(const RankMesh& mesh, int step, const Points& vertices, const Stepper& stepper)
     {
-        RankSlice stretch;
-        stretch.vertices = vertices;
-        collect_positions(talk_, part_.vertex_numbers, positions_of_part(mesh, mesh.part.mesh.vertices, Point::Zero()),
-                          stretch);
-        RankFlowState state{.step = step, .vertices = std::move(stretch.vertices)};
-        collect_memory(talk_, mesh, stepper, state);
+        RankSlice range;
+        range.vertices = vertices;
+        collect_positions(comm_, part_.vertex_numbers, positions_of_part(mesh, mesh.part.mesh.vertices, Point::Zero()),
+                          range);
+        RankFlowState state{.step = step, .vertices = std::move(range.vertices)};
+        collect_memory(comm_, mesh, stepper, state);
         return state;
     }
 
     RankStepReport take_step(int step, RankMesh& mesh, const UpdateLimit& limit, Stepper& stepper)
     {
         const Stopwatch watch;
-        const std::uint64_t messages = talk_.n_messages();
-        const std::uint64_t bytes = talk_.n_bytes();
+        const std::uint64_t messages = comm_.n_messages();
+        const std::uint64_t bytes = comm_.n_bytes();
         in_step(step, [&] {
             vanishing_->step(stepper, mesh.part.mesh.vertices);
             require_within_limit(limit, mesh, stepper.positions());
@@ -221,8 +221,8 @@ class RankFlow {
         StepReport of_step;
         stepper.describe(of_step);
         RankStepReport report{.seconds = watch.seconds(),
-                              .messages = talk_.n_messages() - messages,
-                              .bytes = talk_.n_bytes() - bytes,
+                              .messages = comm_.n_messages() - messages,
+                              .bytes = comm_.n_bytes() - bytes,
                               .iterations = of_step.iterations,
                               .residual = of_step.residual};
         const Points before = meter_ ? result_ : Points();
@@ -239,7 +239,7 @@ class RankFlow {
         return report;
     }
 
-    /// Makes of the positions of the flow, which goes on from these, those that are its result.
+    /// Makes of the positions of the flow, which continues from these, those that are its result.
     void make_result(const RankMesh& mesh)
     {
         result_ = mesh.part.mesh.vertices;
@@ -263,25 +263,25 @@ class RankFlow {
                 foreign.push_back(v);
                 numbers.push_back(mesh.part.vertex_numbers[v]);
             }
-        elsewhere.fetch = [foreign, others = RowsOfOthers(talk_, mesh, numbers)](Points& rows) {
+        elsewhere.fetch = [foreign, others = RowsOfOthers(comm_, mesh, numbers)](Points& rows) {
             const Points fetched = others.fetch(rows);
             for (std::size_t i = 0; i < foreign.size(); ++i)
                 rows.row(foreign[i]) = fetched.row(static_cast<Index>(i));
         };
-        elsewhere.any = [&talk = talk_](bool holds) {
-            const auto all = talk.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(holds ? 1 : 0)});
+        elsewhere.any = [&comm = comm_](bool holds) {
+            const auto all = comm.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(holds ? 1 : 0)});
             return std::ranges::find(all, 1) != all.end();
         };
         return {mesh.part.mesh, mesh.topology, *options_.motion.within, std::move(elsewhere)};
     }
 
-    void describe(const RankMesh& mesh, const std::vector<Index>& rank_of_all, std::int64_t n_interface_vertices,
+    void describe(const RankMesh& mesh, const std::vector<Index>& stage_of_all, std::int64_t n_interface_vertices,
                   RankReport& report)
     {
-        report.sub_meshes = static_cast<Index>(rank_of_all.size());
-        for (const Index rank : rank_of_all)
-            report.colours = std::max(report.colours, rank + 1);
-        for (const std::int64_t n : talk_.gather_all(std::vector<std::int64_t>{n_interface_vertices}))
+        report.sub_meshes = static_cast<Index>(stage_of_all.size());
+        for (const Index stage : stage_of_all)
+            report.colours = std::max(report.colours, stage + 1);
+        for (const std::int64_t n : comm_.gather_all(std::vector<std::int64_t>{n_interface_vertices}))
             report.interface_vertices += n;
         report.vertices = part_.mesh.n_vertices();
         report.foreign_vertices = std::max(mesh.part.mesh.n_vertices() - report.vertices, 0);
@@ -346,12 +346,12 @@ class RankFlow {
         std::vector<std::int64_t> numbers;
         for (const Index v : vertices)
             numbers.push_back(part_.vertex_numbers[v]);
-        const Points found = RowsOfOthers(talk_, mesh, numbers).fetch(known);
+        const Points found = RowsOfOthers(comm_, mesh, numbers).fetch(known);
         for (std::size_t i = 0; i < vertices.size(); ++i)
             positions.row(vertices[i]) = found.row(static_cast<Index>(i));
     }
 
-    Conversation& talk_;
+    Communicator& comm_;
     MeshPart& part_;
     FlowOptions options_;
     const RankObserver& on_step_;
@@ -367,17 +367,17 @@ class RankFlow {
 
 }  // namespace
 
-RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
+RankReport distributed_mean_curvature_flow(Transport& transport, MeshPart& part, const FlowOptions& options,
                                            const RankObserver& on_step, const RankFlowState* resume)
 {
     RankReport report;
     Points positions;
-    run_together(communicator, [&](Conversation& talk) {
+    run_together(transport, [&](Communicator& comm) {
         require_valid(options);
         require_for_ranks(options);
         require_valid(part);
         Workers workers(options.resources.threads);
-        workers.execute([&] { positions = RankFlow(talk, part, options, on_step, resume).run(report); });
+        workers.execute([&] { positions = RankFlow(comm, part, options, on_step, resume).run(report); });
     });
     part.mesh.vertices = std::move(positions);
     return report;

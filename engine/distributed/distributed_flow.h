@@ -9,9 +9,9 @@
 #include "engine/distributed/parts/mesh_part.h"
 #include "engine/distributed/rank_report.h"
 #include "engine/distributed/ranks/communicator.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/transport.h"
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "partition/metrics/length_statistics.h"
 
 namespace seamflow {
@@ -25,9 +25,9 @@ struct RankStepState {
     /// it was before the first.
     const MeshPart& part;
     /// For what observers on all ranks do together: its collective functions.
-    Conversation& talk;
-    /// The state to go on from. All ranks call it together.
-    /// @param vertices #V of this rank's stretch by 3, as in RankFlowState; those without faces stay.
+    Communicator& comm;
+    /// The state to resume from. All ranks call it together.
+    /// @param vertices #V of this rank's range by 3, as in RankFlowState; those without faces stay.
     std::function<RankFlowState(const Points& vertices)> capture;
 };
 
@@ -47,12 +47,12 @@ using RankObserver = std::function<void(const RankStepState&)>;
 /// places where the mesh is not manifold take no part.
 /// @param part its vertices are moved when the flow has succeeded on all ranks; those without faces never are.
 /// @param on_step may be empty; on all ranks or on none.
-/// @param resume null, or the state after a step: the flow goes on from there, on any number of ranks, with the same
+/// @param resume null, or the state after a step: the flow continues from there, on any number of ranks, with the same
 ///        bits; part and options are as before the first step. On all ranks or on none.
 /// @throws on all ranks the same: OptionError; InputError for a part that is not sound, for a sub-mesh of several
 ///         ranks, or for one that is not connected or has several fans of faces around a vertex (mean_curvature_flow
 ///         would move its faces); ComputationError naming step and sub-mesh.
-RankReport distributed_mean_curvature_flow(Communicator& communicator, MeshPart& part, const FlowOptions& options,
+RankReport distributed_mean_curvature_flow(Transport& transport, MeshPart& part, const FlowOptions& options,
                                            const RankObserver& on_step = {}, const RankFlowState* resume = nullptr);
 
 }  // namespace seamflow

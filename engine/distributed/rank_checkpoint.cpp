@@ -18,7 +18,7 @@
 #include "partition/io/output_file.h"
 
 // The list is text: the line below, the step, how many arrays there are beside positions, a line for each number, for
-// each file and for each entry of the identity, and the checksum of all that. A file has the positions of a stretch and
+// each file and for each entry of the identity, and the checksum of all that. A file has the positions of a range and
 // then the arrays, as doubles as the machine has them.
 
 namespace seamflow {
@@ -30,7 +30,7 @@ constexpr const char* list_name = "smooth-distributed.checkpoint";
 constexpr const char* prefix_of_steps = "smooth-distributed.step-";
 
 /// A file of positions and arrays.
-struct KeptStretch {
+struct KeptRange {
     std::int64_t begin = 0;
     std::int64_t n_vertices = 0;
     std::uint64_t checksum = 0;
@@ -40,7 +40,7 @@ struct RankList {
     std::int64_t step = 0;
     std::int64_t n_arrays = 0;
     std::vector<double> numbers;
-    std::vector<KeptStretch> stretches;
+    std::vector<KeptRange> ranges;
     FlowIdentity identity;
 };
 
@@ -61,7 +61,7 @@ std::string text_of_list(const RankList& list)
     std::string text = fmt::format("{}\nstep {}\narrays {}\n", line_of_lists, list.step, list.n_arrays);
     for (const double number : list.numbers)
         text += fmt::format("number {:x}\n", std::bit_cast<std::uint64_t>(number));
-    for (const KeptStretch& one : list.stretches)
+    for (const KeptRange& one : list.ranges)
         text += fmt::format("file {} {} {}\n", one.begin, one.n_vertices, one.checksum);
     for (const FlowIdentity::Entry& entry : list.identity.entries)
         text += fmt::format("option {} {}\n", entry.name, entry.value);
@@ -90,7 +90,7 @@ RankList read_rank_list(const std::filesystem::path& file)
             words >> std::hex >> bits;
             list.numbers.push_back(std::bit_cast<double>(bits));
         } else if (name == "file") {
-            KeptStretch& one = list.stretches.emplace_back();
+            KeptRange& one = list.ranges.emplace_back();
             words >> one.begin >> one.n_vertices >> one.checksum;
         } else if (name == "option") {
             FlowIdentity::Entry& entry = list.identity.entries.emplace_back();
@@ -104,17 +104,17 @@ RankList read_rank_list(const std::filesystem::path& file)
 }
 
 /// @throws InputError unless the file is as it was written.
-std::vector<double> read_stretch(const std::filesystem::path& file, const KeptStretch& stretch, std::int64_t n_arrays)
+std::vector<double> read_range(const std::filesystem::path& file, const KeptRange& range, std::int64_t n_arrays)
 {
     std::error_code error;
     const std::uintmax_t n_bytes = std::filesystem::file_size(file, error);
-    const auto n = static_cast<std::size_t>(stretch.n_vertices * 3 * (1 + n_arrays));
+    const auto n = static_cast<std::size_t>(range.n_vertices * 3 * (1 + n_arrays));
     if (error || n_bytes != n * sizeof(double))
         refuse_file(file, "is missing, or has not the length that the list of the checkpoint says");
     std::vector<double> numbers(n);
     std::ifstream stream(file, std::ios::binary);
     stream.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(n_bytes));
-    if (!stream || checksum_of_numbers(numbers) != stretch.checksum)
+    if (!stream || checksum_of_numbers(numbers) != range.checksum)
         refuse_file(file, "has been changed since it was written");
     return numbers;
 }
@@ -137,10 +137,10 @@ void require_belongs(const RankList& list, const FlowIdentity& identity, int ste
 }
 
 /// Sums do not depend on who adds what.
-std::uint64_t sum_of_all(Conversation& talk, std::uint64_t own)
+std::uint64_t sum_of_all(Communicator& comm, std::uint64_t own)
 {
     std::uint64_t sum = 0;
-    for (const std::uint64_t of_rank : talk.gather_all(std::vector<std::uint64_t>{own}))
+    for (const std::uint64_t of_rank : comm.gather_all(std::vector<std::uint64_t>{own}))
         sum += of_rank;
     return sum;
 }
@@ -180,30 +180,30 @@ std::string name_of_step(int step)
 
 }  // namespace
 
-std::uint64_t checksum_of_mesh(Conversation& talk, const RankSlice& slice)
+std::uint64_t checksum_of_mesh(Communicator& comm, const RankSlice& slice)
 {
-    const SliceBounds bounds = gather_bounds(talk, slice);
+    const SliceBounds bounds = gather_bounds(comm, slice);
     std::uint64_t own = 0;
     for (Eigen::Index v = 0; v < slice.vertices.rows(); ++v) {
         const std::array position{slice.vertices(v, 0), slice.vertices(v, 1), slice.vertices(v, 2)};
-        own += hash_at(bounds.vertices[talk.rank()] + v, std::as_bytes(std::span(position)));
+        own += hash_at(bounds.vertices[comm.rank()] + v, std::as_bytes(std::span(position)));
     }
     for (Index f = 0; f < slice.n_faces(); ++f) {
         const Index begin = slice.face_offsets[f];
         const std::span corners(slice.corners.data() + begin,
                                 static_cast<std::size_t>(slice.face_offsets[f + 1] - begin));
-        own += hash_at(~(bounds.faces[talk.rank()] + f), std::as_bytes(corners));
+        own += hash_at(~(bounds.faces[comm.rank()] + f), std::as_bytes(corners));
     }
-    return sum_of_all(talk, own);
+    return sum_of_all(comm, own);
 }
 
-std::uint64_t checksum_of_labels(Conversation& talk, const RankSlice& slice)
+std::uint64_t checksum_of_labels(Communicator& comm, const RankSlice& slice)
 {
-    const std::int64_t begin = gather_bounds(talk, slice).faces[talk.rank()];
+    const std::int64_t begin = gather_bounds(comm, slice).faces[comm.rank()];
     std::uint64_t own = 0;
     for (std::size_t f = 0; f < slice.labels.size(); ++f)
         own += hash_at(begin + static_cast<std::int64_t>(f), std::as_bytes(std::span(&slice.labels[f], 1)));
-    return sum_of_all(talk, own);
+    return sum_of_all(comm, own);
 }
 
 RankCheckpoint::RankCheckpoint(std::filesystem::path folder, FlowIdentity identity)
@@ -222,11 +222,11 @@ std::filesystem::path RankCheckpoint::file_of(int step, std::size_t rank) const
     return folder_ / (name_of_step(step) + fmt::format("{}", rank));
 }
 
-std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<const std::int64_t> bounds,
+std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<const std::int64_t> bounds,
                                                   int steps) const
 {
     RankList list;
-    talk.at_first_rank([&] {
+    comm.at_first_rank([&] {
         std::error_code error;
         std::filesystem::create_directories(folder_, error);
         if (!std::filesystem::is_directory(folder_))
@@ -236,28 +236,28 @@ std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<
         list = read_rank_list(file());
         require_belongs(list, identity_, steps, file());
         std::int64_t n = 0;
-        for (const KeptStretch& one : list.stretches)
+        for (const KeptRange& one : list.ranges)
             n += one.begin == n ? one.n_vertices : 0;
         if (n != bounds.back())
             refuse_file(file(), "does not list positions of all vertices");
     });
-    list.stretches = talk.broadcast(list.stretches);
-    if (list.stretches.empty())
+    list.ranges = comm.broadcast(list.ranges);
+    if (list.ranges.empty())
         return std::nullopt;
-    const auto counts = talk.broadcast(std::vector<std::int64_t>{list.step, list.n_arrays});
-    RankFlowState state{.step = static_cast<int>(counts[0]), .numbers = talk.broadcast(list.numbers)};
-    const std::int64_t begin = bounds[static_cast<std::size_t>(talk.rank())];
-    const std::int64_t end = bounds[static_cast<std::size_t>(talk.rank()) + 1];
+    const auto counts = comm.broadcast(std::vector<std::int64_t>{list.step, list.n_arrays});
+    RankFlowState state{.step = static_cast<int>(counts[0]), .numbers = comm.broadcast(list.numbers)};
+    const std::int64_t begin = bounds[static_cast<std::size_t>(comm.rank())];
+    const std::int64_t end = bounds[static_cast<std::size_t>(comm.rank()) + 1];
     state.vertices.resize(end - begin, 3);
     state.arrays.assign(static_cast<std::size_t>(counts[1]), state.vertices);
-    talk.look_together([&] {
-        for (std::size_t i = 0; i < list.stretches.size(); ++i) {
-            const KeptStretch& one = list.stretches[i];
+    comm.look_together([&] {
+        for (std::size_t i = 0; i < list.ranges.size(); ++i) {
+            const KeptRange& one = list.ranges[i];
             const std::int64_t from = std::max(begin, one.begin);
             const std::int64_t to = std::min(end, one.begin + one.n_vertices);
             if (from >= to)
                 continue;
-            const std::vector<double> numbers = read_stretch(file_of(state.step, i), one, counts[1]);
+            const std::vector<double> numbers = read_range(file_of(state.step, i), one, counts[1]);
             const double* next = numbers.data() + 3 * (from - one.begin);
             for (Points* const array : arrays_of(state)) {
                 std::copy_n(next, 3 * (to - from), array->data() + 3 * (from - begin));
@@ -268,25 +268,25 @@ std::optional<RankFlowState> RankCheckpoint::find(Conversation& talk, std::span<
     return state;
 }
 
-void RankCheckpoint::keep(Conversation& talk, const RankFlowState& state) const
+void RankCheckpoint::keep(Communicator& comm, const RankFlowState& state) const
 {
     std::vector<double> numbers;
     numbers.reserve(static_cast<std::size_t>(state.vertices.size()) * (1 + state.arrays.size()));
     for (const Points* const array : arrays_of(state))
         numbers.insert(numbers.end(), array->data(), array->data() + array->size());
-    OutputFile file_here(file_of(state.step, static_cast<std::size_t>(talk.rank())));
+    OutputFile file_here(file_of(state.step, static_cast<std::size_t>(comm.rank())));
     file_here.text({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)});
     file_here.commit();
-    const KeptStretch own{.begin = 0, .n_vertices = state.vertices.rows(), .checksum = checksum_of_numbers(numbers)};
+    const KeptRange own{.begin = 0, .n_vertices = state.vertices.rows(), .checksum = checksum_of_numbers(numbers)};
     // When rank 0 has them all files are on the disk.
     RankList list{.step = state.step,
                   .n_arrays = std::ssize(state.arrays),
                   .numbers = state.numbers,
-                  .stretches = talk.gather_at_first(std::vector<KeptStretch>{own}),
+                  .ranges = comm.gather_at_first(std::vector<KeptRange>{own}),
                   .identity = identity_};
-    talk.at_first_rank([&] {
+    comm.at_first_rank([&] {
         std::int64_t n = 0;
-        for (KeptStretch& one : list.stretches)
+        for (KeptRange& one : list.ranges)
             n = (one.begin = n) + one.n_vertices;
         OutputFile file_of_list(file());
         file_of_list.text(text_of_list(list));

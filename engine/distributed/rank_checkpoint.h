@@ -8,19 +8,19 @@
 
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "engine/state/flow_identity.h"
 
 namespace seamflow {
 
-/// A number that tells a mesh, in the stretches of all ranks, from others, however it is divided among them. All ranks
+/// A number that tells a mesh, in the ranges of all ranks, from others, however it is divided among them. All ranks
 /// call this together. @returns the same on all ranks.
-std::uint64_t checksum_of_mesh(Conversation& talk, const RankSlice& slice);
+std::uint64_t checksum_of_mesh(Communicator& comm, const RankSlice& slice);
 
 /// The same of the labels of faces.
-std::uint64_t checksum_of_labels(Conversation& talk, const RankSlice& slice);
+std::uint64_t checksum_of_labels(Communicator& comm, const RankSlice& slice);
 
-/// The state of a flow of ranks in a folder that all of them see: for each rank a file with its stretch, and one that
+/// The state of a flow of ranks in a folder that all of them see: for each rank a file with its range, and one that
 /// lists these files, with their checksums. Rank 0 replaces the list when all other files are on the disk: it is always
 /// that of a complete step. All ranks call its functions together, any number of them.
 class RankCheckpoint {
@@ -32,15 +32,15 @@ class RankCheckpoint {
     [[nodiscard]] std::filesystem::path file() const;
 
     /// Makes the folder if it is not there, and finds where the flow was.
-    /// @param bounds of the stretches of vertices: #ranks + 1. @param steps of the flow.
+    /// @param bounds of the ranges of vertices: #ranks + 1. @param steps of the flow.
     /// @returns this rank's share; nothing where there is no list.
     /// @throws OutputError if there can be no folder; InputError and OptionError naming the file, if it is damaged or
     ///         belongs to another mesh or other options.
-    std::optional<RankFlowState> find(Conversation& talk, std::span<const std::int64_t> bounds, int steps) const;
+    std::optional<RankFlowState> find(Communicator& comm, std::span<const std::int64_t> bounds, int steps) const;
 
     /// Keeps the state after a step, in the place of that before it.
     /// @throws OutputError
-    void keep(Conversation& talk, const RankFlowState& state) const;
+    void keep(Communicator& comm, const RankFlowState& state) const;
 
   private:
     [[nodiscard]] std::filesystem::path file_of(int step, std::size_t rank) const;

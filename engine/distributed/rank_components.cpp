@@ -105,14 +105,14 @@ void list(std::vector<Member> all, const RankMesh& mesh, SmallComponents& small)
         small.vertices.push_back(position_in(known, member.vertex));
 }
 
-Points gather_table(Conversation& talk, const RankMesh& mesh, const std::vector<Index>& vertices, const Points& values)
+Points gather_table(Communicator& comm, const RankMesh& mesh, const std::vector<Index>& vertices, const Points& values)
 {
     std::vector<TableRow> own;
     for (std::size_t row = 0; row < vertices.size(); ++row)
         if (const Index v = vertices[row]; v >= 0 && mesh.has_own_faces(v))
             own.push_back({static_cast<std::int64_t>(row), {values(v, 0), values(v, 1), values(v, 2)}});
     Points table = Points::Zero(static_cast<Index>(vertices.size()), 3);
-    for (const TableRow& of_row : talk.gather_all(own))
+    for (const TableRow& of_row : comm.gather_all(own))
         table.row(of_row.row) = Point(of_row.values[0], of_row.values[1], of_row.values[2]);
     return table;
 }
@@ -131,37 +131,37 @@ void keep_small(const Points& table, double extent, IndexLists& rows)
 
 }  // namespace
 
-FindSmallComponents find_small_components(Conversation& talk, const RankMesh& mesh)
+FindSmallComponents find_small_components(Communicator& comm, const RankMesh& mesh)
 {
-    return [&talk, &mesh](const Points& positions, double extent) {
+    return [&comm, &mesh](const Points& positions, double extent) {
         SmallComponents small;
         const bool here = has_small_face(mesh.part.mesh, positions, extent);
-        const auto anywhere = talk.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(here ? 1 : 0)});
+        const auto anywhere = comm.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(here ? 1 : 0)});
         if (std::ranges::find(anywhere, 1) == anywhere.end())
             return small;
         const OwnComponents own = find_own(mesh, positions, extent);
         std::int64_t first = 0;
-        const auto counts = talk.gather_all(std::vector<std::int64_t>{own.of_vertices.count()});
-        for (int rank = 0; rank < talk.rank(); ++rank)
+        const auto counts = comm.gather_all(std::vector<std::int64_t>{own.of_vertices.count()});
+        for (int rank = 0; rank < comm.rank(); ++rank)
             first += counts[rank];
         const auto is_shared = [&](Index v, Index) {
             return std::ranges::any_of(mesh.topology.corners_at(v),
                                        [&](Index corner) { return !is_own_corner(mesh, corner); });
         };
-        const std::vector<std::uint8_t> may = talk.gather_all(own.may);
+        const std::vector<std::uint8_t> may = comm.gather_all(own.may);
         const Components joined =
-            join(talk.gather_all(members(mesh, own, first, is_shared)), static_cast<Index>(may.size()));
+            join(comm.gather_all(members(mesh, own, first, is_shared)), static_cast<Index>(may.size()));
         std::vector<std::uint8_t> all_may(at(joined.count()), 1);
         for (Index c = 0; c < static_cast<Index>(may.size()); ++c)
             all_may[joined.component_of[c]] &= may[c];
-        std::vector<Member> of_all = talk.gather_all(members(mesh, own, first, [&](Index, Index c) {
+        std::vector<Member> of_all = comm.gather_all(members(mesh, own, first, [&](Index, Index c) {
             return all_may[joined.component_of[static_cast<Index>(first) + c]] != 0;
         }));
         for (Member& member : of_all)
             member.component = joined.component_of[static_cast<Index>(member.component)];
         list(std::move(of_all), mesh, small);
-        small.table = [&talk, &mesh, vertices = small.vertices](const Points& values) {
-            return gather_table(talk, mesh, vertices, values);
+        small.table = [&comm, &mesh, vertices = small.vertices](const Points& values) {
+            return gather_table(comm, mesh, vertices, values);
         };
         keep_small(small.table(positions), extent, small.rows);
         return small;

@@ -33,8 +33,8 @@ Header header_of(const Message& message)
 
 }  // namespace
 
-RankExchange::RankExchange(Conversation& talk, const MeshPart& part, std::vector<KnownSubMesh> known)
-    : talk_(&talk)
+RankExchange::RankExchange(Communicator& comm, const MeshPart& part, std::vector<KnownSubMesh> known)
+    : comm_(&comm)
     , part_(&part)
     , known_(std::move(known))
     , own_interest_(known_.size())
@@ -85,7 +85,7 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
 {
     find_own_interest(decomposition, sweeps, further);
     arrivals_.resize(sweeps.size());
-    std::vector<Packer> to_each(talk_->size());
+    std::vector<Packer> to_each(comm_->size());
     for (std::size_t s = 0; s < known_.size(); ++s) {
         if (!is_foreign(static_cast<Index>(s)))
             continue;
@@ -102,8 +102,8 @@ void RankExchange::connect(const Decomposition& decomposition, std::span<const S
     std::vector<Bytes> bytes;
     for (Packer& packer : to_each)
         bytes.push_back(packer.take());
-    const std::vector<Bytes> from_each = talk_->exchange(std::move(bytes));
-    for (int rank = 0; rank < talk_->size(); ++rank)
+    const std::vector<Bytes> from_each = comm_->exchange(std::move(bytes));
+    for (int rank = 0; rank < comm_->size(); ++rank)
         for (Unpacker unpacker(from_each[rank]); !unpacker.is_at_end();) {
             const Index s = known_index(unpacker.get<Index>());
             Interest& interest = listeners_[s].emplace_back();
@@ -146,7 +146,7 @@ void RankExchange::send(News news, std::size_t sweep, Index s, const Points& row
         packer.put(Header{run_, known_[s].number, news});
         for (const Index row : interest.rows[kind(news)])
             packer.put_row(rows.row(row).data());
-        talk_->send(interest.rank, packer.take());
+        comm_->send(interest.rank, packer.take());
     }
 }
 
@@ -177,7 +177,7 @@ void RankExchange::receive_all(StepGraph& graph, std::vector<Arrival>& arrivals)
             deliver(std::move(message), graph, arrivals);
         const auto all_have_come = [&] { return std::ranges::all_of(arrivals, &Arrival::has_come); };
         while (!all_have_come() && !graph.is_ending())
-            if (std::optional<Message> message = talk_->next_arrival(patience_of_receiver))
+            if (std::optional<Message> message = comm_->next_arrival(patience_of_receiver))
                 deliver(std::move(*message), graph, arrivals);
     } catch (...) {
         graph.fail(std::current_exception());

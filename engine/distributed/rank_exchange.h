@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "engine/distributed/parts/mesh_part.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
+#include "engine/setup/sweep_plan.h"
 #include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/tasks/step_graph.h"
 #include "partition/decomposition/decomposition.h"
-#include "partition/decomposition/sweep_plan.h"
 
 namespace seamflow {
 
@@ -30,11 +30,11 @@ struct KnownSubMesh {
 /// news and rank that waits for it. A thread of its own receives them, and lets the tasks begin that waited.
 class RankExchange final : public ForeignSubMeshes {
   public:
-    /// @param talk, part what the rank knows of the mesh; both must outlive this.
+    /// @param comm, part what the rank knows of the mesh; both must outlive this.
     /// @param known all sub-meshes that the rank knows, ascending.
-    RankExchange(Conversation& talk, const MeshPart& part, std::vector<KnownSubMesh> known);
+    RankExchange(Communicator& comm, const MeshPart& part, std::vector<KnownSubMesh> known);
 
-    [[nodiscard]] bool is_foreign(Index s) const override { return known_[s].rank != talk_->rank(); }
+    [[nodiscard]] bool is_foreign(Index s) const override { return known_[s].rank != comm_->rank(); }
     void connect(const Decomposition& decomposition, std::span<const SweepPlan> sweeps,
                  std::span<const std::vector<Index>> further) override;
     [[nodiscard]] bool awaits(News news, std::size_t sweep, Index s) const override;
@@ -75,7 +75,7 @@ class RankExchange final : public ForeignSubMeshes {
     void deliver(Message message, StepGraph& graph, std::vector<Arrival>& arrivals);
     [[nodiscard]] Index known_index(Index number) const;
 
-    Conversation* talk_;
+    Communicator* comm_;
     const MeshPart* part_;
     std::vector<KnownSubMesh> known_;
     /// Per foreign sub-mesh, what this rank wants to know; per own one, what others want.

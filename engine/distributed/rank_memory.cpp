@@ -18,16 +18,16 @@ void require_fitting(const RankFlowState& state, std::span<const std::int64_t> n
                      const StepMemory& saved)
 {
     if (!numbers.empty() && numbers.back() >= n_vertices)
-        throw InputError("the state to go on from has fewer vertices than the mesh");
+        throw InputError("the state to resume from has fewer vertices than the mesh");
     const auto has_rows = [&](const Points& array) { return array.rows() == state.vertices.rows(); };
     if (state.arrays.size() != saved.arrays.size() || state.numbers.size() != saved.numbers.size() ||
         !std::ranges::all_of(state.arrays, has_rows))
-        throw InputError("the state to go on from is that of steps of another kind");
+        throw InputError("the state to resume from is that of steps of another kind");
 }
 
 }  // namespace
 
-void collect_memory(Conversation& talk, const RankMesh& mesh, const Stepper& stepper, RankFlowState& state)
+void collect_memory(Communicator& comm, const RankMesh& mesh, const Stepper& stepper, RankFlowState& state)
 {
     StepMemory memory;
     stepper.save(memory);
@@ -36,32 +36,32 @@ void collect_memory(Conversation& talk, const RankMesh& mesh, const Stepper& ste
     for (const Index v : stepper.saved_vertices())
         numbers.push_back(mesh.part.vertex_numbers[v]);
     for (const Points& array : memory.arrays) {
-        RankSlice stretch;
-        stretch.vertices = Points::Zero(state.vertices.rows(), 3);
-        collect_positions(talk, numbers, array, stretch);
-        state.arrays.push_back(std::move(stretch.vertices));
+        RankSlice range;
+        range.vertices = Points::Zero(state.vertices.rows(), 3);
+        collect_positions(comm, numbers, array, range);
+        state.arrays.push_back(std::move(range.vertices));
     }
 }
 
-void restore_memory(Conversation& talk, const RankMesh& mesh, const RankFlowState& state, Stepper& stepper)
+void restore_memory(Communicator& comm, const RankMesh& mesh, const RankFlowState& state, Stepper& stepper)
 {
-    RankSlice stretch;
-    stretch.vertices = state.vertices;
-    const SliceBounds bounds = gather_bounds(talk, stretch);
+    RankSlice range;
+    range.vertices = state.vertices;
+    const SliceBounds bounds = gather_bounds(comm, range);
     const std::vector<std::int64_t>& numbers = mesh.part.vertex_numbers;
     StepMemory memory;
     stepper.save(memory);
-    talk.look_together([&] { require_fitting(state, numbers, bounds.vertices.back(), memory); });
+    comm.look_together([&] { require_fitting(state, numbers, bounds.vertices.back(), memory); });
     memory = {
-        .positions = fetch_positions(talk, stretch, numbers, bounds.vertices), .arrays = {}, .numbers = state.numbers};
+        .positions = fetch_positions(comm, range, numbers, bounds.vertices), .arrays = {}, .numbers = state.numbers};
     const std::vector<Index> vertices = stepper.saved_vertices();
     for (const Points& array : state.arrays) {
-        stretch.vertices = array;
-        memory.arrays.emplace_back(fetch_positions(talk, stretch, numbers, bounds.vertices)(vertices, Eigen::all));
+        range.vertices = array;
+        memory.arrays.emplace_back(fetch_positions(comm, range, numbers, bounds.vertices)(vertices, Eigen::all));
     }
-    talk.look_together([&] {
+    comm.look_together([&] {
         if (!memory.positions.allFinite())
-            throw InputError("the state to go on from has vertices that are not finite");
+            throw InputError("the state to resume from has vertices that are not finite");
         stepper.restore(memory);
     });
 }

@@ -2,19 +2,19 @@
 
 #include "engine/distributed/rank_report.h"
 #include "engine/distributed/rank_setup.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/stepper.h"
 
-/// What one step of ranks hands to the next, in the stretches of all ranks. All ranks call these together.
+/// What one step of ranks hands to the next, in the ranges of all ranks. All ranks call these together.
 namespace seamflow {
 
 /// Adds to a state what the next step needs beside positions.
-/// @param state has the vertices of this rank's stretch.
-void collect_memory(Conversation& talk, const RankMesh& mesh, const Stepper& stepper, RankFlowState& state);
+/// @param state has the vertices of this rank's range.
+void collect_memory(Communicator& comm, const RankMesh& mesh, const Stepper& stepper, RankFlowState& state);
 
 /// Gives all of it to a stepper that has not taken a step.
 /// @throws on all ranks the same InputError if it does not fit.
-void restore_memory(Conversation& talk, const RankMesh& mesh, const RankFlowState& state, Stepper& stepper);
+void restore_memory(Communicator& comm, const RankMesh& mesh, const RankFlowState& state, Stepper& stepper);
 
 }  // namespace seamflow

@@ -9,7 +9,7 @@
 
 #include <xxhash.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/labels.h"
 #include "partition/vector_area.h"
 
@@ -46,7 +46,7 @@ std::uint64_t hash_of_half_edge(std::int64_t from, std::int64_t to)
 }
 
 /// See partition/metrics/volume.h: half-edges and their opposites cancel each other, whichever ranks have them.
-bool encloses_volume(Conversation& talk, const RankMesh& mesh)
+bool encloses_volume(Communicator& comm, const RankMesh& mesh)
 {
     std::uint64_t own = 0;
     for (Index f = 0; f < mesh.part.mesh.n_faces(); ++f) {
@@ -58,17 +58,17 @@ bool encloses_volume(Conversation& talk, const RankMesh& mesh)
             from = to;
         }
     }
-    const auto of_all = talk.gather_all(std::vector<std::uint64_t>{own});
+    const auto of_all = comm.gather_all(std::vector<std::uint64_t>{own});
     return std::accumulate(of_all.begin(), of_all.end(), std::uint64_t{0}) == 0 && !mesh.all.empty();
 }
 
 }  // namespace
 
-RankMeter::RankMeter(Conversation& talk, const RankMesh& mesh)
+RankMeter::RankMeter(Communicator& comm, const RankMesh& mesh)
     : mesh_(&mesh)
-    , peers_(make_rank_peers(talk, mesh))
+    , peers_(make_rank_peers(comm, mesh))
     , tree_(*peers_)
-    , encloses_volume_(encloses_volume(talk, mesh))
+    , encloses_volume_(encloses_volume(comm, mesh))
 {
     const auto n = static_cast<Index>(mesh.known.size());
     faces_ = make_lists(n, [&](auto&& add) {

@@ -4,7 +4,7 @@
 
 #include "engine/distributed/rank_report.h"
 #include "engine/distributed/rank_setup.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/index_lists.h"
 #include "solvers/interface/interface_sums.h"
 
@@ -14,8 +14,8 @@ namespace seamflow {
 /// rest is added along a tree (see SumTree): the bits are the same for any number of ranks.
 class RankMeter {
   public:
-    /// All ranks construct it together. @param talk, mesh must outlive the meter.
-    RankMeter(Conversation& talk, const RankMesh& mesh);
+    /// All ranks construct it together. @param comm, mesh must outlive the meter.
+    RankMeter(Communicator& comm, const RankMesh& mesh);
 
     /// All ranks call this together. @returns the same on all ranks.
     /// @param before, after #V by 3 of the part: two states.

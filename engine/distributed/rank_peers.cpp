@@ -6,16 +6,16 @@
 
 namespace seamflow {
 
-RankPeers::RankPeers(Conversation& talk, std::vector<Index> holders, std::vector<Index> places)
-    : InterfacePeers(talk.rank(), std::move(holders), std::move(places))
-    , talk_(&talk)
+RankPeers::RankPeers(Communicator& comm, std::vector<Index> holders, std::vector<Index> places)
+    : InterfacePeers(comm.rank(), std::move(holders), std::move(places))
+    , comm_(&comm)
 {
 }
 
 InterfacePeers::Numbers RankPeers::gather(const std::vector<double>& own)
 {
     Numbers all;
-    for (const Bytes& bytes : talk_->allgather(packed(own)))
+    for (const Bytes& bytes : comm_->allgather(packed(own)))
         all.push_back(unpacked<double>(bytes));
     return all;
 }
@@ -26,7 +26,7 @@ InterfacePeers::Numbers RankPeers::exchange(std::span<const Index> others, const
     for (const std::vector<double>& numbers : to_each)
         bytes.push_back(packed(numbers));
     Numbers from_each;
-    for (const Bytes& received : talk_->exchange_with(others, std::move(bytes)))
+    for (const Bytes& received : comm_->exchange_with(others, std::move(bytes)))
         from_each.push_back(unpacked<double>(received));
     return from_each;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/polygon_mesh.h"
 
@@ -71,10 +71,10 @@ struct RankReport {
 struct RankFlowState {
     /// Number of the step; those after it are taken.
     int step = 0;
-    /// This rank's share: stretches of all ranks, in their order, make up the mesh. #V of the stretch by 3, near the
+    /// This rank's share: ranges of all ranks, in their order, make up the mesh. #V of the range by 3, near the
     /// origin, where the flow goes on; for vertices without faces anything.
     Points vertices = Points(0, 3);
-    /// What else the next step needs: #V of the stretch by 3 each, 0 for vertices of which it needs nothing; and
+    /// What else the next step needs: #V of the range by 3 each, 0 for vertices of which it needs nothing; and
     /// numbers, the same on all ranks.
     std::vector<Points> arrays = {};
     std::vector<double> numbers = {};

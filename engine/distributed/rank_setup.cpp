@@ -13,7 +13,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/setup/constraints.h"
 #include "engine/steppers/sweep_order.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/connected_components.h"
 #include "partition/decomposition/part_of_mesh.h"
@@ -58,12 +58,12 @@ std::vector<KnownSubMesh> localise_labels(const std::vector<OwnedSubMesh>& all, 
 
 /// All sub-meshes of all ranks, in ascending order of their numbers.
 /// @throws InputError for one that several ranks have.
-std::vector<OwnedSubMesh> gather_sub_meshes(Conversation& talk, const MeshPart& part)
+std::vector<OwnedSubMesh> gather_sub_meshes(Communicator& comm, const MeshPart& part)
 {
     std::vector<OwnedSubMesh> own;
     for (const Index number : distinct(part.labels))
-        own.push_back({number, talk.rank()});
-    std::vector<OwnedSubMesh> all = talk.gather_all(own);
+        own.push_back({number, comm.rank()});
+    std::vector<OwnedSubMesh> all = comm.gather_all(own);
     std::ranges::stable_sort(all, {}, &OwnedSubMesh::number);
     const auto shared = std::ranges::adjacent_find(all, {}, &OwnedSubMesh::number);
     if (shared != all.end())
@@ -88,41 +88,41 @@ std::vector<Index> faces_left(const MeshPart& own, const MeshPart& known, const 
 }
 
 /// What a number is over all ranks.
-std::int64_t sum_of_all(Conversation& talk, std::int64_t own)
+std::int64_t sum_of_all(Communicator& comm, std::int64_t own)
 {
-    const auto numbers = talk.gather_all(std::vector<std::int64_t>{own});
+    const auto numbers = comm.gather_all(std::vector<std::int64_t>{own});
     return std::accumulate(numbers.begin(), numbers.end(), std::int64_t{0});
 }
 
 /// Leaves out faces that repeat others, once more is known of the part.
 /// @param mesh receives part and topology, without what makes them those of a flow.
-void grow(Conversation& talk, const MeshPart& own, RankMesh& mesh)
+void grow(Communicator& comm, const MeshPart& own, RankMesh& mesh)
 {
     // With two layers, all that have the vertices around those of its sub-meshes are known.
     constexpr int layers = 2;
     const auto grow_from = [&](const MeshPart& part) {
-        mesh.part = grown_by_layers(talk, part, layers);
+        mesh.part = grown_by_layers(comm, part, layers);
         mesh.topology = make_topology(mesh.part.mesh, run_in_parallel);
     };
     grow_from(own);
     const std::vector<Index> left = faces_left(own, mesh.part, mesh.topology);
-    mesh.n_repeated = sum_of_all(talk, own.mesh.n_faces() - static_cast<std::int64_t>(left.size()));
+    mesh.n_repeated = sum_of_all(comm, own.mesh.n_faces() - static_cast<std::int64_t>(left.size()));
     if (mesh.n_repeated == 0) {
-        mesh.all = gather_sub_meshes(talk, own);
+        mesh.all = gather_sub_meshes(comm, own);
         return;
     }
     const MeshPart without = some_faces(own, left);
-    mesh.all = gather_sub_meshes(talk, without);
+    mesh.all = gather_sub_meshes(comm, without);
     grow_from(without);
     mesh.remarks.push_back(remark_on_repeated_faces(mesh.n_repeated));
 }
 
 /// @throws InputError where some ranks say how vertices are attached and others do not.
-void require_alike_attached(Conversation& talk, const MeshPart& own)
+void require_alike_attached(Communicator& comm, const MeshPart& own)
 {
     if (own.mesh.n_vertices() == 0)
-        talk.gather_all(std::vector<std::uint8_t>());
-    else if (const auto said = talk.gather_all(
+        comm.gather_all(std::vector<std::uint8_t>());
+    else if (const auto said = comm.gather_all(
                  std::vector<std::uint8_t>{static_cast<std::uint8_t>(own.attachment_weights.empty() ? 0 : 1)});
              std::ranges::adjacent_find(said, std::not_equal_to<>()) != said.end())
         throw InputError("some ranks have attachment weights and others have none: give them on all, or on none");
@@ -174,7 +174,7 @@ struct CountedVertices {
 
 /// Each vertex is counted where its lowest sub-mesh is. All ranks call this together.
 template <class Holds>
-CountedVertices count_vertices(Conversation& talk, const RankMesh& mesh, Holds&& holds)
+CountedVertices count_vertices(Communicator& comm, const RankMesh& mesh, Holds&& holds)
 {
     const auto is_counted_here = [&](Index v) {
         auto lowest = static_cast<Index>(mesh.known.size());
@@ -188,7 +188,7 @@ CountedVertices count_vertices(Conversation& talk, const RankMesh& mesh, Holds&&
     if (!counted.empty())
         own.lowest = mesh.part.vertex_numbers[counted.front()];
     CountedVertices all;
-    for (const CountedVertices& of_rank : talk.gather_all(std::vector<CountedVertices>{own})) {
+    for (const CountedVertices& of_rank : comm.gather_all(std::vector<CountedVertices>{own})) {
         if (of_rank.n > 0 && (all.n == 0 || of_rank.lowest < all.lowest))
             all.lowest = of_rank.lowest;
         all.n += of_rank.n;
@@ -198,13 +198,13 @@ CountedVertices count_vertices(Conversation& talk, const RankMesh& mesh, Holds&&
 
 /// Holds the vertices at which the Laplacian is not defined.
 /// @throws InputError if none of the whole mesh is left to move, for that is why.
-void hold_undefined(Conversation& talk, const FlowOptions& options, RankMesh& mesh)
+void hold_undefined(Communicator& comm, const FlowOptions& options, RankMesh& mesh)
 {
     const Laplacian laplacian = options.laplacian;
     const auto undefined = vertices_without_row(mesh.part.mesh, mesh.topology, laplacian, run_in_parallel);
-    const CountedVertices moving = count_vertices(talk, mesh, [&](Index v) { return mesh.topology.moves(v); });
+    const CountedVertices moving = count_vertices(comm, mesh, [&](Index v) { return mesh.topology.moves(v); });
     const CountedVertices held =
-        count_vertices(talk, mesh, [&](Index v) { return std::ranges::binary_search(undefined, v); });
+        count_vertices(comm, mesh, [&](Index v) { return std::ranges::binary_search(undefined, v); });
     hold(mesh.topology, undefined);
     if (moving.n == 0)
         mesh.remarks.push_back(remark_on_unmoving_mesh(options.motion.boundary));
@@ -216,7 +216,7 @@ void hold_undefined(Conversation& talk, const FlowOptions& options, RankMesh& me
 }
 
 /// For each sub-mesh of all ranks, those with which it shares a vertex of Γ; places among all.
-std::vector<std::vector<Index>> gather_adjacency(Conversation& talk, const RankMesh& mesh,
+std::vector<std::vector<Index>> gather_adjacency(Communicator& comm, const RankMesh& mesh,
                                                  const std::vector<Index>& places, const Decomposition& decomposition,
                                                  std::size_t n_of_all)
 {
@@ -230,13 +230,13 @@ std::vector<std::vector<Index>> gather_adjacency(Conversation& talk, const RankM
             for (const Index neighbour : decomposition.adjacency[s])
                 own.push_back({places[s], places[neighbour]});
     std::vector<std::vector<Index>> adjacency(n_of_all);
-    for (const auto& [from, to] : talk.gather_all(own))
+    for (const auto& [from, to] : comm.gather_all(own))
         adjacency[from].push_back(to);
     return adjacency;
 }
 
 /// Σ‖ΔV⁰‖ of each sub-mesh of all ranks.
-std::vector<double> gather_curvatures(Conversation& talk, const RankMesh& mesh, const std::vector<Index>& places,
+std::vector<double> gather_curvatures(Communicator& comm, const RankMesh& mesh, const std::vector<Index>& places,
                                       const Decomposition& decomposition, const FlowOptions& options,
                                       std::size_t n_of_all)
 {
@@ -252,7 +252,7 @@ std::vector<double> gather_curvatures(Conversation& talk, const RankMesh& mesh, 
         if (mesh.is_own[s] != 0)
             own.push_back({places[s], totals[s]});
     std::vector<double> of_all(n_of_all, 0.0);
-    for (const auto& [place, curvature] : talk.gather_all(own))
+    for (const auto& [place, curvature] : comm.gather_all(own))
         of_all[place] = curvature;
     return of_all;
 }
@@ -270,11 +270,11 @@ std::vector<Index> places_among(const std::vector<OwnedSubMesh>& all, const std:
 /// A window that is large enough for both directions, whatever crosses Γ: as if every sub-mesh needed what all around
 /// it find. Ranks whose sub-meshes stand in this order, each with a window of at least this size, do not wait for each
 /// other in a circle: who is solved waits for factorisations of lower places than those that wait for it.
-Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const std::vector<Index>& rank,
+Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const std::vector<Index>& stage,
                         const std::vector<Index>& order)
 {
     Index window = 1;
-    for (const auto& direction : {rank, reversed(rank)}) {
+    for (const auto& direction : {stage, reversed(stage)}) {
         SweepPlan plan = empty_plan(direction);
         for (std::size_t s = 0; s < adjacency.size(); ++s)
             for (const Index neighbour : adjacency[s])
@@ -287,14 +287,14 @@ Index sufficient_window(const std::vector<std::vector<Index>>& adjacency, const 
 
 }  // namespace
 
-BoundingBox gather_box(Conversation& talk, const PolygonMesh& mesh)
+BoundingBox gather_box(Communicator& comm, const PolygonMesh& mesh)
 {
     std::vector<std::array<double, 6>> own;
     if (mesh.n_faces() > 0) {
         const auto [low, high] = box_of_faces(mesh);
         own.push_back({low[0], low[1], low[2], high[0], high[1], high[2]});
     }
-    const auto boxes = talk.gather_all(own);
+    const auto boxes = comm.gather_all(own);
     BoundingBox all;
     for (std::size_t i = 0; i < boxes.size(); ++i)
         for (int c = 0; c < 3; ++c) {
@@ -310,29 +310,29 @@ bool RankMesh::has_own_faces(Index v) const
                                [&](Index corner) { return is_own[part.labels[topology.face_of[corner]]] != 0; });
 }
 
-RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& offset, const FlowOptions& options)
+RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options)
 {
     RankMesh mesh;
-    require_alike_attached(talk, own);
-    grow(talk, own, mesh);
+    require_alike_attached(comm, own);
+    grow(comm, own, mesh);
     mesh.part.mesh.vertices.rowwise() -= offset;
     mesh.known = localise_labels(mesh.all, mesh.part);
     for (const KnownSubMesh& sub_mesh : mesh.known)
-        mesh.is_own.push_back(sub_mesh.rank == talk.rank() ? 1 : 0);
+        mesh.is_own.push_back(sub_mesh.rank == comm.rank() ? 1 : 0);
     require_sound_cut(mesh);
     if (options.motion.boundary == Boundary::Free)
         free_boundary(mesh.topology);
     hold(mesh.topology,
          select(run_in_parallel, mesh.part.mesh.n_vertices(), [&](Index v) { return mesh.part.fixed[v] != 0; }));
-    hold_undefined(talk, options, mesh);
+    hold_undefined(comm, options, mesh);
     if (options.accuracy.approach == Approach::Sweep)
-        talk.look_together([&] {
+        comm.look_together([&] {
             std::vector<Index> rim = moving_boundary(mesh.part.mesh, mesh.topology);
             std::erase_if(rim, [&](Index v) { return !mesh.has_own_faces(v); });
             require_boundary_unshared(mesh.topology, mesh.part.labels, rim);
         });
     const auto is_not_manifold = [&](Index v) { return mesh.topology.kind[v] == VertexKind::NonManifold; };
-    mesh.n_non_manifold = count_vertices(talk, mesh, is_not_manifold).n;
+    mesh.n_non_manifold = count_vertices(comm, mesh, is_not_manifold).n;
     if (mesh.n_non_manifold > 0)
         mesh.remarks.push_back(remark_on_non_manifold_vertices(mesh.n_non_manifold));
     return mesh;
@@ -347,9 +347,9 @@ Decomposition decompose_rank_mesh(RankMesh& mesh)
     return decomposition;
 }
 
-RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
+RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition,
                                    const FlowOptions& options, ForeignSubMeshes& foreign,
-                                   std::vector<Index>& rank_of_all)
+                                   std::vector<Index>& stage_of_all)
 {
     const std::vector<OwnedSubMesh>& all = mesh.all;
     const std::vector<Index> places = places_among(all, mesh.known);
@@ -358,31 +358,31 @@ RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Dec
     result.n_of_all_ranks = all.size();
     result.foreign = &foreign;
     result.topology = &mesh.topology;
-    result.peers = make_rank_peers(talk, mesh);
-    const auto adjacency = gather_adjacency(talk, mesh, places, result.decomposition, all.size());
-    const auto curvatures = gather_curvatures(talk, mesh, places, result.decomposition, options, all.size());
-    rank_of_all = rank_sub_meshes(adjacency, options.interface.colouring, curvatures);
+    result.peers = make_rank_peers(comm, mesh);
+    const auto adjacency = gather_adjacency(comm, mesh, places, result.decomposition, all.size());
+    const auto curvatures = gather_curvatures(comm, mesh, places, result.decomposition, options, all.size());
+    stage_of_all = assign_stages(adjacency, options.interface.colouring, curvatures);
     for (const Index place : places)
-        result.rank.push_back(rank_of_all[place]);
+        result.stage.push_back(stage_of_all[place]);
     const std::vector<Index> order = reverse_cuthill_mckee(adjacency);
     for (const Index place : order)
         if (const Index s = position_in(places, place); s >= 0 && mesh.is_own[s] != 0)
             result.factor_order.push_back(s);
-    result.least_window = sufficient_window(adjacency, rank_of_all, order);
+    result.least_window = sufficient_window(adjacency, stage_of_all, order);
     return result;
 }
 
-std::unique_ptr<InterfacePeers> make_rank_peers(Conversation& talk, const RankMesh& mesh)
+std::unique_ptr<InterfacePeers> make_rank_peers(Communicator& comm, const RankMesh& mesh)
 {
     std::vector<Index> holders;
     for (const OwnedSubMesh& sub_mesh : mesh.all)
         holders.push_back(sub_mesh.rank);
-    return std::make_unique<RankPeers>(talk, std::move(holders), places_among(mesh.all, mesh.known));
+    return std::make_unique<RankPeers>(comm, std::move(holders), places_among(mesh.all, mesh.known));
 }
 
-PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition)
+PeerSubMeshes make_peer_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition)
 {
-    return {std::move(decomposition), make_rank_peers(talk, mesh),
+    return {std::move(decomposition), make_rank_peers(comm, mesh),
             [known = mesh.known](Index s, const std::function<void()>& body) {
                 run_for_sub_mesh(known[s], known[s].number, body);
             }};

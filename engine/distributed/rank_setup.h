@@ -7,7 +7,7 @@
 
 #include "engine/distributed/parts/mesh_part.h"
 #include "engine/distributed/rank_exchange.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/options/flow_options.h"
 #include "engine/steppers/schur_stepper.h"
@@ -23,7 +23,7 @@ struct OwnedSubMesh {
 };
 
 /// The box around the vertices of the faces of all ranks.
-BoundingBox gather_box(Conversation& talk, const PolygonMesh& mesh);
+BoundingBox gather_box(Communicator& comm, const PolygonMesh& mesh);
 
 /// What a rank knows of a mesh before the flow begins.
 struct RankMesh {
@@ -49,25 +49,25 @@ struct RankMesh {
 /// Grows the part of a rank by what it has to know of others, and settles which vertices move.
 /// @param offset to be subtracted from all positions.
 /// @throws InputError for sub-meshes and faces that cannot be used.
-RankMesh make_rank_mesh(Conversation& talk, const MeshPart& own, const Point& offset, const FlowOptions& options);
+RankMesh make_rank_mesh(Communicator& comm, const MeshPart& own, const Point& offset, const FlowOptions& options);
 
 /// Decomposes what a rank knows.
 /// @param mesh receives how many vertices each sub-mesh has.
 Decomposition decompose_rank_mesh(RankMesh& mesh);
 
 /// Agrees with the other ranks on the order of the sweep.
-/// @param talk, mesh must outlive the result. @param foreign is put into it.
-/// @param rank_of_all receives the place of each of them in the sweep.
-RankSubMeshes make_rank_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition,
+/// @param comm, mesh must outlive the result. @param foreign is put into it.
+/// @param stage_of_all receives the place of each of them in the sweep.
+RankSubMeshes make_rank_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition,
                                    const FlowOptions& options, ForeignSubMeshes& foreign,
-                                   std::vector<Index>& rank_of_all);
+                                   std::vector<Index>& stage_of_all);
 
 /// The ranks as those that work on all sub-meshes together.
-/// @param talk must outlive the result.
-std::unique_ptr<InterfacePeers> make_rank_peers(Conversation& talk, const RankMesh& mesh);
+/// @param comm must outlive the result.
+std::unique_ptr<InterfacePeers> make_rank_peers(Communicator& comm, const RankMesh& mesh);
 
 /// What converged steps need, which ranks take together.
-/// @param talk must outlive the result.
-PeerSubMeshes make_peer_sub_meshes(Conversation& talk, const RankMesh& mesh, Decomposition decomposition);
+/// @param comm must outlive the result.
+PeerSubMeshes make_peer_sub_meshes(Communicator& comm, const RankMesh& mesh, Decomposition decomposition);
 
 }  // namespace seamflow

@@ -6,13 +6,13 @@
 
 namespace seamflow {
 
-RowsOfOthers::RowsOfOthers(Conversation& talk, const RankMesh& mesh, const std::vector<std::int64_t>& wanted)
-    : talk_(&talk)
+RowsOfOthers::RowsOfOthers(Communicator& comm, const RankMesh& mesh, const std::vector<std::int64_t>& wanted)
+    : comm_(&comm)
     , n_wanted_(static_cast<Index>(wanted.size()))
 {
     const std::vector<std::int64_t>& known = mesh.part.vertex_numbers;
     std::vector<Bytes> answers;
-    for (const Bytes& asked : talk.allgather(packed(wanted))) {
+    for (const Bytes& asked : comm.allgather(packed(wanted))) {
         const auto numbers = unpacked<std::int64_t>(asked);
         std::vector<Index>& rows = theirs_.emplace_back();
         std::vector<Index> places;
@@ -25,7 +25,7 @@ RowsOfOthers::RowsOfOthers(Conversation& talk, const RankMesh& mesh, const std::
         }
         answers.push_back(packed(places));
     }
-    for (const Bytes& answer : talk.exchange(std::move(answers)))
+    for (const Bytes& answer : comm.exchange(std::move(answers)))
         ours_.push_back(unpacked<Index>(answer));
 }
 
@@ -40,7 +40,7 @@ Points RowsOfOthers::fetch(const Points& rows) const
         to_each.push_back(packed(values));
     }
     Points fetched = Points::Zero(n_wanted_, 3);
-    const std::vector<Bytes> of_each = talk_->exchange(std::move(to_each));
+    const std::vector<Bytes> of_each = comm_->exchange(std::move(to_each));
     for (std::size_t rank = 0; rank < of_each.size(); ++rank) {
         const auto values = unpacked<double>(of_each[rank]);
         for (std::size_t i = 0; i < ours_[rank].size(); ++i)

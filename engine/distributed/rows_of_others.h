@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/distributed/rank_setup.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 
 namespace seamflow {
 
@@ -12,16 +12,16 @@ namespace seamflow {
 class RowsOfOthers {
   public:
     /// All ranks call this together.
-    /// @param talk, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, of each of
+    /// @param comm, mesh must outlive this. @param wanted numbers of vertices in the whole mesh, ascending, of each of
     ///        which a rank has faces.
-    RowsOfOthers(Conversation& talk, const RankMesh& mesh, const std::vector<std::int64_t>& wanted);
+    RowsOfOthers(Communicator& comm, const RankMesh& mesh, const std::vector<std::int64_t>& wanted);
 
     /// All ranks call this together.
     /// @param rows #V by 3: of the vertices that this rank knows. @returns #wanted by 3.
     [[nodiscard]] Points fetch(const Points& rows) const;
 
   private:
-    Conversation* talk_;
+    Communicator* comm_;
     Index n_wanted_;
     /// Per rank: which rows it wants, and which of the wanted ones it has.
     std::vector<std::vector<Index>> theirs_;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 
 namespace seamflow {
 

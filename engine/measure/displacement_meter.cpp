@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -56,7 +56,7 @@ void DisplacementMeter::restore(const DisplacementSums& sums, const Points& now)
 {
     const std::size_t n = at(mesh_.n_vertices());
     if (sums.drift.rows() != mesh_.n_vertices() || sums.tangential.size() != n || sums.normal.size() != n)
-        throw InputError("the displacements to go on from are not those of this mesh");
+        throw InputError("the displacements to resume from are not those of this mesh");
     drift_ = sums.drift;
     path_ = {.tangential = sums.tangential, .normal = sums.normal};
     measure_normals(now);

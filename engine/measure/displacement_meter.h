@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "partition/metrics/displacement.h"
 
 namespace seamflow {
@@ -29,7 +29,7 @@ class DisplacementMeter {
     /// Of all steps so far.
     [[nodiscard]] TotalDisplacement total() const;
 
-    /// The sums that the next step adds to, empty before the first; and goes on from where there were some.
+    /// The sums that the next step adds to, empty before the first; and continues from where there were some.
     /// @param now #V by 3, the positions then.
     /// @throws InputError if they do not fit.
     [[nodiscard]] DisplacementSums sums() const;

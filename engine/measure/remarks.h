@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/vertex_distance.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/mean_curvature.h"

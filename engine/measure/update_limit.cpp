@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/surface_measures.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 
 namespace seamflow {

@@ -41,8 +41,8 @@ struct FlowControl {
     /// Stops the flow as soon as running tasks are done, which start no others.
     std::stop_token stop = {};
     ProgressObserver on_progress = {};
-    /// The state to go on from instead of the beginning, made by StepState::capture in an observer of the same flow: of
-    /// the same mesh and options, except for the number of steps and for options that do not change results.
+    /// The state to resume from instead of the beginning, made by StepState::capture in an observer of the same flow:
+    /// of the same mesh and options, except for the number of steps and for options that do not change results.
     std::shared_ptr<const FlowState> resume = nullptr;
 };
 

@@ -76,7 +76,7 @@ struct ApproachChoice {
 /// least (see predict_cost), of those that come as near to the undecomposed flow as sub-meshes would by their own
 /// choice.
 /// @param topology with the vertices that move.
-/// @param earlier what was chosen for the steps that the flow goes on from, maybe for fewer of them: it stays.
+/// @param earlier what was chosen for the steps that the flow continues from, maybe for fewer of them: it stays.
 ApproachChoice choose_approach(const PolygonMesh& mesh, const Topology& topology, const MeshSize& size,
                                const FlowOptions& options, std::optional<Approach> earlier = {});
 

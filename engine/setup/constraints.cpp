@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/remarks.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/degenerate.h"
@@ -35,7 +35,7 @@ std::size_t count_moving(const Topology& topology)
 
 }  // namespace
 
-void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Executor& exec,
                std::vector<std::string>& remarks)
 {
     if (options.motion.boundary == Boundary::Free)
@@ -47,10 +47,10 @@ void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& o
                                      n_weights, mesh.n_vertices()));
     if (options.motion.strict)
         require_manifold(topology);
-    const std::vector<Index> undefined = vertices_without_row(mesh, topology, options.laplacian, loop);
+    const std::vector<Index> undefined = vertices_without_row(mesh, topology, options.laplacian, exec);
     // Where nothing can move, the reason is more useful than the unchanged mesh.
     if (options.motion.strict || undefined.size() == count_moving(topology))
-        require_sound_geometry(mesh, topology, options.laplacian, loop);
+        require_sound_geometry(mesh, topology, options.laplacian, exec);
     if (!undefined.empty())
         remarks.push_back(remark_on_undefined_vertices(static_cast<std::int64_t>(undefined.size()), undefined.front(),
                                                        options.laplacian));

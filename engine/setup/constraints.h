@@ -16,7 +16,7 @@ namespace seamflow {
 /// @throws InputError for a number in MotionOptions::fixed_vertices that is none of a vertex; for another number of
 ///         attachment weights than the mesh has vertices; with MotionOptions::strict naming
 ///         the first vertex, edge or face that the flow is not defined at; without it too if it is defined nowhere.
-void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Loop& loop,
+void constrain(Topology& topology, const PolygonMesh& mesh, const FlowOptions& options, const Executor& exec,
                std::vector<std::string>& remarks);
 
 /// The vertices on the boundary that move.

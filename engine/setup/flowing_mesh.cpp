@@ -8,7 +8,7 @@
 
 #include "engine/measure/remarks.h"
 #include "engine/setup/origin_offset.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/weld.h"
 
@@ -44,11 +44,11 @@ FlowingMesh::FlowingMesh(PolygonMesh& given)
     copy_->vertices.rowwise() -= offset_;
 }
 
-void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Loop& loop)
+void FlowingMesh::weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec)
 {
     if (!motion.weld)
         return;
-    std::optional<Weld> welded = weld(mesh(), topology, *motion.weld, loop);
+    std::optional<Weld> welded = weld(mesh(), topology, *motion.weld, exec);
     if (!welded)
         return;
     first_ = std::move(welded->first);

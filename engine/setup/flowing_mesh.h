@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -26,7 +26,7 @@ class FlowingMesh {
     /// @param topology of mesh(); becomes that of the mesh with vertices joined.
     /// @param motion what it says of one of the vertices that are joined, it then says of their first: that this is
     ///        held, or attached by the largest of their weights.
-    void weld_seams(Topology& topology, MotionOptions& motion, const Loop& loop);
+    void weld_seams(Topology& topology, MotionOptions& motion, const Executor& exec);
 
     /// How many vertices of mesh() have become one with others before them, and have no faces any more.
     [[nodiscard]] Index n_copies() const { return static_cast<Index>(copies_.size()); }

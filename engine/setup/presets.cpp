@@ -25,22 +25,22 @@ constexpr int denoising_order = 3;
 constexpr std::array table{
     PresetTraits{.preset = Preset::Scan,
                  .name = "scan",
-                 .purpose = "removes the noise that the mesh is found to have, and hardly touches what is larger",
+                 .purpose = "removes the measured noise, and hardly changes larger features",
                  .order = denoising_order},
     PresetTraits{.preset = Preset::Cad,
                  .name = "cad",
-                 .purpose = "removes noise between edges of more than 30 degrees, and keeps these",
+                 .purpose = "removes noise, and keeps edges of more than 30 degrees",
                  .laplacian = Laplacian::VirtualRefinement,
                  .keep_edges = 30.0,
                  .time_step_edges = 32.0},
     PresetTraits{.preset = Preset::Terrain,
                  .name = "terrain",
-                 .purpose = "removes noise, and keeps landforms larger than 5 % of the diagonal where they are",
+                 .purpose = "removes noise, and keeps landforms larger than 5 % of the diagonal",
                  .order = denoising_order,
                  .attach = LengthOnMesh{0.05, true}},
     PresetTraits{.preset = Preset::Fair,
                  .name = "fair",
-                 .purpose = "makes a calm surface: bumps of up to 3 % of the diagonal lose half their height or more",
+                 .purpose = "makes a fair surface: bumps of up to 3 % of the diagonal lose at least half their height",
                  .laplacian = Laplacian::VirtualRefinement,
                  .flow = FlowEquation::Conformalized,
                  .steps = 5,
@@ -79,21 +79,21 @@ void smooth_nothing(PresetChoice& choice, double mean_edge, std::string remark)
 
 /// Chooses by the noise of the mesh as it flows.
 void choose_by_noise(const PolygonMesh& mesh, const std::optional<LengthOnMesh>& known, PresetChoice& choice,
-                     const Loop& loop)
+                     const Executor& exec)
 {
-    const Topology topology = make_topology(mesh, loop);
+    const Topology topology = make_topology(mesh, exec);
     const std::optional<double> within = choice.options.motion.weld;
-    const std::optional<Weld> welded = within ? weld(mesh, topology, *within, loop) : std::nullopt;
+    const std::optional<Weld> welded = within ? weld(mesh, topology, *within, exec) : std::nullopt;
     const PolygonMesh& flowing = welded ? welded->mesh : mesh;
     const Topology& joined = welded ? welded->topology : topology;
-    const double mean_edge = mean_edge_length(mesh, mesh.vertices, loop);
+    const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
     const double diagonal = extent_of(mesh.vertices);
-    choice.noise = known ? length_of(*known, diagonal) : estimate_noise(flowing, joined, loop);
+    choice.noise = known ? length_of(*known, diagonal) : estimate_noise(flowing, joined, exec);
     if (*choice.noise == 0.0)
         return smooth_nothing(choice, mean_edge,
                               "No noise can be told from the shape of the mesh: nothing is smoothed. --radius says how "
                               "much to smooth all the same, and --preset cad keeps edges.");
-    const double t = denoising_amount(flowing, joined, *choice.noise, loop).amount;
+    const double t = denoising_amount(flowing, joined, *choice.noise, exec).amount;
     // Of Δ_U, dt h²/4 of whose rows of the mean of differences are t.
     const double radius = smoothed_radius(0.25 * t * mean_edge * mean_edge, 1, {.order = denoising_order});
     if (!(radius > 0.0) || !(radius <= largest_radius * diagonal))
@@ -141,12 +141,12 @@ double attachment_of(const LengthOnMesh& length, double diagonal)
 }
 
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
-                   PresetChoice& choice, const Loop& loop)
+                   PresetChoice& choice, const Executor& exec)
 {
     FlowOptions& options = choice.options;
     options.motion.limits = {.volume = most_volume_change};
     if (preset.time_step_edges) {
-        const double mean_edge = mean_edge_length(mesh, mesh.vertices, loop);
+        const double mean_edge = mean_edge_length(mesh, mesh.vertices, exec);
         const double reach = largest_reach * extent_of(mesh.vertices) / mean_edge;
         const double edges = std::min(*preset.time_step_edges, rounded(reach * reach));
         options.time_step = require_step(edges * mean_edge * mean_edge);
@@ -154,14 +154,14 @@ void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const st
         options.time_step =
             time_step_for_radius(*preset.radius, options.steps, extent_of(mesh.vertices), filter_of(options));
     } else {
-        choose_by_noise(mesh, noise, choice, loop);
+        choose_by_noise(mesh, noise, choice, exec);
     }
 }
 
 PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptions& further,
-                         const std::optional<LengthOnMesh>& noise, const Loop& loop)
+                         const std::optional<LengthOnMesh>& noise, const Executor& exec)
 {
-    require_valid(mesh, loop);
+    require_valid(mesh, exec);
     const PresetTraits& traits = *std::ranges::find(table, preset, &PresetTraits::preset);
     PresetChoice choice{.options = further};
     FlowOptions& options = choice.options;
@@ -174,7 +174,7 @@ PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptio
     options.radius.reset();
     if (traits.attach)
         options.motion.attachment = attachment_of(*traits.attach, extent_of(mesh.vertices));
-    choose_amount(traits, mesh, noise, choice, loop);
+    choose_amount(traits, mesh, noise, choice, exec);
     return choice;
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "engine/options/flow_options.h"
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -65,13 +65,13 @@ struct PresetChoice {
 /// @param noise the standard deviation of the noise along the normals, where it is known.
 /// @throws InputError for a mesh that is not valid, or that has no size to measure by ("has no size …").
 PresetChoice options_for(Preset preset, const PolygonMesh& mesh, const FlowOptions& further = {},
-                         const std::optional<LengthOnMesh>& noise = {}, const Loop& loop = run_serially);
+                         const std::optional<LengthOnMesh>& noise = {}, const Executor& exec = run_serially);
 
 /// The amount of a preset, and its limits, for other options than its own, too: an amount by the noise is that with
 /// which bumps are half as high that the preset's own options would make half as high.
 /// @param choice its options all but the amount; receives that, the noise and the remark.
 void choose_amount(const PresetTraits& preset, const PolygonMesh& mesh, const std::optional<LengthOnMesh>& noise,
-                   PresetChoice& choice, const Loop& loop = run_serially);
+                   PresetChoice& choice, const Executor& exec = run_serially);
 
 /// In units of length.
 /// @param diagonal of the bounding box of all vertices.

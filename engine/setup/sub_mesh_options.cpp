@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/decomposition/overlap.h"
 #include "solvers/conditions/robin_parameter.h"
 #include "solvers/conditions/ventcell.h"
@@ -77,12 +77,12 @@ bool corrects(const FlowOptions& options)
              options.interface.conditions == Conditions::AdaptedVentcell));
 }
 
-SweepPlan make_plan(const Decomposition& decomposition, const FlowOptions& options, const std::vector<Index>& rank)
+SweepPlan make_plan(const Decomposition& decomposition, const FlowOptions& options, const std::vector<Index>& stage)
 {
     if (options.interface.conditions == Conditions::Schwarz)
-        return plan_overlapping_sweep(decomposition, rank);
-    return is_classical(options.interface.conditions) ? plan_mutual_sweep(decomposition, rank, run_in_parallel)
-                                                      : plan_sweep(decomposition, rank, run_in_parallel);
+        return plan_overlapping_sweep(decomposition, stage);
+    return is_classical(options.interface.conditions) ? plan_mutual_sweep(decomposition, stage, run_in_parallel)
+                                                      : plan_sweep(decomposition, stage, run_in_parallel);
 }
 
 }  // namespace seamflow

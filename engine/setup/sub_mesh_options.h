@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/options/flow_options.h"
-#include "partition/decomposition/sweep_plan.h"
+#include "engine/setup/sweep_plan.h"
 #include "solvers/systems/sub_mesh_system.h"
 
 /// What the options of a flow mean for its sub-meshes.
@@ -34,6 +34,6 @@ bool alternates(const FlowOptions& options, std::size_t n_sub_meshes);
 bool corrects(const FlowOptions& options);
 
 /// The sweep in ascending order of `rank`.
-SweepPlan make_plan(const Decomposition& decomposition, const FlowOptions& options, const std::vector<Index>& rank);
+SweepPlan make_plan(const Decomposition& decomposition, const FlowOptions& options, const std::vector<Index>& stage);
 
 }  // namespace seamflow

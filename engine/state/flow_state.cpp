@@ -8,7 +8,7 @@ namespace {
 
 [[noreturn]] void refuse()
 {
-    throw InputError("the state to go on from does not fit the flow: it has been changed or belongs to another one");
+    throw InputError("the state to resume from does not fit the flow: it has been changed or belongs to another one");
 }
 
 }  // namespace

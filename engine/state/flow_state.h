@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/measure/displacement_meter.h"
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "engine/state/flow_identity.h"
 #include "partition/polygon_mesh.h"
 

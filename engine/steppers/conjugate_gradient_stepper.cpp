@@ -8,16 +8,16 @@ ConjugateGradientStepper::ConjugateGradientStepper(const PolygonMesh& mesh, cons
                                                    const FlowOptions& options, Progress& progress)
     : ConvergedStepper(mesh, 0, options, 1.0, progress)
     , mesh_(&mesh)
-    , system_(mesh, topology, laplacian_of(options), terms_of(options, mesh.vertices), progress.loop(),
+    , system_(mesh, topology, laplacian_of(options), terms_of(options, mesh.vertices), progress.exec(),
               !filter_of(options).is_plain())
 {
 }
 
-InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& stop, const Loop& loop)
+InterfaceResult ConjugateGradientStepper::solve_equation(const IterationStop& stop, const Executor& exec)
 {
     const WholeMeshSystem::Result result = data_ != nullptr
-                                               ? system_.apply(*data_, stop, positions_, loop)
-                                               : system_.step(*before_, time_step_, stop, positions_, loop);
+                                               ? system_.apply(*data_, stop, positions_, exec)
+                                               : system_.step(*before_, time_step_, stop, positions_, exec);
     return {result, result.distance};
 }
 

@@ -18,7 +18,7 @@ class ConjugateGradientStepper final : public ConvergedStepper {
     void describe(FlowReport& report) const override;
 
   private:
-    InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) override;
+    InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
 
     const PolygonMesh* mesh_;
     WholeMeshSystem system_;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/measure/remarks.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
 
@@ -96,7 +96,7 @@ const Points& ConvergedStepper::localised(std::span<const Index> local_to_global
     return workspace.positions;
 }
 
-void ConvergedStepper::go_on_from(const Points& image, const Similarity&)
+void ConvergedStepper::continue_from(const Points& image, const Similarity&)
 {
     copy(run_in_parallel, image, positions_);
 }

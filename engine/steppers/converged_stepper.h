@@ -21,7 +21,7 @@ class ConvergedStepper : public Stepper {
   public:
     void step(const Points& before) final;
     [[nodiscard]] const Points& positions() const final { return positions_; }
-    void go_on_from(const Points& image, const Similarity&) final;
+    void continue_from(const Points& image, const Similarity&) final;
     void move(std::span<const Index> vertices, const Points& to) final { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) final;
@@ -36,7 +36,7 @@ class ConvergedStepper : public Stepper {
                      Progress& progress);
 
     /// Solves it.
-    virtual InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) = 0;
+    virtual InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) = 0;
 
     /// Takes back what `save` has added.
     virtual void restore_further(StepMemoryReader&) {}

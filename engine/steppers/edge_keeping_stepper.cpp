@@ -20,12 +20,12 @@ constexpr double short_step = 0.01;
 
 /// Normals diffuse on each side of the lines alone.
 NormalDiffusion diffusion_between(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
-                                  const Loop& loop)
+                                  const Executor& exec)
 {
     if (lines.empty())
-        return {mesh, topology, loop};
+        return {mesh, topology, exec};
     const PolygonMesh open = lines.cut_open(mesh, topology);
-    return {mesh, open, make_topology(open, loop), loop};
+    return {mesh, open, make_topology(open, exec), exec};
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& 
     , time_step_(options.time_step)
     , angle_(options.keep_edges.value())
     , lines_(mesh, topology, options.motion.feature_edges)
-    , diffusion_(diffusion_between(mesh, topology, lines_, progress.loop()))
+    , diffusion_(diffusion_between(mesh, topology, lines_, progress.exec()))
     , positions_(mesh.vertices)
     , loops_(1.0, progress)
 {
@@ -46,15 +46,15 @@ EdgeKeepingStepper::EdgeKeepingStepper(const PolygonMesh& mesh, const Topology& 
 void EdgeKeepingStepper::step(const Points& before)
 {
     assert(&before != &positions_);
-    const Loop loop = loops_.begin();
+    const Executor exec = loops_.begin();
     Points from = before;
     for (int pass = 0; pass < passes; ++pass) {
-        const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, loop);
-        fit_vertices(*mesh_, *topology_, lines_, normals, diffusion_.noise(), from, positions_, loop);
+        const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, exec);
+        fit_vertices(*mesh_, *topology_, lines_, normals, diffusion_.noise(), from, positions_, exec);
         from.swap(positions_);
     }
     // Vertices fit at once, however short the step: they go all the way where it is long against faces.
-    for_each(loop, mesh_->n_vertices(), [&](Index v) {
+    for_each(exec, mesh_->n_vertices(), [&](Index v) {
         const auto corners = topology_->corners_at(v);
         double size = 0.0;
         for (const Index corner : corners)

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/setup/sub_mesh_options.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/index_lists.h"
 #include "solvers/direct/columns.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/mean_curvature.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
 #include "partition/polygon_mesh.h"
@@ -26,7 +26,7 @@ class ExplicitStepper final : public Stepper {
     ///         result is not finite.
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
-    void go_on_from(const Points& image, const Similarity&) override { positions_ = image; }
+    void continue_from(const Points& image, const Similarity&) override { positions_ = image; }
     void move(std::span<const Index> vertices, const Points& to) override { move_rows(vertices, to, positions_); }
     void save(StepMemory& memory) const override;
     void restore(const StepMemory& memory) override;

@@ -5,9 +5,9 @@
 #include <functional>
 #include <span>
 
+#include "engine/setup/sweep_plan.h"
 #include "engine/tasks/step_graph.h"
 #include "partition/decomposition/decomposition.h"
-#include "partition/decomposition/sweep_plan.h"
 #include "partition/index.h"
 #include "partition/polygon_mesh.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 
 namespace seamflow {
 

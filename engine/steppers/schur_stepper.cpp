@@ -6,7 +6,7 @@
 
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/sub_mesh_options.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
 #include "solvers/direct/columns.h"
@@ -54,7 +54,7 @@ PeerSubMeshes alone(Decomposition decomposition)
 
 SchurStepper::SchurStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const FlowOptions& options, Progress& progress)
-    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop())), options, progress)
+    : SchurStepper(mesh, alone(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec())), options, progress)
 {
 }
 
@@ -183,18 +183,18 @@ void SchurStepper::fetch_increments(Index s, Points& increments) const
 
 /// Those whose factors are made again take turns.
 template <class Action>
-void SchurStepper::for_each_part(const Loop& loop, Action&& action)
+void SchurStepper::for_each_part(const Executor& exec, Action&& action)
 {
     const auto act = [&](Index s) { run_for(s, [&] { action(s); }); };
     std::vector<Index> passing;
     for (Index s = 0; s < static_cast<Index>(parts_.size()); ++s)
         if (!is_kept(s))
             passing.push_back(s);
-    for_each(loop, static_cast<Index>(parts_.size()), [&](Index s) {
+    for_each(exec, static_cast<Index>(parts_.size()), [&](Index s) {
         if (is_own(s) && is_kept(s))
             act(s);
     });
-    for_each(loop, factors_.plan.n_places, [&](Index place) {
+    for_each(exec, factors_.plan.n_places, [&](Index place) {
         for (std::size_t i = at(place); i < passing.size(); i += at(factors_.plan.n_places))
             act(passing[i]);
     });
@@ -332,9 +332,9 @@ void SchurStepper::refine(Index s, const Points& update)
 }
 
 /// @returns what is left on Γ.
-Points& SchurStepper::refine_all(const Points& update, const Loop& loop)
+Points& SchurStepper::refine_all(const Points& update, const Executor& exec)
 {
-    for_each_part(loop, [&](Index s) { refine(s, update); });
+    for_each_part(exec, [&](Index s) { refine(s, update); });
     interface_.reached = update;
     return interface_.condensed;
 }
@@ -360,14 +360,14 @@ Point SchurStepper::interior_residual() const
 /// they are so by then.
 /// @param first what there was to begin with.
 /// @returns whether they have come so far.
-bool SchurStepper::refine_interiors(double tolerance, const Point& first, const Loop& loop)
+bool SchurStepper::refine_interiors(double tolerance, const Point& first, const Executor& exec)
 {
     const auto is_small = [&](const Point& residual) {
         return (left_by_single * residual.array() <= tolerance * first.array()).all();
     };
     Point residual = interior_residual();
     while (!is_small(residual)) {
-        refine_all(interface_.update, loop);
+        refine_all(interface_.update, exec);
         const Point before = std::exchange(residual, interior_residual());
         if (residual.maxCoeff() > 0.5 * before.maxCoeff())
             return is_small(residual);
@@ -377,11 +377,11 @@ bool SchurStepper::refine_interiors(double tolerance, const Point& first, const 
 
 /// Of each coordinate, whether Γ moves no more along it than rounding of positions would: what is left of such
 /// residuals says nothing.
-std::array<bool, 3> SchurStepper::at_rest(const Loop& loop) const
+std::array<bool, 3> SchurStepper::at_rest(const Executor& exec) const
 {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
     std::vector<double> farthest(parts_.size(), 0.0);
-    for_each(loop, static_cast<Index>(parts_.size()), [&](Index s) {
+    for_each(exec, static_cast<Index>(parts_.size()), [&](Index s) {
         for (Index v = 0; v < parts_[s].sub_mesh.n_vertices; ++v)
             farthest[s] =
                 std::max(farthest[s], before_->row(parts_[s].sub_mesh.local_to_global[v]).cwiseAbs().maxCoeff());
@@ -400,15 +400,15 @@ std::array<bool, 3> SchurStepper::at_rest(const Loop& loop) const
 }
 
 /// @returns stagnation also where refinement of the interiors stagnates.
-InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, const Loop& loop)
+InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, const Executor& exec)
 {
     interface_.reached.setZero(equation_.copies().n_vertices(), 3);
     const Point first = interior_residual();
     InterfaceResult result = equation_.solve(
         interface_.complements, interface_.condensed,
-        [&](const Points& update) -> Points& { return refine_all(update, loop); },
-        interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, loop);
-    const std::array<bool, 3> rests = at_rest(loop);
+        [&](const Points& update) -> Points& { return refine_all(update, exec); },
+        interface_.has_guess ? &interface_.guess : nullptr, stop, interface_.update, exec);
+    const std::array<bool, 3> rests = at_rest(exec);
     if (std::ranges::find(rests, true) != rests.end()) {
         double moving = 0.0;
         for (std::size_t c = 0; c < 3; ++c)
@@ -418,22 +418,22 @@ InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, cons
         result.stagnated &= moving > stop.tolerance;
     }
     if (std::ranges::find(rests, false) != rests.end() && has_single() &&
-        !refine_interiors(stop.tolerance, first, loop)) {
+        !refine_interiors(stop.tolerance, first, exec)) {
         result.residual = std::max(result.residual, largest_ratio(interior_residual(), first));
         result.stagnated = true;
     }
     return result;
 }
 
-InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Loop& loop)
+InterfaceResult SchurStepper::solve_equation(const IterationStop& stop, const Executor& exec)
 {
     interface_.guess.swap(interface_.update);
     interface_.has_guess = std::exchange(interface_.has_update, true);
-    const InterfaceResult result = solve_on_interface(stop, loop);
+    const InterfaceResult result = solve_on_interface(stop, exec);
     if (!result.stagnated || !has_single() || factors_.precision == Precision::Single)
         return result;
-    for_each_part(loop, [&](Index s) { condense_in(s, Precision::Double); });
-    return solve_on_interface(stop, loop);
+    for_each_part(exec, [&](Index s) { condense_in(s, Precision::Double); });
+    return solve_on_interface(stop, exec);
 }
 
 void SchurStepper::back_substitute(Index s)

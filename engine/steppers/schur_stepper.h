@@ -111,7 +111,7 @@ class SchurStepper final : public ConvergedStepper {
     [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void take_turns(const std::vector<StepGraph::Node>& tasks);
     template <class Action>
-    void for_each_part(const Loop& loop, Action&& action);
+    void for_each_part(const Executor& exec, Action&& action);
     void fetch_increments(Index s, Points& increments) const;
     NeumannSystem::Assembled assemble(Index s, SolverWorkspace& workspace) const;
     NeumannSystem::Factor factorise_and_condense(Index s, SolverWorkspace& workspace);
@@ -125,11 +125,11 @@ class SchurStepper final : public ConvergedStepper {
     void refine(Index s, const Points& update);
     [[nodiscard]] bool has_single() const;
     [[nodiscard]] Point interior_residual() const;
-    [[nodiscard]] std::array<bool, 3> at_rest(const Loop& loop) const;
-    bool refine_interiors(double tolerance, const Point& first, const Loop& loop);
-    Points& refine_all(const Points& update, const Loop& loop);
-    InterfaceResult solve_on_interface(const IterationStop& stop, const Loop& loop);
-    InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) override;
+    [[nodiscard]] std::array<bool, 3> at_rest(const Executor& exec) const;
+    bool refine_interiors(double tolerance, const Point& first, const Executor& exec);
+    Points& refine_all(const Points& update, const Executor& exec);
+    InterfaceResult solve_on_interface(const IterationStop& stop, const Executor& exec);
+    InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
     void back_substitute(Index s);
     void restore_further(StepMemoryReader& memory) override;
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/measure/remarks.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/decomposition/local_mesh.h"
@@ -25,14 +25,15 @@ SchwarzGmresStepper::SchwarzGmresStepper(const PolygonMesh& mesh, const Topology
     : ConvergedStepper(mesh, cut.n_parts, options, 2.0 * cut.n_parts, progress)
     , factorisation_(options.resources.factorisation)
 {
-    cut_out(mesh, topology, cut, progress.loop());
+    cut_out(mesh, topology, cut, progress.exec());
     make_blocks(options, progress);
     limit_factors(options);
     equation_.emplace(blocks_.of, mesh.n_vertices());
     make_graph();
 }
 
-void SchwarzGmresStepper::cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const Loop& loop)
+void SchwarzGmresStepper::cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
+                                  const Executor& exec)
 {
     // Everyone grows into everyone.
     const std::vector<Index> rank(cut.n_parts, 0);
@@ -43,7 +44,7 @@ void SchwarzGmresStepper::cut_out(const PolygonMesh& mesh, const Topology& topol
         parts_[s] = make_grown_part(mesh, topology, overlap, SchwarzBlock::reach, s, std::move(faces[s]));
     });
     n_interface_vertices_ = static_cast<Index>(
-        select(loop, mesh.n_vertices(), [&](Index v) { return is_on_interface(topology, cut.labels, v); }).size());
+        select(exec, mesh.n_vertices(), [&](Index v) { return is_on_interface(topology, cut.labels, v); }).size());
 }
 
 void SchwarzGmresStepper::make_blocks(const FlowOptions& options, Progress& progress)
@@ -97,11 +98,11 @@ void SchwarzGmresStepper::assemble_and_factorise(Index s)
     seconds_[s].factorise += watch.lap();
 }
 
-InterfaceResult SchwarzGmresStepper::solve_equation(const IterationStop& stop, const Loop& loop)
+InterfaceResult SchwarzGmresStepper::solve_equation(const IterationStop& stop, const Executor& exec)
 {
     positions_ = *before_;
     return equation_->solve({blocks_.of, blocks_.factors}, stop, positions_,
-                            {loop, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
+                            {exec, [this]() -> SolverWorkspace& { return workspaces_.local(); }});
 }
 
 void SchwarzGmresStepper::describe(FlowReport& report) const

@@ -36,12 +36,12 @@ class SchwarzGmresStepper final : public ConvergedStepper {
         std::vector<SchwarzBlock::Factor> factors;
     };
 
-    void cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const Loop& loop);
+    void cut_out(const PolygonMesh& mesh, const Topology& topology, const Cut& cut, const Executor& exec);
     void make_blocks(const FlowOptions& options, Progress& progress);
     void limit_factors(const FlowOptions& options);
     void make_graph();
     void assemble_and_factorise(Index s);
-    InterfaceResult solve_equation(const IterationStop& stop, const Loop& loop) override;
+    InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
 
     std::vector<GrownPart> parts_;
     Index n_interface_vertices_ = 0;

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "engine/measure/rescaling.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "engine/state/flow_state.h"
 #include "engine/tasks/progress.h"
 #include "partition/cut/cut.h"
@@ -39,7 +39,7 @@ class Stepper {
     /// then the image, to rounding. What is known of updates and errors stays: a step makes earlier errors smaller by
     /// about as much as its result is scaled back.
     /// @param image #V by 3: what the similarity makes of positions(); vertices without faces stay.
-    virtual void go_on_from(const Points& image, const Similarity& similarity) = 0;
+    virtual void continue_from(const Points& image, const Similarity& similarity) = 0;
 
     /// Moves some vertices, with all copies of them, to where the next step is to find them. What is known of updates
     /// and errors stays.
@@ -53,7 +53,7 @@ class Stepper {
     /// ranks take steps by.
     [[nodiscard]] virtual std::vector<Index> saved_vertices() const { return {}; }
 
-    /// Takes back what `save` has given, before any step: the next one goes on from there.
+    /// Takes back what `save` has given, before any step: the next one continues from there.
     /// @throws InputError if it does not fit.
     virtual void restore(const StepMemory& memory) = 0;
 

@@ -144,7 +144,7 @@ void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<
     SubMeshState& state = states[s];
     Stopwatch watch;
     const auto latest = [&](Index t) {
-        return plan.rank[t] < plan.rank[s] ? &SubMeshState::solved : &SubMeshState::position;
+        return plan.stage[t] < plan.stage[s] ? &SubMeshState::solved : &SubMeshState::position;
     };
     receive_other_side(states, halo, plan.copies[s], latest, state, workspace.other_side);
     state.system->use_other_side(state.position, workspace.other_side);
@@ -183,12 +183,12 @@ void accept_corrected(std::vector<SubMeshState>& states, Index s, const std::vec
     if (state.solution == SubMeshState::Solution::Only)
         receive(states, halo, &SubMeshState::solved, state.solved);
     const Points& result = state.solved;
-    const auto& seam = state.sub_mesh->seam;
-    for (Index i = 0; i < static_cast<Index>(seam.vertices.size()); ++i) {
+    const auto& corrected = state.sub_mesh->corrected;
+    for (Index i = 0; i < static_cast<Index>(corrected.vertices.size()); ++i) {
         Point sum = Point::Zero();
-        for (const Index neighbour : seam.neighbours[i])
+        for (const Index neighbour : corrected.neighbours[i])
             sum += result.row(neighbour);
-        state.position.row(seam.vertices[i]) = sum / static_cast<double>(seam.neighbours[i].size());
+        state.position.row(corrected.vertices[i]) = sum / static_cast<double>(corrected.neighbours[i].size());
     }
     state.seconds.correct += watch.lap();
 }

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
+#include "engine/setup/sweep_plan.h"
 #include "partition/decomposition/decomposition.h"
-#include "partition/decomposition/sweep_plan.h"
 #include "solvers/systems/sub_mesh_system.h"
 
 namespace seamflow {
@@ -72,8 +72,8 @@ void use_predictions(std::vector<SubMeshState>& states, Index s, const std::vect
 /// factor is no more, where the step has one solution.
 void solve(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& traces, SolverWorkspace& workspace);
 
-/// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of lower rank and
-/// Vᵏ from those of higher rank, and solves. Where a vertex has several other copies, their mean is taken.
+/// Solves in a mutual sweep: fetches the others' copies of Γ and the halo, Vᵏ⁺¹ from the sub-meshes of an earlier stage
+/// and Vᵏ from those of a later stage, and solves. Where a vertex has several other copies, their mean is taken.
 void solve_mutual(std::vector<SubMeshState>& states, Index s, const std::vector<Transfer>& halo, const SweepPlan& plan,
                   SolverWorkspace& workspace);
 

@@ -107,7 +107,7 @@ class SweepBuilder {
             for (const Transfer& trace : plan_.traces[s])
                 graph_.add_dependency(solved_[trace.from], solved_[s]);
             for (const Transfer& copies : plan_.copies[s])
-                if (plan_.rank[copies.from] < plan_.rank[s])
+                if (plan_.stage[copies.from] < plan_.stage[s])
                     graph_.add_dependency(solved_[copies.from], solved_[s]);
         }
     }

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "engine/setup/sweep_plan.h"
 #include "engine/steppers/foreign_sub_meshes.h"
 #include "engine/steppers/sweep_order.h"
 #include "engine/tasks/step_graph.h"
-#include "partition/decomposition/sweep_plan.h"
 
 namespace seamflow {
 

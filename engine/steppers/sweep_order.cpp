@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/cut/colouring.h"
 
 namespace seamflow {
@@ -43,12 +43,12 @@ std::vector<Index> inverse(const std::vector<Index>& order)
 
 }  // namespace
 
-std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Colouring colouring,
-                                   const std::vector<double>& curvature)
+std::vector<Index> assign_stages(const Decomposition& decomposition, Colouring colouring,
+                                 const std::vector<double>& curvature)
 {
     if (colouring == Colouring::Label)
         return ascending(decomposition.sub_meshes.size());
-    return rank_sub_meshes(decomposition.adjacency, colouring, total_curvatures(decomposition, curvature));
+    return assign_stages(decomposition.adjacency, colouring, total_curvatures(decomposition, curvature));
 }
 
 std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature)
@@ -59,12 +59,12 @@ std::vector<double> total_curvatures(const Decomposition& decomposition, const s
     return totals;
 }
 
-std::vector<Index> rank_sub_meshes(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
-                                   const std::vector<double>& totals)
+std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
+                                 const std::vector<double>& totals)
 {
-    std::vector<Index> rank = ascending(adjacency.size());
+    std::vector<Index> stage = ascending(adjacency.size());
     if (colouring == Colouring::Label)
-        return rank;
+        return stage;
 
     const std::vector<Index> colours = colour(adjacency);
     std::vector<double> of_colour(n_colours(colours), 0.0);
@@ -72,17 +72,17 @@ std::vector<Index> rank_sub_meshes(const std::vector<std::vector<Index>>& adjace
         of_colour[colours[s]] += totals[s];
     std::vector<Index> order = ascending(of_colour.size());
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return of_colour[a] > of_colour[b]; });
-    const std::vector<Index> rank_of_colour = inverse(order);
-    std::transform(colours.begin(), colours.end(), rank.begin(), [&](Index c) { return rank_of_colour[c]; });
-    return rank;
+    const std::vector<Index> stage_of_colour = inverse(order);
+    std::transform(colours.begin(), colours.end(), stage.begin(), [&](Index c) { return stage_of_colour[c]; });
+    return stage;
 }
 
-std::vector<Index> reversed(const std::vector<Index>& rank)
+std::vector<Index> reversed(const std::vector<Index>& stage)
 {
-    const Index highest = rank.empty() ? 0 : *std::max_element(rank.begin(), rank.end());
-    std::vector<Index> reversed_rank(rank.size());
-    std::transform(rank.begin(), rank.end(), reversed_rank.begin(), [&](Index r) { return highest - r; });
-    return reversed_rank;
+    const Index highest = stage.empty() ? 0 : *std::max_element(stage.begin(), stage.end());
+    std::vector<Index> reversed_stages(stage.size());
+    std::transform(stage.begin(), stage.end(), reversed_stages.begin(), [&](Index r) { return highest - r; });
+    return reversed_stages;
 }
 
 Index least_window(const SweepPlan& plan, const std::vector<Index>& order)
@@ -90,15 +90,15 @@ Index least_window(const SweepPlan& plan, const std::vector<Index>& order)
     const std::vector<Index> places = inverse(order);
     // Per sub-mesh, the last place that must be factorised before it can be solved.
     std::vector<Index> last = places;
-    std::vector<Index> by_rank = ascending(plan.rank.size());
-    std::stable_sort(by_rank.begin(), by_rank.end(), [&](Index s, Index t) { return plan.rank[s] < plan.rank[t]; });
+    std::vector<Index> by_stage = ascending(plan.stage.size());
+    std::stable_sort(by_stage.begin(), by_stage.end(), [&](Index s, Index t) { return plan.stage[s] < plan.stage[t]; });
     Index window = 0;
-    for (const Index s : by_rank) {
+    for (const Index s : by_stage) {
         for (const Transfer& prediction : plan.predictions[s])
             last[s] = std::max(last[s], places[prediction.from]);
         for (const auto* transfers : {&plan.traces[s], &plan.copies[s]})
             for (const Transfer& transfer : *transfers)
-                if (plan.rank[transfer.from] < plan.rank[s])
+                if (plan.stage[transfer.from] < plan.stage[s])
                     last[s] = std::max(last[s], last[transfer.from]);
         window = std::max(window, last[s] - places[s] + 1);
     }

@@ -3,28 +3,28 @@
 #include <vector>
 
 #include "engine/options/flow_options.h"
+#include "engine/setup/sweep_plan.h"
 #include "partition/decomposition/decomposition.h"
-#include "partition/decomposition/sweep_plan.h"
 
 namespace seamflow {
 
-/// Rank of each sub-mesh in a forward sweep, from 0; sub-meshes of one rank have one colour. With Colouring::Greedy the
-/// colour classes are ranked by decreasing Σ‖ΔV‖ over those vertices of their sub-meshes that are neither on the
+/// Stage of each sub-mesh in a forward sweep, from 0; sub-meshes of one stage have one colour. With Colouring::Greedy
+/// the colour classes are ordered by decreasing Σ‖ΔV‖ over those vertices of their sub-meshes that are neither on the
 /// boundary nor on Γ: the paper's authors let the side with the larger total curvature start.
 /// @param curvature #V: ‖ΔV⁰‖; empty: as if it were 0.
-std::vector<Index> rank_sub_meshes(const Decomposition& decomposition, Colouring colouring,
-                                   const std::vector<double>& curvature);
+std::vector<Index> assign_stages(const Decomposition& decomposition, Colouring colouring,
+                                 const std::vector<double>& curvature);
 
 /// Σ‖ΔV‖ of each sub-mesh, as above; #sub-meshes.
 std::vector<double> total_curvatures(const Decomposition& decomposition, const std::vector<double>& curvature);
 
-/// The same ranks from what is left of the sub-meshes then.
+/// The same stages from what is left of the sub-meshes then.
 /// @param adjacency #sub-meshes: with which others they share a vertex of Γ. @param totals #sub-meshes: their Σ‖ΔV‖.
-std::vector<Index> rank_sub_meshes(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
-                                   const std::vector<double>& totals);
+std::vector<Index> assign_stages(const std::vector<std::vector<Index>>& adjacency, Colouring colouring,
+                                 const std::vector<double>& totals);
 
-/// The ranks of the sweep in the opposite direction.
-std::vector<Index> reversed(const std::vector<Index>& rank);
+/// The stages of the sweep in the opposite direction.
+std::vector<Index> reversed(const std::vector<Index>& stage);
 
 /// How many factors live at once. Sub-meshes are factorised in a fixed order: the one at place i + size waits until the
 /// one at place i has been solved and its factor is freed.

@@ -10,7 +10,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/setup/sub_mesh_options.h"
 #include "engine/steppers/sweep_order.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/run_for_sub_mesh.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
@@ -32,9 +32,9 @@ Points copied(const Points& positions)
 
 /// The sub-meshes of a cut, grown into each other for a sweep in ascending order of `rank`.
 Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
-                                 std::span<const Index> rank, int layers)
+                                 std::span<const Index> stage, int layers)
 {
-    const Overlap overlap{cut.labels, rank, layers};
+    const Overlap overlap{cut.labels, stage, layers};
     auto faces = faces_by_label(cut.labels, cut.n_parts, run_in_parallel);
     std::vector<SubMesh> sub_meshes(faces.size());
     for_each(run_in_parallel, static_cast<Index>(faces.size()), [&](Index s) {
@@ -47,16 +47,16 @@ Decomposition overlap_sub_meshes(const PolygonMesh& mesh, const Topology& topolo
 
 SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, const Cut& cut,
                            const FlowOptions& options, const std::vector<double>& curvature, Progress& progress)
-    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.loop()))
+    : decomposition_(decompose(mesh, topology, cut.labels, cut.n_parts, progress.exec()))
     , graph_(options.report.record_schedule, progress)
     , positions_(copied(mesh.vertices))
     , filter_(filter_of(options))
     , corrects_(corrects(options))
     , factorisation_(options.resources.factorisation)
 {
-    const auto rank = rank_sub_meshes(decomposition_, options.interface.colouring, curvature);
+    const auto stage = assign_stages(decomposition_, options.interface.colouring, curvature);
     if (options.interface.conditions == Conditions::Schwarz)
-        decomposition_ = overlap_sub_meshes(mesh, topology, cut, rank, options.interface.overlap);
+        decomposition_ = overlap_sub_meshes(mesh, topology, cut, stage, options.interface.overlap);
     progress.require_going_on();
     if (is_classical(options.interface.conditions))
         copies_.emplace(mesh, decomposition_, options.report.keep_gaps);
@@ -68,7 +68,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, const Topology& topology, co
             peers_ = std::make_unique<OnePeer>(static_cast<Index>(states_.size()));
             error_.emplace(decomposition_, mesh, topology, options, *peers_);
         },
-        [&] { make_plans(rank, states_.size(), options); });
+        [&] { make_plans(stage, states_.size(), options); });
     order_factors(options);
     add_sweeps(options);
 }
@@ -84,7 +84,7 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
     , factorisation_(options.resources.factorisation)
 {
     make_states(mesh, options, progress);
-    make_plans(sub_meshes.rank, sub_meshes.n_of_all_ranks, options);
+    make_plans(sub_meshes.stage, sub_meshes.n_of_all_ranks, options);
     window_.order = std::move(sub_meshes.factor_order);
     limit_factors(sub_meshes.least_window, options);
     peers_ = std::move(sub_meshes.peers);
@@ -94,11 +94,11 @@ SweepStepper::SweepStepper(const PolygonMesh& mesh, RankSubMeshes sub_meshes, co
 }
 
 /// @param n_sub_meshes in the whole mesh.
-void SweepStepper::make_plans(const std::vector<Index>& rank, std::size_t n_sub_meshes, const FlowOptions& options)
+void SweepStepper::make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options)
 {
-    plans_.push_back(make_plan(decomposition_, options, rank));
+    plans_.push_back(make_plan(decomposition_, options, stage));
     if (alternates(options, n_sub_meshes))
-        plans_.push_back(make_plan(decomposition_, options, reversed(rank)));
+        plans_.push_back(make_plan(decomposition_, options, reversed(stage)));
 }
 
 void SweepStepper::add_sweeps(const FlowOptions& options)
@@ -336,7 +336,7 @@ void SweepStepper::fetch_positions(SubMeshState& state)
 }
 
 /// Copies that differ are mapped each; their means are then those of the image to rounding.
-void SweepStepper::go_on_from(const Points& image, const Similarity& similarity)
+void SweepStepper::continue_from(const Points& image, const Similarity& similarity)
 {
     copy(run_in_parallel, image, positions_);
     for_each(run_in_parallel, static_cast<Index>(states_.size()), [&](Index s) {
@@ -416,7 +416,7 @@ void SweepStepper::describe(StepReport& report) const
 
 void SweepStepper::describe(FlowReport& report) const
 {
-    const std::vector<Index>& rank = plans_.front().rank;
+    const std::vector<Index>& stage = plans_.front().stage;
     report.cut.interface_vertices = decomposition_.n_interface_vertices;
     report.resources.live_factors = window_.size;
     report.resources.factor_memory_bytes = factors_->bytes();
@@ -425,7 +425,7 @@ void SweepStepper::describe(FlowReport& report) const
     for (std::size_t s = 0; s < states_.size(); ++s) {
         if (!states_[s].system)
             continue;
-        describe_sub_mesh(*states_[s].sub_mesh, rank[s], states_[s].p, report);
+        describe_sub_mesh(*states_[s].sub_mesh, stage[s], states_[s].p, report);
         n_nearly_singular.push_back(states_[s].system->n_nearly_singular());
         factorisations.push_back(states_[s].system->factorisation());
     }

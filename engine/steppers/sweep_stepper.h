@@ -5,10 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "engine/memory/shared_factor_pool.h"
 #include "engine/memory/workspaces.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
+#include "engine/setup/sweep_plan.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/error_estimate.h"
 #include "engine/steppers/foreign_sub_meshes.h"
@@ -19,7 +20,6 @@
 #include "engine/tasks/progress.h"
 #include "engine/tasks/step_graph.h"
 #include "partition/cut/cut.h"
-#include "partition/decomposition/sweep_plan.h"
 #include "partition/topology.h"
 #include "solvers/interface/interface_peers.h"
 
@@ -32,7 +32,7 @@ struct RankSubMeshes {
     /// How many all ranks have together.
     std::size_t n_of_all_ranks = 0;
     /// #sub-meshes: the sweep's order.
-    std::vector<Index> rank;
+    std::vector<Index> stage;
     /// Those of this rank, as they stand in one order of those of all ranks.
     std::vector<Index> factor_order;
     /// The smallest window with which sweeps along that order cannot deadlock.
@@ -64,7 +64,7 @@ class SweepStepper final : public Stepper {
     void step(const Points& before) override;
     [[nodiscard]] const Points& positions() const override { return positions_; }
     [[nodiscard]] const PolygonMesh* separated() const override { return copies_ ? copies_->separated() : nullptr; }
-    void go_on_from(const Points& image, const Similarity& similarity) override;
+    void continue_from(const Points& image, const Similarity& similarity) override;
     void move(std::span<const Index> vertices, const Points& to) override;
     void save(StepMemory& memory) const override;
     [[nodiscard]] std::vector<Index> saved_vertices() const override;
@@ -76,7 +76,7 @@ class SweepStepper final : public Stepper {
   private:
     void make_states(const PolygonMesh& mesh, const FlowOptions& options, Progress& progress);
     [[nodiscard]] bool is_own(Index s) const { return foreign_ == nullptr || !foreign_->is_foreign(s); }
-    void make_plans(const std::vector<Index>& rank, std::size_t n_sub_meshes, const FlowOptions& options);
+    void make_plans(const std::vector<Index>& stage, std::size_t n_sub_meshes, const FlowOptions& options);
     void add_sweeps(const FlowOptions& options);
     void order_factors(const FlowOptions& options);
     void run_for(Index s, const std::function<void()>& body) const;

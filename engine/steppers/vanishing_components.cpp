@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "solvers/laplacian/laplacian.h"
 
 namespace seamflow {

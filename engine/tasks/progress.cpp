@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 
 namespace seamflow {
@@ -85,9 +85,9 @@ void Progress::tell(double fraction, bool at_once)
     control_->on_progress(now_);
 }
 
-Loop Progress::loop() const
+Executor Progress::exec() const
 {
-    return [this](Index n, const LoopBody& body) {
+    return [this](Index n, const RangeBody& body) {
         require_going_on();
         run_in_parallel(n, [&](Index begin, Index end) {
             require_going_on();
@@ -96,9 +96,9 @@ Loop Progress::loop() const
     };
 }
 
-Loop Progress::counted_loop()
+Executor Progress::counted_loop()
 {
-    return [this](Index n, const LoopBody& body) {
+    return [this](Index n, const RangeBody& body) {
         require_going_on();
         expect(n);
         run_in_parallel(n, [&](Index begin, Index end) {
@@ -109,12 +109,12 @@ Loop Progress::counted_loop()
     };
 }
 
-Loop LoopCount::begin()
+Executor LoopCount::begin()
 {
     counted_ = 0.0;
     loops_ = 0;
-    return [this, loop = progress_->loop()](Index n, const LoopBody& body) {
-        loop(n, body);
+    return [this, exec = progress_->exec()](Index n, const RangeBody& body) {
+        exec(n, body);
         ++loops_;
         const double part = std::min(parts_ / expected_, parts_ - counted_);
         counted_ += part;

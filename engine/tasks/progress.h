@@ -4,7 +4,7 @@
 
 #include "engine/options/flow_control.h"
 #include "engine/tasks/stopwatch.h"
-#include "partition/loop.h"
+#include "partition/executor.h"
 
 namespace seamflow {
 
@@ -41,10 +41,10 @@ class Progress {
     void finish();
 
     /// Loops that may stop at each of their ranges, on the threads of the arena.
-    [[nodiscard]] Loop loop() const;
+    [[nodiscard]] Executor exec() const;
 
     /// The same, counting each index.
-    [[nodiscard]] Loop counted_loop();
+    [[nodiscard]] Executor counted_loop();
 
   private:
     void tell(double fraction, bool at_once);
@@ -75,7 +75,7 @@ class LoopCount {
     [[nodiscard]] double parts() const { return parts_; }
 
     /// Loops that count and may stop. This must outlive them; one at a time.
-    [[nodiscard]] Loop begin();
+    [[nodiscard]] Executor begin();
 
     /// Counts what is left.
     void end();

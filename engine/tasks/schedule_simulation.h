@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/options/schedule.h"
+#include "engine/tasks/schedule.h"
 
 namespace seamflow {
 

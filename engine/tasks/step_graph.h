@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/options/schedule.h"
+#include "engine/tasks/schedule.h"
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/task_graph.h"
 

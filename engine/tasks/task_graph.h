@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/options/schedule.h"
+#include "engine/tasks/schedule.h"
 #include "partition/index.h"
 
 namespace seamflow {

@@ -22,7 +22,7 @@
 #include "engine/options/flow_options.h"
 #include "engine/options/valid_options.h"
 #include "engine/tasks/library_threads.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/thread_sanitizer.h"
 #include "partition/errors.h"
 
@@ -170,9 +170,9 @@ void Workers::execute(const std::function<void()>& work)
     });
 }
 
-Loop Workers::loop()
+Executor Workers::exec()
 {
-    return [this](Index n, const LoopBody& body) { execute([&] { run_in_parallel(n, body); }); };
+    return [this](Index n, const RangeBody& body) { execute([&] { run_in_parallel(n, body); }); };
 }
 
 int Workers::threads() const

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 
 namespace seamflow {
 
@@ -24,7 +24,7 @@ class Workers {
     void execute(const std::function<void()>& work);
 
     /// Loops on these threads; they have to outlive it.
-    [[nodiscard]] Loop loop();
+    [[nodiscard]] Executor exec();
 
     /// How many there are, within the limits that the program has set (oneTBB's global_control).
     [[nodiscard]] int threads() const;

@@ -97,17 +97,17 @@ void sort_along_longest_side(std::span<Index> points, const Points& positions)
 
 }  // namespace
 
-IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Loop& loop)
+IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Executor& exec)
 {
     const auto n = static_cast<Index>(positions.rows());
     const Tree tree(positions, n_boxes);
     std::vector<std::uint16_t> box_of(n);
-    for_each(loop, n, [&](Index i) { box_of[i] = static_cast<std::uint16_t>(tree.box_of(positions.row(i))); });
+    for_each(exec, n, [&](Index i) { box_of[i] = static_cast<std::uint16_t>(tree.box_of(positions.row(i))); });
     IndexLists boxes = make_lists(n_boxes, [&](auto&& add) {
         for (Index i = 0; i < n; ++i)
             add(box_of[i], i);
     });
-    for_each(loop, n_boxes, [&](Index box) {
+    for_each(exec, n_boxes, [&](Index box) {
         const std::span<Index> values = boxes.values;
         sort_along_longest_side(values.subspan(at(boxes.offsets[box]), boxes[box].size()), positions);
     });

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -11,6 +11,6 @@ namespace seamflow {
 /// @param positions #points by 3, all finite.
 /// @param n_boxes a power of two, at most 65,536.
 /// @returns the points in each box, along its longest side. Points at one place share a box; so boxes may be empty.
-IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Loop& loop);
+IndexLists divide_into_boxes(const Points& positions, Index n_boxes, const Executor& exec);
 
 }  // namespace seamflow

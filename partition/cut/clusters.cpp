@@ -14,16 +14,16 @@ namespace seamflow {
 namespace {
 
 /// Lighter meshes (see face_weight) are divided face by face, which takes a fraction of a second and gives the best
-/// seams; of others clusters are.
+/// boundaries; of others clusters are.
 constexpr double min_weight_for_clusters = 500'000;
-/// With parts as small as this, seams matter less, and clusters are grown in lighter meshes too.
+/// With parts as small as this, their boundaries matter less, and clusters are grown in lighter meshes too.
 constexpr double small_part = 5'000;
 constexpr double min_weight_for_small_parts = 300'000;
 /// How many clusters METIS gets for a part, about: enough to shape it well and to balance parts within a few percent.
 constexpr double clusters_per_part = 80;
 /// And in all, which takes a twentieth of a second.
 constexpr double min_clusters = 20'000;
-/// Larger clusters save no time and leave longer seams.
+/// Larger clusters save no time and leave longer boundaries between parts.
 constexpr double max_cluster_weight = 64;
 /// Smaller clusters save little against single faces.
 constexpr double min_cluster_weight = 8;
@@ -223,7 +223,7 @@ struct InnerClusters {
 
 /// @param grown chunk by chunk, and numbered from 0 in each. @param faces #F, those of the clusters.
 InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> faces, std::vector<Index> cluster_of,
-                         const Loop& loop)
+                         const Executor& exec)
 {
     InnerClusters inner;
     FaceClusters& clusters = inner.clusters;
@@ -244,7 +244,7 @@ InnerClusters keep_inner(const std::vector<Grown>& grown, std::vector<Index> fac
                                                  static_cast<Index>(chunk.faces_of(c, faces).size()));
     }
     std::vector<std::vector<Index>> left_over(grown.size());
-    for_each(loop, static_cast<Index>(grown.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(grown.size()), [&](Index i) {
         const Grown& chunk = grown[i];
         Index number = first_of_chunk[i];
         for (Index c = 0; c < chunk.size(); ++c) {
@@ -275,14 +275,14 @@ Index cluster_weight(double total, Index k)
         std::clamp(total / std::max(k * clusters_per_part, min_clusters), min_cluster_weight, max_cluster_weight));
 }
 
-FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Loop& loop,
+FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight, const Executor& exec,
                            Index chunk)
 {
     if (weight == 1)
         return one_face_each(mesh);
     std::vector<Index> cluster_of;
     std::vector<Index> faces;
-    for_each(loop, 2, [&](Index one_of_both) {
+    for_each(exec, 2, [&](Index one_of_both) {
         if (one_of_both == 0)
             cluster_of.assign(mesh.n_faces(), -1);
         else
@@ -290,7 +290,7 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
     });
     const std::vector<Chunk> chunks = chunks_of(mesh, topology, weight, chunk);
     std::vector<Grown> grown(chunks.size());
-    for_each(loop, static_cast<Index>(chunks.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(chunks.size()), [&](Index i) {
         const Chunk& own = chunks[i];
         ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, cluster_of, faces);
         for (Index f = own.begin; f < own.end; ++f)
@@ -298,7 +298,7 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
         grown[i] = grower.take();
     });
 
-    auto [clusters, left_over] = keep_inner(grown, std::move(faces), std::move(cluster_of), loop);
+    auto [clusters, left_over] = keep_inner(grown, std::move(faces), std::move(cluster_of), exec);
     const Chunk all{0, mesh.n_faces()};
     ClusterGrower grower(mesh, topology, weight, all, clusters.size(), clusters.faces.offsets.back(),
                          clusters.cluster_of, clusters.faces.values);

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -39,6 +39,6 @@ inline constexpr Index faces_per_chunk = 1 << 18;
 /// then dissolved and grown again across them.
 /// @param weight at least 1, which makes every face f the cluster f.
 FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, Index weight,
-                           const Loop& loop = run_serially, Index chunk = faces_per_chunk);
+                           const Executor& exec = run_serially, Index chunk = faces_per_chunk);
 
 }  // namespace seamflow

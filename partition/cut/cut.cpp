@@ -8,8 +8,8 @@
 #include "partition/cut/clusters.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
+#include "partition/cut/part_boundaries.h"
 #include "partition/cut/refine.h"
-#include "partition/cut/seams.h"
 #include "partition/errors.h"
 #include "partition/labels.h"
 #include "partition/repair/repair.h"
@@ -68,7 +68,8 @@ std::string remark_on_number(std::int64_t n_faces, Index k, Index n_parts, Index
     return fmt::format("The mesh was cut into {} instead of {}, because {}.", number_of(n_parts, "part"), k, reason);
 }
 
-Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop, const Alongside& alongside)
+Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Executor& exec,
+             const Alongside& alongside)
 {
     if (k < 1)
         throw OptionError(fmt::format("the number of parts is {}, but must be at least 1", k));
@@ -76,9 +77,9 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
         return uncut(mesh);
     const Index n_parts = sensible_parts(mesh.n_faces(), k);
     const Index weight = cluster_weight(static_cast<double>(mesh.n_corners()) - 2.0 * mesh.n_faces(), n_parts);
-    FaceClusters clusters = grow_clusters(mesh, topology, weight, loop);
+    FaceClusters clusters = grow_clusters(mesh, topology, weight, exec);
     const auto measure = weight > 1 ? ArcMeasure::Count : ArcMeasure::Length;
-    const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, loop);
+    const FaceGraph graph = make_face_graph(mesh, topology, clusters, measure, exec);
     const auto afterwards = weight > 1 ? Afterwards::Refined : Afterwards::Nothing;
     Components components;
     std::vector<Index> part;
@@ -92,12 +93,12 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
     const Index n_labels = compact_labels(part);
     Cut cut;
     cut.labels = std::move(clusters.cluster_of);
-    for_each(loop, mesh.n_faces(), [&](Index f) { cut.labels[f] = part[cut.labels[f]]; });
+    for_each(exec, mesh.n_faces(), [&](Index f) { cut.labels[f] = part[cut.labels[f]]; });
     if (weight > 1) {
-        const SuspectedDefects suspected = shorten_seams(mesh, topology, n_labels, cut.labels, loop);
-        cut.repaired_faces = repair_where_suspected(mesh, topology, suspected, cut.labels, loop);
+        const SuspectedDefects suspected = shorten_boundaries(mesh, topology, n_labels, cut.labels, exec);
+        cut.repaired_faces = repair_where_suspected(mesh, topology, suspected, cut.labels, exec);
     } else {
-        cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, loop);
+        cut.repaired_faces = repair_within_components(mesh, topology, cut.labels, exec);
     }
     cut.n_parts = count_parts(cut.labels);
     if (std::string remark = remark_on_number(mesh.n_faces(), k, cut.n_parts, components.count()); !remark.empty())
@@ -120,7 +121,8 @@ std::vector<std::string> remarks_on_labels(Index n_given, Index largest, std::in
     return remarks;
 }
 
-Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, const Loop& loop)
+Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
+                  const Executor& exec)
 {
     require_labels(mesh, labels);
     Cut cut;
@@ -128,7 +130,7 @@ Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<c
     const Index largest = count_parts(cut.labels) - 1;
     const Index n_given = compact_labels(cut.labels);
     if (n_given > 1)
-        cut.repaired_faces = repair(mesh, topology, cut.labels, loop);
+        cut.repaired_faces = repair(mesh, topology, cut.labels, exec);
     cut.n_parts = count_parts(cut.labels);
     cut.remarks = remarks_on_labels(n_given, largest, cut.repaired_faces, cut.n_parts);
     return cut;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -55,7 +55,7 @@ inline void run_alone(const std::function<void()>& serial)
 /// at least as many parts as components; there may be fewer than k on a small mesh. A remark says when it is not k.
 /// @param alongside is given METIS's part of the work, once; not where there is none.
 /// @throws OptionError if k < 1, ComputationError if METIS fails.
-Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Loop& loop = run_serially,
+Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const Executor& exec = run_serially,
              const Alongside& alongside = run_alone);
 
 /// Cuts a mesh as given. Gaps in the labels are closed, keeping their order, and parts that are no manifolds with
@@ -63,6 +63,6 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const L
 /// @param labels #F, at least 0.
 /// @throws InputError if there are not as many labels as faces, or one is negative.
 Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
-                  const Loop& loop = run_serially);
+                  const Executor& exec = run_serially);
 
 }  // namespace seamflow

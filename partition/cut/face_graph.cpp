@@ -68,10 +68,10 @@ struct BlockOfArcs {
 
 /// Calls append(node, arcs), which appends the arcs of a node, ascending, each once, for all nodes.
 template <class Append>
-std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Loop& loop, Append&& append)
+std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Executor& exec, Append&& append)
 {
     std::vector<BlockOfArcs> blocks(at(n_nodes / block_size) + 1);
-    for_each_block(loop, n_nodes, [&](Index b, Index begin, Index end) {
+    for_each_block(exec, n_nodes, [&](Index b, Index begin, Index end) {
         BlockOfArcs& block = blocks[b];
         for (Index node = begin; node < end; ++node) {
             const auto before = std::ssize(block.arcs);
@@ -83,9 +83,9 @@ std::vector<BlockOfArcs> list_arcs(Index n_nodes, const Loop& loop, Append&& app
 }
 
 std::vector<BlockOfArcs> list_arcs_by_length(const PolygonMesh& mesh, const Topology& topology,
-                                             const FaceClusters& clusters, const Loop& loop)
+                                             const FaceClusters& clusters, const Executor& exec)
 {
-    return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
+    return list_arcs(clusters.size(), exec, [&](Index cluster, std::vector<Arc>& arcs) {
         const auto begin = std::ssize(arcs);
         for (const Index f : clusters.faces[cluster])
             for (Index h = mesh.face_offsets[f]; h < mesh.face_offsets[f + 1]; ++h) {
@@ -107,10 +107,10 @@ struct ClusterPair {
 /// The pairs at all edges between clusters, block by block of the faces. Whether there is one at a half-edge is hard to
 /// foresee: each is written down, and most are written over.
 std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, const Topology& topology,
-                                                     const FaceClusters& clusters, const Loop& loop)
+                                                     const FaceClusters& clusters, const Executor& exec)
 {
     std::vector<std::vector<ClusterPair>> blocks(at(mesh.n_faces() / block_size) + 1);
-    for_each_block(loop, mesh.n_faces(), [&](Index b, Index begin, Index end) {
+    for_each_block(exec, mesh.n_faces(), [&](Index b, Index begin, Index end) {
         std::vector<ClusterPair> found(mesh.face_offsets[end] - mesh.face_offsets[begin]);
         std::size_t n = 0;
         for (Index f = begin; f < end; ++f) {
@@ -128,9 +128,9 @@ std::vector<std::vector<ClusterPair>> list_cut_edges(const PolygonMesh& mesh, co
 }
 
 std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topology& topology,
-                                            const FaceClusters& clusters, const Loop& loop)
+                                            const FaceClusters& clusters, const Executor& exec)
 {
-    const auto blocks = list_cut_edges(mesh, topology, clusters, loop);
+    const auto blocks = list_cut_edges(mesh, topology, clusters, exec);
     IndexLists neighbours = make_lists(clusters.size(), [&](auto&& add) {
         for (const auto& pairs : blocks)
             for (const ClusterPair& pair : pairs) {
@@ -139,11 +139,11 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
             }
     });
     // As plain numbers: those of a cluster are five times as many as its arcs.
-    for_each(loop, clusters.size(), [&](Index cluster) {
+    for_each(exec, clusters.size(), [&](Index cluster) {
         const auto begin = neighbours.values.begin();
         std::sort(begin + neighbours.offsets[cluster], begin + neighbours.offsets[cluster + 1]);
     });
-    return list_arcs(clusters.size(), loop, [&](Index cluster, std::vector<Arc>& arcs) {
+    return list_arcs(clusters.size(), exec, [&](Index cluster, std::vector<Arc>& arcs) {
         const auto begin = std::ssize(arcs);
         for (const Index target : neighbours[cluster])
             if (std::ssize(arcs) > begin && arcs.back().target == target)
@@ -156,13 +156,13 @@ std::vector<BlockOfArcs> list_arcs_by_count(const PolygonMesh& mesh, const Topol
 }  // namespace
 
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
-                          ArcMeasure measure, const Loop& loop)
+                          ArcMeasure measure, const Executor& exec)
 {
     FaceGraph graph;
     std::vector<double> lengths;
     for (const BlockOfArcs& block : measure == ArcMeasure::Count
-                                        ? list_arcs_by_count(mesh, topology, clusters, loop)
-                                        : list_arcs_by_length(mesh, topology, clusters, loop)) {
+                                        ? list_arcs_by_count(mesh, topology, clusters, exec)
+                                        : list_arcs_by_length(mesh, topology, clusters, exec)) {
         for (const Index count : block.counts)
             graph.offsets.push_back(graph.offsets.back() + count);
         for (const Arc& arc : block.arcs) {
@@ -174,7 +174,7 @@ FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, con
     const double total = mesh.n_corners();
     const auto unit = std::max(Index{1}, static_cast<Index>(std::ceil(2 * total / max_weight_sum)));
     graph.node_weights.resize(graph.n_nodes());
-    for_each(loop, graph.n_nodes(),
+    for_each(exec, graph.n_nodes(),
              [&](Index node) { graph.node_weights[node] = node_weight(mesh, clusters.faces[node], unit); });
     return graph;
 }

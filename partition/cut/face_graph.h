@@ -6,7 +6,7 @@
 
 #include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -49,7 +49,7 @@ enum class ArcMeasure {
 
 /// The graph of the clusters of a mesh.
 FaceGraph make_face_graph(const PolygonMesh& mesh, const Topology& topology, const FaceClusters& clusters,
-                          ArcMeasure measure, const Loop& loop = run_serially);
+                          ArcMeasure measure, const Executor& exec = run_serially);
 
 /// How many edges two clusters share.
 struct ClusterContact {

@@ -60,14 +60,14 @@ std::vector<Transfer> transfers_to(Index to, std::vector<TransferRow> rows)
     return transfers;
 }
 
-std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts, const Loop& loop)
+std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts, const Executor& exec)
 {
     const std::vector<IndexRange> ranges = long_ranges(static_cast<Index>(labels.size()), n_parts);
     std::vector<IndexLists> of_range(ranges.size());
-    for_each(loop, static_cast<Index>(ranges.size()),
+    for_each(exec, static_cast<Index>(ranges.size()),
              [&](Index r) { of_range[r] = sorted_by_label(labels, n_parts, ranges[r]); });
     std::vector<std::vector<Index>> faces(n_parts);
-    for_each(loop, n_parts, [&](Index s) {
+    for_each(exec, n_parts, [&](Index s) {
         std::size_t count = 0;
         for (const IndexLists& lists : of_range)
             count += lists[s].size();
@@ -88,7 +88,7 @@ std::vector<Index> labels_by_face(const Decomposition& decomposition, Index n_fa
 }
 
 Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels,
-                      const Loop& loop)
+                      const Executor& exec)
 {
     Decomposition decomposition;
     decomposition.sub_meshes = std::move(sub_meshes);
@@ -98,7 +98,7 @@ Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
     for (const SubMesh& sub_mesh : decomposition.sub_meshes)
         for (const Index i : sub_mesh.interface.vertices)
             decomposition.n_interface_vertices += sub_mesh.owned[i];
-    for_each(loop, n, [&](Index s) {
+    for_each(exec, n, [&](Index s) {
         SubMesh& sub_mesh = decomposition.sub_meshes[s];
         list_sharing(topology, labels, decomposition.sub_meshes, sub_mesh.interface, sub_mesh.local_to_global);
         auto& adjacent = decomposition.adjacency[s];
@@ -112,13 +112,13 @@ Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology,
 }
 
 Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
-                        const Loop& loop)
+                        const Executor& exec)
 {
-    auto faces = faces_by_label(labels, n_parts, loop);
+    auto faces = faces_by_label(labels, n_parts, exec);
     std::vector<SubMesh> sub_meshes(faces.size());
-    for_each(loop, n_parts,
+    for_each(exec, n_parts,
              [&](Index s) { sub_meshes[s] = make_sub_mesh(mesh, topology, labels, std::move(faces[s])); });
-    return connect(std::move(sub_meshes), topology, labels, loop);
+    return connect(std::move(sub_meshes), topology, labels, exec);
 }
 
 }  // namespace seamflow

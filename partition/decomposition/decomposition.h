@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -45,19 +45,19 @@ struct Decomposition {
 /// The faces of every sub-mesh, in ascending order.
 /// @param labels #F, each in 0 to n_parts - 1.
 std::vector<std::vector<Index>> faces_by_label(std::span<const Index> labels, Index n_parts,
-                                               const Loop& loop = run_serially);
+                                               const Executor& exec = run_serially);
 
 /// The other way round: the sub-mesh of every face. @param n_faces of the mesh, each in one sub-mesh.
 std::vector<Index> labels_by_face(const Decomposition& decomposition, Index n_faces);
 
 /// Joins sub-meshes made by make_sub_mesh: who shares which vertex of Γ, and what fills the halos.
 Decomposition connect(std::vector<SubMesh> sub_meshes, const Topology& topology, std::span<const Index> labels,
-                      const Loop& loop = run_serially);
+                      const Executor& exec = run_serially);
 
 /// Cuts a mesh into its sub-meshes.
 /// @param labels #F, each in 0 to n_parts - 1, every value used; each part connected and with one fan of faces around
 ///        each of its vertices (see cut_into and cut_by_labels).
 Decomposition decompose(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels, Index n_parts,
-                        const Loop& loop = run_serially);
+                        const Executor& exec = run_serially);
 
 }  // namespace seamflow

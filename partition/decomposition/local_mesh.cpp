@@ -99,13 +99,13 @@ void append_halo(std::span<const Index> vertices, SubMeshDraft& draft)
     draft.sub_mesh.n_halo = static_cast<Index>(halo.size());
 }
 
-void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& draft)
+void append_corrected(Index v, std::span<const Index> neighbours, SubMeshDraft& draft)
 {
-    auto& seam = draft.sub_mesh.seam;
-    seam.vertices.push_back(draft.local(v));
+    auto& corrected = draft.sub_mesh.corrected;
+    corrected.vertices.push_back(draft.local(v));
     for (const Index neighbour : neighbours)
-        seam.neighbours.values.push_back(draft.local(neighbour));
-    seam.neighbours.close();
+        corrected.neighbours.values.push_back(draft.local(neighbour));
+    corrected.neighbours.close();
 }
 
 void list_sharing(const Topology& topology, std::span<const Index> labels, std::span<const SubMesh> sub_meshes,

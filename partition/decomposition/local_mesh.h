@@ -44,7 +44,7 @@ SubMeshDraft copy_faces(const PolygonMesh& mesh, const Topology& topology, std::
 void append_halo(std::span<const Index> vertices, SubMeshDraft& draft);
 
 /// Notes a vertex of Γ, to be corrected after a step, and its edge neighbours, all of them in the sub-mesh or its halo.
-void append_to_seam(Index v, std::span<const Index> neighbours, SubMeshDraft& draft);
+void append_corrected(Index v, std::span<const Index> neighbours, SubMeshDraft& draft);
 
 /// Fills in who shares each vertex of an interface: SubMeshInterface::sharing and index_in_sharing.
 /// @param labels #F. @param sub_meshes all of them. @param local_to_global of the sub-mesh with the interface.

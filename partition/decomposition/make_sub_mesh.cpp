@@ -97,7 +97,7 @@ void describe_interface_vertex(const Whole& whole, const IndexSet& halo_faces, I
     interface.own_faces.close();
     interface.complement_faces.close();
     edge_neighbours(whole.mesh, whole.topology, v, neighbours);
-    append_to_seam(v, neighbours, draft);
+    append_corrected(v, neighbours, draft);
 }
 
 }  // namespace
@@ -118,10 +118,10 @@ SubMesh make_sub_mesh(const PolygonMesh& mesh, const Topology& topology, std::sp
     for (const Index i : sub_mesh.interface.vertices)
         describe_interface_vertex(whole, halo_faces, sub_mesh.local_to_global[i], neighbours, draft);
     auto& interface = sub_mesh.interface;
-    for (auto* list : {&interface.vertices, &interface.before, &interface.after, &sub_mesh.seam.vertices})
+    for (auto* list : {&interface.vertices, &interface.before, &interface.after, &sub_mesh.corrected.vertices})
         list->shrink_to_fit();
     for (auto* lists :
-         {&interface.own_faces, &interface.complement_faces, &interface.halo_faces, &sub_mesh.seam.neighbours})
+         {&interface.own_faces, &interface.complement_faces, &interface.halo_faces, &sub_mesh.corrected.neighbours})
         lists->shrink_to_fit();
     return std::move(draft.sub_mesh);
 }

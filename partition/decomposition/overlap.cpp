@@ -21,7 +21,7 @@ std::vector<Index> next_layer(const PolygonMesh& mesh, const Topology& topology,
             for (const Index corner : topology.corners_at(v)) {
                 const Index f = topology.face_of[corner];
                 const Index part = overlap.labels[f];
-                if (part != s && overlap.rank[part] >= overlap.rank[s] && position_in(faces, f) < 0)
+                if (part != s && overlap.stage[part] >= overlap.stage[s] && position_in(faces, f) < 0)
                     layer.push_back(f);
             }
     sort_unique(layer);
@@ -118,21 +118,21 @@ std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const
 SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                                   std::vector<Index> faces)
 {
-    const std::vector<Index> seam =
+    const std::vector<Index> corrected =
         vertices_of(mesh, faces, [&](Index v) { return is_on_interface(topology, overlap.labels, v); });
     SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, overlap, s, std::move(faces)));
     mark_owned(topology, overlap.labels, s, draft.sub_mesh);
     list_artificial_boundary(topology, draft.sub_mesh);
-    std::vector<Index> around_seam;
+    std::vector<Index> around_corrected;
     std::vector<Index> neighbours;
-    for (const Index v : seam) {
+    for (const Index v : corrected) {
         edge_neighbours(mesh, topology, v, neighbours);
-        around_seam.insert(around_seam.end(), neighbours.begin(), neighbours.end());
+        around_corrected.insert(around_corrected.end(), neighbours.begin(), neighbours.end());
     }
-    append_halo(around_seam, draft);
-    for (const Index v : seam) {
+    append_halo(around_corrected, draft);
+    for (const Index v : corrected) {
         edge_neighbours(mesh, topology, v, neighbours);
-        append_to_seam(v, neighbours, draft);
+        append_corrected(v, neighbours, draft);
     }
     return std::move(draft.sub_mesh);
 }
@@ -144,7 +144,7 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
         SubMesh& sub_mesh = sub_meshes[s];
         list_sharing(topology, overlap.labels, sub_meshes, sub_mesh.interface, sub_mesh.local_to_global);
         decomposition.halo.push_back(list_halo_transfers(topology, overlap, s, sub_meshes));
-        for (const Index v : sub_mesh.seam.vertices)
+        for (const Index v : sub_mesh.corrected.vertices)
             decomposition.n_interface_vertices += sub_mesh.owned[v];
     }
     decomposition.sub_meshes = std::move(sub_meshes);
@@ -158,7 +158,7 @@ GrownPart make_grown_part(const PolygonMesh& mesh, const Topology& topology, con
     GrownPart part;
     std::vector<Index> grown = grow(mesh, topology, overlap, s, std::move(faces));
     part.unknowns = vertices_of(mesh, grown, [&](Index v) { return topology.moves(v); });
-    const Overlap beyond{overlap.labels, overlap.rank, reach};
+    const Overlap beyond{overlap.labels, overlap.stage, reach};
     SubMeshDraft draft = copy_faces(mesh, topology, grow(mesh, topology, beyond, s, std::move(grown)));
     part.sub_mesh = std::move(draft.sub_mesh);
     part.sub_mesh.owned.assign(part.sub_mesh.n_vertices, 0);

@@ -8,16 +8,16 @@
 #include "partition/topology.h"
 
 /// Sub-meshes that overlap, for the alternating Schwarz method (paper, eqs. 18 and 19), in any number. Each one is its
-/// own part of the cut, grown into parts of equal or higher rank. Its result is used on its own part only; where own
-/// parts meet, on Γ, the result of the lowest rank is used.
+/// own part of the cut, grown into parts of the same or a later stage. Its result is used on its own part only; where
+/// own parts meet, on Γ, the result of the earliest stage is used.
 namespace seamflow {
 
 /// How a cut is made to overlap.
 struct Overlap {
     /// #F, the part of every face.
     std::span<const Index> labels;
-    /// #parts, different for parts that share a vertex of Γ: part i grows into those of equal or higher rank.
-    std::span<const Index> rank;
+    /// #parts, different for parts that share a vertex of Γ: part i grows into those of the same or a later stage.
+    std::span<const Index> stage;
     /// How often each part grows by all faces that share a vertex with it, at least 0.
     int layers = 1;
 };
@@ -29,8 +29,8 @@ std::vector<Index> grow(const PolygonMesh& mesh, const Topology& topology, const
 
 /// Cuts out the sub-mesh of part s, grown. Its interface is its artificial boundary: the vertices that may move and
 /// have faces outside; of the interface's lists only `vertices` is filled in (the others are -1 or empty), which need
-/// no fan. Its seam and the vertices that it owns are those of the part itself. May be called for several sub-meshes at
-/// once.
+/// no fan. Its corrected vertices and those that it owns are those of the part itself. May be called for several
+/// sub-meshes at once.
 /// @param faces those of the part itself, in ascending order.
 SubMesh make_overlapping_sub_mesh(const PolygonMesh& mesh, const Topology& topology, const Overlap& overlap, Index s,
                                   std::vector<Index> faces);
@@ -42,14 +42,15 @@ Decomposition connect_overlapping(std::vector<SubMesh> sub_meshes, const Topolog
 /// A part of a cut, grown, for equations at its vertices that are those of the whole mesh.
 struct GrownPart {
     /// The part grown by its own layers and further by those that the equations reach into. Of its lists `interface`
-    /// and `seam` are empty, and it has no halo; it owns vertices of the part itself alone.
+    /// and `corrected` are empty, and it has no halo; it owns vertices of the part itself alone.
     SubMesh sub_mesh;
     /// The vertices (local, ascending) that may move, of the part grown by its own layers.
     std::vector<Index> unknowns;
 };
 
 /// Cuts out part s. May be called for several parts at once.
-/// @param overlap `layers` by which its equations overlap those of other parts. Parts of lower rank are not entered.
+/// @param overlap `layers` by which its equations overlap those of other parts. Parts of an earlier stage are not
+/// entered.
 /// @param reach layers of faces beyond on which these equations depend. With 2 they have all faces around each of their
 ///        vertices, and the faces across the edges of these.
 /// @param faces those of the part itself, in ascending order.

@@ -36,17 +36,17 @@ void speak_for_fragments(const Topology& topology, std::span<const Index> labels
 }  // namespace
 
 Decomposition decompose_part(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
-                             std::span<const std::uint8_t> is_whole, const Loop& loop)
+                             std::span<const std::uint8_t> is_whole, const Executor& exec)
 {
     const auto n = static_cast<Index>(is_whole.size());
-    auto faces = faces_by_label(labels, n, loop);
+    auto faces = faces_by_label(labels, n, exec);
     std::vector<SubMesh> sub_meshes(faces.size());
-    for_each(loop, n, [&](Index s) {
+    for_each(exec, n, [&](Index s) {
         sub_meshes[s] = is_whole[s] != 0 ? make_sub_mesh(mesh, topology, labels, std::move(faces[s]))
                                          : make_fragment(mesh, topology, std::move(faces[s]));
     });
-    Decomposition decomposition = connect(std::move(sub_meshes), topology, labels, loop);
-    for_each(loop, n, [&](Index s) {
+    Decomposition decomposition = connect(std::move(sub_meshes), topology, labels, exec);
+    for_each(exec, n, [&](Index s) {
         if (is_whole[s] != 0)
             speak_for_fragments(topology, labels, is_whole, s, decomposition.sub_meshes[s]);
     });

@@ -15,6 +15,6 @@ namespace seamflow {
 /// @param is_whole #sub-meshes: 1 where the part has all faces, all faces around their vertices, and all faces around
 ///        the vertices of these.
 Decomposition decompose_part(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,
-                             std::span<const std::uint8_t> is_whole, const Loop& loop = run_serially);
+                             std::span<const std::uint8_t> is_whole, const Executor& exec = run_serially);
 
 }  // namespace seamflow

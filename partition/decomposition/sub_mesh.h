@@ -33,7 +33,7 @@ struct SubMeshInterface {
 };
 
 /// The vertices of Γ in a sub-mesh's own part, which move to the centroids of their edge neighbours after a step.
-struct SubMeshSeam {
+struct CorrectedVertices {
     /// In ascending order.
     std::vector<Index> vertices;
     /// One list per vertex: its edge neighbours, in ascending order of their global indices.
@@ -61,7 +61,7 @@ struct SubMesh {
     /// exactly one sub-mesh owns each vertex that may move.
     std::vector<std::uint8_t> owned;
     SubMeshInterface interface;
-    SubMeshSeam seam;
+    CorrectedVertices corrected;
 };
 
 /// The local index of a vertex among the sub-mesh's own vertices, or -1.

@@ -32,19 +32,19 @@ std::uint64_t checksum(std::string_view bytes)
 }
 
 /// The checksums of slices are made several at a time; that of all of them tells files apart.
-std::uint64_t checksum(std::string_view content, const Loop& loop)
+std::uint64_t checksum(std::string_view content, const Executor& exec)
 {
     constexpr std::size_t slice = std::size_t{1} << 20;
     std::vector<std::uint64_t> sums(content.size() / slice + 1);
-    for_each(loop, static_cast<Index>(sums.size()),
+    for_each(exec, static_cast<Index>(sums.size()),
              [&](Index i) { sums[i] = checksum(content.substr(at(i) * slice, slice)); });
     return checksum({reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(std::uint64_t)});
 }
 
-std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Loop& loop)
+std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Executor& exec)
 {
     const auto of = [&](const std::vector<Index>& list) {
-        return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)}, loop);
+        return checksum({reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Index)}, exec);
     };
     return of(mesh.face_offsets) + 3 * of(mesh.face_vertices);
 }
@@ -56,13 +56,14 @@ std::uint64_t checksum_of_faces(const PolygonMesh& mesh, const Loop& loop)
 class MeshSource {
   public:
     /// @param content of the file. @param mesh, kind what was read from it.
-    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind, const Loop& loop)
+    MeshSource(OpenFile file, std::string_view content, const PolygonMesh& mesh, const FileKind& kind,
+               const Executor& exec)
         : file_(std::move(file))
         , kind_(kind)
-        , content_checksum_(checksum(content, loop))
+        , content_checksum_(checksum(content, exec))
         , n_vertices_(mesh.n_vertices())
         , n_faces_(mesh.n_faces())
-        , faces_checksum_(checksum_of_faces(mesh, loop))
+        , faces_checksum_(checksum_of_faces(mesh, exec))
     {
     }
 
@@ -73,12 +74,12 @@ class MeshSource {
 
     /// Reads the file again.
     /// @throws InputError if it does not hold the same bytes any more.
-    [[nodiscard]] InputFile read_again(const Loop& loop) const;
+    [[nodiscard]] InputFile read_again(const Executor& exec) const;
 
     /// Checks that the mesh has as many vertices as the file, and the same faces.
     /// @param path where the mesh is to be written, for the message.
     /// @throws OutputError
-    void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop) const;
+    void require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec) const;
 
   private:
     OpenFile file_;
@@ -89,15 +90,16 @@ class MeshSource {
     std::uint64_t faces_checksum_;
 };
 
-InputFile MeshSource::read_again(const Loop& loop) const
+InputFile MeshSource::read_again(const Executor& exec) const
 {
     InputFile input(file_);
-    if (checksum(input.content(), loop) != content_checksum_)
+    if (checksum(input.content(), exec) != content_checksum_)
         throw InputError(changed_since_read(path()));
     return input;
 }
 
-void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop) const
+void MeshSource::require_same_faces(const std::filesystem::path& path, const PolygonMesh& mesh,
+                                    const Executor& exec) const
 {
     const auto refuse = [&](std::string_view why) {
         throw OutputError(
@@ -107,7 +109,7 @@ void MeshSource::require_same_faces(const std::filesystem::path& path, const Pol
     if (mesh.n_vertices() != n_vertices_ || mesh.n_faces() != n_faces_)
         refuse(fmt::format("{} vertices and {} faces, but that file {} and {}", mesh.n_vertices(), mesh.n_faces(),
                            n_vertices_, n_faces_));
-    if (checksum_of_faces(mesh, loop) != faces_checksum_)
+    if (checksum_of_faces(mesh, exec) != faces_checksum_)
         refuse("other faces than that file");
 }
 
@@ -185,23 +187,23 @@ const Format& functions_of(FileFormat format)
 
 /// @param format nothing: it is recognised from the content.
 /// @param faults null: they are thrown. With faults that are not of faces alone the file is no source for others.
-MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Loop& loop, FaultLog* faults)
+MeshFile read_open(OpenFile open, std::optional<FileFormat> format, const Executor& exec, FaultLog* faults)
 {
     const InputFile input(open);
     if (!format)
         format = recognised_format(input.content());
-    MeshFile file = functions_of(*format).read(open.path(), input.content(), {loop}, faults);
+    MeshFile file = functions_of(*format).read(open.path(), input.content(), {exec}, faults);
     if (faults == nullptr || faults->of_faces_alone)
-        file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, loop);
+        file.source = std::make_shared<MeshSource>(std::move(open), input.content(), file.mesh, file.kind, exec);
     return file;
 }
 
 /// Finds the format and reads; a lack of memory comes out with the name of the file.
-MeshFile read(const std::filesystem::path& path, const Loop& loop, FaultLog* faults)
+MeshFile read(const std::filesystem::path& path, const Executor& exec, FaultLog* faults)
 {
     const auto format = is_input_stream(path) ? std::nullopt : std::optional(require_format(path));
     try {
-        return read_open(OpenFile(path), format, loop, faults);
+        return read_open(OpenFile(path), format, exec, faults);
     } catch (const std::bad_alloc&) {
         throw ComputationError(path.string() +
                                ": there is not enough memory for this mesh; close other programs, raise "
@@ -220,12 +222,12 @@ void require_encoding(const FileKind& kind)
 }
 
 /// Whatever is written can be read again.
-void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Loop& loop)
+void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh, const Executor& exec)
 {
     if (mesh.n_vertices() == 0)
         throw OutputError(path.string() + ": cannot be written: the mesh has no vertices; write one that has");
     try {
-        require_valid(mesh, loop);
+        require_valid(mesh, exec);
     } catch (const InputError& error) {
         throw OutputError(path.string() + ": cannot be written: " + error.what());
     }
@@ -233,68 +235,68 @@ void require_readable(const std::filesystem::path& path, const PolygonMesh& mesh
 
 }  // namespace
 
-MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop)
+MeshFile read_mesh(const std::filesystem::path& path, const Executor& exec)
 {
-    return read(path, loop, nullptr);
+    return read(path, exec, nullptr);
 }
 
-MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop)
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Executor& exec)
 {
-    return read(path, loop, &faults);
+    return read(path, exec, &faults);
 }
 
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
-                                    const Loop& loop)
+                                    const Executor& exec)
 {
     const Format& format = functions_of(kind.format);
     require_encoding(kind);
-    require_readable(path, mesh, loop);
+    require_readable(path, mesh, exec);
     std::vector<std::string> remarks;
     if (format.require_fits != nullptr)
         remarks = format.require_fits(path, mesh, kind.encoding);
     OutputFile file(path);
-    format.write(file, mesh, kind.encoding, {loop});
+    format.write(file, mesh, kind.encoding, {exec});
     file.commit();
     return remarks;
 }
 
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh, const Loop& loop)
+                                         const PolygonMesh& mesh, const Executor& exec)
 {
-    require_readable(path, mesh, loop);
-    source.require_same_faces(path, mesh, loop);
+    require_readable(path, mesh, exec);
+    source.require_same_faces(path, mesh, exec);
     const Format& format = functions_of(source.kind().format);
-    const InputFile input = source.read_again(loop);
+    const InputFile input = source.read_again(exec);
     OutputFile file(path);
-    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {loop});
+    auto remarks = format.rewrite(file, source.path(), input.content(), mesh, {exec});
     file.commit();
     return remarks;
 }
 
-std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop)
+std::vector<std::string> extras_of(const MeshSource& source, const Executor& exec)
 {
     const Format& format = functions_of(source.kind().format);
-    const InputFile input = source.read_again(loop);
-    return format.extras(source.path(), input.content(), {loop});
+    const InputFile input = source.read_again(exec);
+    return format.extras(source.path(), input.content(), {exec});
 }
 
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
-                        const Loop& loop)
+                        const Executor& exec)
 {
-    require_readable(path, mesh, loop);
+    require_readable(path, mesh, exec);
     if (labels.size() != static_cast<std::size_t>(mesh.n_faces()))
         throw OutputError(
             fmt::format("{}: cannot be written: there are {} labels for {} faces; give one label for each face",
                         path.string(), labels.size(), mesh.n_faces()));
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {loop}, {.face_labels = labels});
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.face_labels = labels});
     file.commit();
 }
 
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
-                      std::span<const VertexValues> values, const Loop& loop)
+                      std::span<const VertexValues> values, const Executor& exec)
 {
-    require_readable(path, mesh, loop);
+    require_readable(path, mesh, exec);
     const auto require_each = [&](std::size_t count, const std::string& what) {
         if (count != at(mesh.n_vertices()))
             throw OutputError(
@@ -305,7 +307,7 @@ void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh
     for (const VertexValues& list : values)
         require_each(list.values.size(), "values of '" + list.name + "'");
     OutputFile file(path);
-    write_ply(file, mesh, Encoding::BinaryLittleEndian, {loop}, {.vertex_colours = colours, .vertex_values = values});
+    write_ply(file, mesh, Encoding::BinaryLittleEndian, {exec}, {.vertex_colours = colours, .vertex_values = values});
     file.commit();
 }
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/formats/mesh_file.h"
 #include "partition/formats/palette.h"
 #include "partition/io/fault_log.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -28,7 +28,7 @@ namespace seamflow {
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate
 ///         that is not finite, a face of less than three corners or one that names a vertex twice.
 /// @throws ComputationError naming the file, or std::bad_alloc, if there is not enough memory.
-MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_serially);
+MeshFile read_mesh(const std::filesystem::path& path, const Executor& exec = run_serially);
 
 /// Reads a mesh as far as possible, for looking at what is wrong with it: vertices whose coordinates are not finite
 /// stay among the others, faces that cannot be used are left out, and `faults` says so with line, byte or element.
@@ -36,7 +36,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const Loop& loop = run_ser
 /// numbers passed over that rows have too many; all else is thrown as by read_mesh, and the result has a source: there
 /// such faces and numbers stay.
 /// @throws InputError where reading cannot go on: what read_mesh says of files that are no mesh, or cut off.
-MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Loop& loop = run_serially);
+MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, const Executor& exec = run_serially);
 
 /// Writes a mesh. Text formats use the fewest digits (at most 17) that read back to the same double; binary PLY stores
 /// doubles; binary STL stores floats, as its format demands. The file appears whole or not at all: it is written under
@@ -48,7 +48,7 @@ MeshFile read_faulty_mesh(const std::filesystem::path& path, FaultLog& faults, c
 /// @throws OptionError for an encoding that the format does not have.
 /// @returns what else a user should know, in sentences: facets of STL that have become lines.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh, const FileKind& kind,
-                                    const Loop& loop = run_serially);
+                                    const Executor& exec = run_serially);
 
 /// Writes the file that was read with the positions of `mesh` in place of its own: texture coordinates, materials,
 /// groups, colours, comments, further elements and properties, their order, and the line ends stay byte for byte, as do
@@ -62,12 +62,12 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Pol
 /// @throws InputError if that file has been changed in place since. That it has been replaced or removed does not
 /// matter.
 std::vector<std::string> write_mesh_like(const MeshSource& source, const std::filesystem::path& path,
-                                         const PolygonMesh& mesh, const Loop& loop = run_serially);
+                                         const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// What the file holds besides a surface, which write_mesh does not write, in a few words each: "normals", "groups".
 /// Comments do not count.
 /// @throws InputError if the file has been changed since it was read.
-std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop = run_serially);
+std::vector<std::string> extras_of(const MeshSource& source, const Executor& exec = run_serially);
 
 /// As write_mesh, with one colour and one label per face, for looking at a cut. Each face gets the properties red,
 /// green, blue (uchar) and label (int). The colours of labels 0, 1, 2, … go round the circle of hues in steps of the
@@ -75,7 +75,7 @@ std::vector<std::string> extras_of(const MeshSource& source, const Loop& loop = 
 /// @param labels #F; the label of every face.
 /// @throws OutputError naming the file.
 void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Index> labels,
-                        const Loop& loop = run_serially);
+                        const Executor& exec = run_serially);
 
 /// As write_mesh, with one colour and any numbers per vertex, for looking at what was measured there. Each vertex gets
 /// the properties red, green, blue (uchar) and one property (double) for each of `values`, under its name. The file is
@@ -83,6 +83,6 @@ void write_labelled_ply(const std::filesystem::path& path, const PolygonMesh& me
 /// @param colours #V.
 /// @throws OutputError naming the file; also if there are not as many colours or values as vertices.
 void write_valued_ply(const std::filesystem::path& path, const PolygonMesh& mesh, std::span<const Colour> colours,
-                      std::span<const VertexValues> values, const Loop& loop = run_serially);
+                      std::span<const VertexValues> values, const Executor& exec = run_serially);
 
 }  // namespace seamflow

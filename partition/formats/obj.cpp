@@ -146,7 +146,7 @@ void ObjReader::require_no_open_reference(Index n) const
 }
 
 /// @throws InputError if there is any fault, not necessarily naming the line.
-PolygonMesh read_slices(const TextScanner& whole, const TextSlices& slices, const Loop& loop)
+PolygonMesh read_slices(const TextScanner& whole, const TextSlices& slices, const Executor& exec)
 {
     if (slices.all.n_vertices == 0)
         throw InputError("no vertices");
@@ -154,7 +154,7 @@ PolygonMesh read_slices(const TextScanner& whole, const TextSlices& slices, cons
     const auto n_vertices = static_cast<Index>(slices.all.n_vertices);
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(static_cast<Index>(slices.counts.back().n_vertices) - first);
-    append_faces(mesh, static_cast<Index>(slices.bytes.size()), loop, [&](Index i, PolygonMesh& faces) {
+    append_faces(mesh, static_cast<Index>(slices.bytes.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first_of_slice = static_cast<Index>(slices.counts[i].n_vertices);
         ObjReader reader(TextScanner(whole, slices.bytes[i]), {mesh.vertices, first_of_slice, faces, first});
         reader.read();
@@ -172,17 +172,17 @@ class SlicedObj final : public SlicedText {
     }
 
     [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
-                                                const Loop& loop) const override
+                                                const Executor& exec) const override
     {
-        return count_obj(after_header(), slices, loop);
+        return count_obj(after_header(), slices, exec);
     }
 
     [[nodiscard]] std::int64_t n_vertices_before(const TextCounts& counts) const override { return counts.n_vertices; }
     [[nodiscard]] std::int64_t n_vertices(const TextCounts& all) const override { return all.n_vertices; }
 
-    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Loop& loop) const override
+    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Executor& exec) const override
     {
-        return read_slices(after_header(), slices, loop);
+        return read_slices(after_header(), slices, exec);
     }
 
     void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override
@@ -256,10 +256,11 @@ std::vector<std::string> extras_of_slice(TextScanner scanner)
 
 }  // namespace
 
-std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop)
+std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
+                                  const Executor& exec)
 {
     std::vector<TextCounts> counts(slices.size() + 1);
-    for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
         TextScanner scanner(whole, slices[i]);
         while (scanner.next_line()) {
             const std::string_view keyword = scanner.token();
@@ -291,8 +292,8 @@ PolygonMesh read_obj(const std::filesystem::path& path, std::string_view text, c
     if (slices.size() < 2)
         return in_one_go();
     const auto in_slices = [&] {
-        const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.loop);
-        return read_slices(whole, {slices, counts, counts.back()}, slicing.loop);
+        const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
+        return read_slices(whole, {slices, counts, counts.back()}, slicing.exec);
     };
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
@@ -301,9 +302,9 @@ void write_obj(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
 {
     constexpr std::size_t line_bytes = 32;
     const Index per_slice = elements_per_slice(slicing, line_bytes);
-    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.exec,
                    [&](ByteWriter& slice, Index v) { slice.line("v", mesh.vertices.row(v)); });
-    write_elements(file, mesh.n_faces(), per_slice, slicing.loop, [&](ByteWriter& slice, Index f) {
+    write_elements(file, mesh.n_faces(), per_slice, slicing.exec, [&](ByteWriter& slice, Index f) {
         slice.text("f");
         for (const Index v : mesh.face(f)) {
             slice.text(" ");
@@ -318,7 +319,7 @@ std::vector<std::string> extras_of_obj(const std::filesystem::path& path, std::s
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
     std::vector<std::vector<std::string>> of_slice(slices.size());
-    for_each(slicing.loop, static_cast<Index>(slices.size()),
+    for_each(slicing.exec, static_cast<Index>(slices.size()),
              [&](Index i) { of_slice[i] = extras_of_slice(TextScanner(whole, slices[i])); });
     std::vector<std::string> extras;
     for (const auto& list : of_slice)

@@ -27,7 +27,8 @@ inline bool is_obj_face(std::string_view keyword)
 
 /// The counts before each slice of a file and, at the end, those of all of it.
 /// @throws InputError if there are more than 2^31 - 1 of a kind.
-std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices, const Loop& loop);
+std::vector<TextCounts> count_obj(const TextScanner& whole, std::span<const std::string_view> slices,
+                                  const Executor& exec);
 
 /// Reads Wavefront OBJ: the lines `v` (further numbers, a weight or a colour, are passed over) and `f` (texture
 /// coordinates and normals of the corners are passed over). All other lines, among them points and polylines, are

@@ -51,10 +51,10 @@ struct StayingNormals {
 class NormalUpdate {
   public:
     /// @param normals see corners_of_obj_normals. @param before #V by 3, where the vertices were.
-    NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Loop& loop)
+    NormalUpdate(IndexLists normals, const PolygonMesh& mesh, Points before, const Executor& exec)
         : normals_(std::move(normals))
         , mesh_(mesh)
-        , moved_(mesh, std::move(before), loop)
+        , moved_(mesh, std::move(before), exec)
     {
     }
 
@@ -176,9 +176,9 @@ IndexLists corners_of_obj_normals(const std::filesystem::path& path, std::string
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.loop);
+    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
     std::vector<std::vector<Index>> of_slice(slices.size());
-    for_each(slicing.loop, static_cast<Index>(slices.size()),
+    for_each(slicing.exec, static_cast<Index>(slices.size()),
              [&](Index i) { of_slice[i] = normals_of_corners(TextScanner(whole, slices[i]), counts[i]); });
     const auto n = static_cast<Index>(counts.back().n_normals);
     return make_lists(n, [&](auto&& add) {
@@ -197,15 +197,15 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
 {
     const TextScanner whole(path, text, obj_syntax);
     const std::vector<std::string_view> slices = whole.slices(slicing.bytes);
-    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.loop);
+    const std::vector<TextCounts> counts = count_obj(whole, slices, slicing.exec);
     std::optional<NormalUpdate> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (counts.back().n_normals > 0)
         normals.emplace(corners_of_obj_normals(path, text, slicing), mesh,
-                        read_obj(path, text, slicing, &known_faults).vertices, slicing.loop);
+                        read_obj(path, text, slicing, &known_faults).vertices, slicing.exec);
     std::vector<StayingNormals> staying(slices.size());
     file.text(text.substr(0, text.size() - whole.rest().size()));
-    file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+    file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
                                    mesh.vertices, 0, normals ? &*normals : nullptr);
     });

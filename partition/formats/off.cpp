@@ -112,10 +112,10 @@ void OffReader::read_face()
 }
 
 std::vector<TextCounts> count_slices(const TextScanner& after_header, std::span<const std::string_view> slices,
-                                     const Loop& loop)
+                                     const Executor& exec)
 {
     std::vector<TextCounts> counts;
-    for (const std::int64_t n : count_lines(after_header, slices, loop))
+    for (const std::int64_t n : count_lines(after_header, slices, exec))
         counts.push_back({.n_lines = n});
     return counts;
 }
@@ -127,7 +127,7 @@ Index vertices_before(const TextCounts& counts, const OffHeader& header)
 
 /// @throws InputError if there is any fault, not necessarily naming it.
 PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header, const TextSlices& slices,
-                        const Loop& loop)
+                        const Executor& exec)
 {
     if (header.n_vertices == 0 || slices.all.n_lines != header.n_lines())
         throw InputError("the file ends too early, or goes on");
@@ -139,7 +139,7 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
     PolygonMesh mesh;
     mesh.vertices = uninitialised_points(n_vertices);
     mesh.face_offsets.reserve(static_cast<std::size_t>(end.n_lines - begin.n_lines - n_vertices) + 1);
-    append_faces(mesh, static_cast<Index>(slices.bytes.size()), loop, [&](Index i, PolygonMesh& faces) {
+    append_faces(mesh, static_cast<Index>(slices.bytes.size()), exec, [&](Index i, PolygonMesh& faces) {
         OffReader reader(TextScanner(after_header, slices.bytes[i]), header,
                          {mesh.vertices, vertices_before(slices.counts[i], header), faces, first});
         reader.read(slices.counts[i].n_lines, slices.counts[i + 1].n_lines);
@@ -180,9 +180,9 @@ class SlicedOff final : public SlicedText {
     }
 
     [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
-                                                const Loop& loop) const override
+                                                const Executor& exec) const override
     {
-        return count_slices(after_header(), slices, loop);
+        return count_slices(after_header(), slices, exec);
     }
 
     [[nodiscard]] std::int64_t n_vertices_before(const TextCounts& counts) const override
@@ -192,9 +192,9 @@ class SlicedOff final : public SlicedText {
 
     [[nodiscard]] std::int64_t n_vertices(const TextCounts&) const override { return header_.n_vertices; }
 
-    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Loop& loop) const override
+    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Executor& exec) const override
     {
-        return read_slices(after_header(), header_, slices, loop);
+        return read_slices(after_header(), header_, slices, exec);
     }
 
     void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override
@@ -253,8 +253,8 @@ PolygonMesh read_by_lines(const std::filesystem::path& path, std::string_view te
         return in_one_go();
     const auto in_slices = [&] {
         const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
-        const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
-        return read_slices(scanner, header, {slices, counts, counts.back()}, slicing.loop);
+        const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.exec);
+        return read_slices(scanner, header, {slices, counts, counts.back()}, slicing.exec);
     };
     return read_in_slices_if_faultless(in_slices, in_one_go);
 }
@@ -280,7 +280,7 @@ bool breaks_lines_freely(const std::filesystem::path& path, std::string_view tex
     try {
         const OffHeader header = read_off_header(scanner);
         const auto slices = scanner.slices(slicing.bytes);
-        return count_lines(scanner, slices, slicing.loop).back() != header.n_lines();
+        return count_lines(scanner, slices, slicing.exec).back() != header.n_lines();
     } catch (const InputError&) {
         return true;
     }
@@ -343,9 +343,9 @@ void write_off(OutputFile& file, const PolygonMesh& mesh, const Slicing& slicing
     file.line("", std::array{mesh.n_vertices(), mesh.n_faces(), 0});
     constexpr std::size_t line_bytes = 32;
     const Index per_slice = elements_per_slice(slicing, line_bytes);
-    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.exec,
                    [&](ByteWriter& slice, Index v) { slice.line("", mesh.vertices.row(v)); });
-    write_elements(file, mesh.n_faces(), per_slice, slicing.loop, [&](ByteWriter& slice, Index f) {
+    write_elements(file, mesh.n_faces(), per_slice, slicing.exec, [&](ByteWriter& slice, Index f) {
         slice.number(mesh.face(f).size());
         slice.text(" ");
         slice.line("", mesh.face(f));
@@ -368,16 +368,16 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (header.has_normals())
-        normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.loop);
+        normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.exec);
     if (crosses_lines) {
         rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), mesh.vertices, 0,
                       normals ? &*normals : nullptr, header);
         return {};
     }
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
-    const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.loop);
+    const std::vector<TextCounts> counts = count_slices(scanner, slices, slicing.exec);
     file.text(content.substr(0, content.size() - scanner.rest().size()));
-    file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+    file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
                       vertices_before(counts[i + 1], header), mesh.vertices, 0, normals ? &*normals : nullptr, header);
     });

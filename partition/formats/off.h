@@ -65,7 +65,8 @@ std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t 
 
 /// Checks that floats can hold some vertices. @param first the number of the first of them.
 /// @throws OutputError
-void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first, const Loop& loop);
+void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first,
+                             const Executor& exec);
 
 /// Writes such a file again, with the positions of `mesh`, rounded to floats; every other byte stays.
 /// @param mesh with the faces of the file.

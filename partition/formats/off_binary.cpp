@@ -84,9 +84,10 @@ std::vector<PlyHeader> layouts_of_binary_off(std::string_view file, std::size_t 
     return headers;
 }
 
-void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first, const Loop& loop)
+void require_fits_binary_off(const std::filesystem::path& path, const Points& vertices, Index first,
+                             const Executor& exec)
 {
-    const auto too_large = select(loop, static_cast<Index>(vertices.rows()), [&](Index v) {
+    const auto too_large = select(exec, static_cast<Index>(vertices.rows()), [&](Index v) {
         return vertices.row(v).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()};
     });
     if (!too_large.empty())
@@ -101,11 +102,11 @@ bool rewrite_binary_off(OutputFile& output, std::string_view file, std::size_t o
 {
     const auto layout = layout_of(file, offset);
     const std::endian order = order_of(layout ? layout->encoding : Encoding::BinaryBigEndian);
-    require_fits_binary_off(output.path(), mesh.vertices, 0, slicing.loop);
+    require_fits_binary_off(output.path(), mesh.vertices, 0, slicing.exec);
     constexpr std::size_t vertex_bytes = 3 * word_size;
     const std::size_t first = offset + binary_off_counts_bytes;
     output.text(file.substr(0, first));
-    write_elements(output, mesh.n_vertices(), elements_per_slice(slicing, vertex_bytes), slicing.loop,
+    write_elements(output, mesh.n_vertices(), elements_per_slice(slicing, vertex_bytes), slicing.exec,
                    [&](ByteWriter& slice, Index v) {
                        for (const double coordinate : mesh.vertices.row(v))
                            slice.binary(static_cast<float>(coordinate), order);

@@ -107,7 +107,7 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
     mesh.vertices = uninitialised_points(n_vertices);
     if (const PlyElement* const faces = header.element("face"))
         mesh.face_offsets.reserve(faces->count + 1);
-    append_faces(mesh, static_cast<Index>(slices.size()), slicing.loop, [&](Index i, PolygonMesh& faces) {
+    append_faces(mesh, static_cast<Index>(slices.size()), slicing.exec, [&](Index i, PolygonMesh& faces) {
         const auto first = static_cast<Index>(count_before(slices[i].begin, header, "vertex"));
         const MeshSlice place{mesh.vertices, first, faces};
         if (read_plain_slice(header, slices[i], place))
@@ -129,8 +129,8 @@ PolygonMesh read_text_slices(const std::filesystem::path& path, std::string_view
 {
     const auto text = slice_ply_text(path, file);
     const std::vector<std::string_view> slices = text->after_header().slices(slicing.bytes);
-    const std::vector<TextCounts> counts = text->count(slices, slicing.loop);
-    return text->read({slices, counts, counts.back()}, slicing.loop);
+    const std::vector<TextCounts> counts = text->count(slices, slicing.exec);
+    return text->read({slices, counts, counts.back()}, slicing.exec);
 }
 
 }  // namespace

@@ -12,9 +12,9 @@
 
 #include "partition/formats/ply.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/ply_stretches.h"
 #include "partition/formats/splicing.h"
 
 namespace seamflow {
@@ -217,7 +217,7 @@ bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const s
     if (crosses_lines)
         slices = {{0, header.n_elements(), after_header.rest()}};
     std::vector<std::uint8_t> rounded(slices.size());
-    file.slices(static_cast<Index>(slices.size()), slicing.loop, [&](Index i, OutputBuffer& slice) {
+    file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         // Those that the reader has let pass.
         FaultLog known_faults{.of_faces_alone = true};
         const auto rewrite = [&](auto source) {
@@ -304,7 +304,7 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     std::optional<MovedNormals> normals;
     FaultLog known_faults{.of_faces_alone = true};
     if (normals_of(vertices) == Normals::Usable)
-        normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.loop);
+        normals.emplace(mesh, read_ply(path, content, slicing, &known_faults).mesh.vertices, slicing.exec);
     Splicer splicer(file, content.substr(0, content.size() - scanner.rest().size()));
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
     splicer.finish();

@@ -21,7 +21,7 @@ namespace {
 std::vector<PlySlice> slice_text(const TextScanner& after_header, const Slicing& slicing)
 {
     const std::vector<std::string_view> bytes = after_header.slices(slicing.bytes);
-    const std::vector<std::int64_t> first = count_lines(after_header, bytes, slicing.loop);
+    const std::vector<std::int64_t> first = count_lines(after_header, bytes, slicing.exec);
     std::vector<PlySlice> slices;
     for (std::size_t i = 0; i < bytes.size(); ++i)
         slices.push_back({static_cast<std::uint64_t>(first[i]), static_cast<std::uint64_t>(first[i + 1]), bytes[i]});

@@ -10,9 +10,9 @@
 #include "partition/errors.h"
 #include "partition/formats/ply_elements.h"
 #include "partition/formats/ply_header.h"
+#include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_slices.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/ply_stretches.h"
 #include "partition/formats/text_slices.h"
 #include "partition/io/slices.h"
 
@@ -32,10 +32,10 @@ class SlicedPly final : public SlicedText {
     }
 
     [[nodiscard]] std::vector<TextCounts> count(std::span<const std::string_view> slices,
-                                                const Loop& loop) const override
+                                                const Executor& exec) const override
     {
         std::vector<TextCounts> counts;
-        for (const std::int64_t n : count_lines(after_header(), slices, loop))
+        for (const std::int64_t n : count_lines(after_header(), slices, exec))
             counts.push_back({.n_lines = n});
         return counts;
     }
@@ -50,7 +50,7 @@ class SlicedPly final : public SlicedText {
         return static_cast<std::int64_t>(vertices().count);
     }
 
-    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Loop& loop) const override;
+    [[nodiscard]] PolygonMesh read(const TextSlices& slices, const Executor& exec) const override;
     void check(const TextScanner& scanner, const TextSlices& slices, CheckedSlice& found) const override;
 
     [[nodiscard]] std::array<bool, 3> coordinates_fit(const Points& positions) const override
@@ -93,7 +93,7 @@ class SlicedPly final : public SlicedText {
     std::int64_t n_lines_ = 0;
 };
 
-PolygonMesh SlicedPly::read(const TextSlices& slices, const Loop& loop) const
+PolygonMesh SlicedPly::read(const TextSlices& slices, const Executor& exec) const
 {
     if (slices.all.n_lines != n_lines_)
         throw InputError("the file ends too early, or goes on");
@@ -104,7 +104,7 @@ PolygonMesh SlicedPly::read(const TextSlices& slices, const Loop& loop) const
     const auto n_faces = count_before(static_cast<std::uint64_t>(slices.counts.back().n_lines), header_, "face") -
                          count_before(static_cast<std::uint64_t>(slices.counts.front().n_lines), header_, "face");
     mesh.face_offsets.reserve(n_faces + 1);
-    append_faces(mesh, static_cast<Index>(slices.bytes.size()), loop, [&](Index i, PolygonMesh& faces) {
+    append_faces(mesh, static_cast<Index>(slices.bytes.size()), exec, [&](Index i, PolygonMesh& faces) {
         const auto first_of_slice = static_cast<Index>(n_vertices_before(slices.counts[i]));
         PlyTextSource source(TextScanner(after_header(), slices.bytes[i]));
         read_elements(source, slice_between(slices, i, slices.counts[i + 1].n_lines),

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "partition/formats/ply.h"
+#include "partition/formats/ply_ranges.h"
 #include "partition/formats/ply_source.h"
-#include "partition/formats/ply_stretches.h"
 
 namespace seamflow {
 
@@ -171,9 +171,9 @@ void write_ply(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
     file.text(header_of({mesh.n_vertices(), mesh.n_faces(), content.long_faces}, encoding, extras));
     constexpr std::size_t element_bytes = 32;
     const Index per_slice = elements_per_slice(slicing, element_bytes);
-    write_elements(file, mesh.n_vertices(), per_slice, slicing.loop,
+    write_elements(file, mesh.n_vertices(), per_slice, slicing.exec,
                    [&](ByteWriter& slice, Index v) { PlyWriter(slice, content).write_vertex(v); });
-    write_elements(file, mesh.n_faces(), per_slice, slicing.loop,
+    write_elements(file, mesh.n_faces(), per_slice, slicing.exec,
                    [&](ByteWriter& slice, Index f) { PlyWriter(slice, content).write_face(f); });
 }
 

@@ -61,12 +61,12 @@ void exchange_normal(Splicer& splicer, const WrittenNormal& before, const Point&
             splicer.exchange(before.parts[k]).number(static_cast<float>(after[k]));
 }
 
-MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Loop& loop)
+MovedNormals::MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec)
     : mesh_(mesh)
     , before_(std::move(before))
-    , topology_(make_topology(mesh, loop))
+    , topology_(make_topology(mesh, exec))
     , normals_(mesh, topology_)
-    , welded_(weld(mesh, topology_, 0.0, loop))
+    , welded_(weld(mesh, topology_, 0.0, exec))
 {
     if (welded_)
         across_seams_.emplace(welded_->mesh, welded_->topology);

@@ -60,7 +60,7 @@ class MovedNormals {
   public:
     /// @param mesh where the vertices are now; has to outlive this object.
     /// @param before #V by 3, where they were.
-    MovedNormals(const PolygonMesh& mesh, Points before, const Loop& loop = run_serially);
+    MovedNormals(const PolygonMesh& mesh, Points before, const Executor& exec = run_serially);
     MovedNormals(const MovedNormals&) = delete;
     MovedNormals& operator=(const MovedNormals&) = delete;
 

@@ -32,14 +32,14 @@ MeshFile read_stl(const std::filesystem::path& path, std::string_view file, cons
                   FaultLog* faults = nullptr);
 
 /// A binary STL file of which a reader takes some of the facets alone.
-class StlStretches {
+class StlRanges {
   public:
     /// @param content the whole file, of which only what is asked for is looked at. It has to outlive this.
     /// @throws InputError as read_stl.
-    StlStretches(std::filesystem::path path, std::string_view content);
-    StlStretches(const StlStretches&) = delete;
-    StlStretches& operator=(const StlStretches&) = delete;
-    ~StlStretches() = default;
+    StlRanges(std::filesystem::path path, std::string_view content);
+    StlRanges(const StlRanges&) = delete;
+    StlRanges& operator=(const StlRanges&) = delete;
+    ~StlRanges() = default;
 
     [[nodiscard]] Index n_facets() const { return n_facets_; }
 
@@ -88,7 +88,7 @@ class StlText {
 
     /// The same as a reader of the whole file does it who notes which facets are left out.
     /// @param lines_before so many lines of the file precede. @param in_solid whether the share begins within a solid;
-    /// receives whether what follows does. @param faults see StlStretches::facets.
+    /// receives whether what follows does. @param faults see StlRanges::facets.
     /// @throws InputError naming the line.
     PointNumbers check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,
                        FaultLog& faults) const;

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "partition/executor.h"
 #include "partition/io/input_position.h"
 #include "partition/io/mesh_builder.h"
-#include "partition/loop.h"
 #include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 
@@ -72,7 +72,7 @@ class FacetCollector {
 /// Reads slices several at a time. The points of a slice become numbers of its own, and these those of all slices.
 /// @param read called with a slice and where its faces belong; gives its points.
 /// @param faces gets the faces of all slices.
-PointNumbers join_facets(Index n_slices, const Loop& loop,
+PointNumbers join_facets(Index n_slices, const Executor& exec,
                          const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read,
                          PolygonMesh& faces);
 

@@ -105,7 +105,7 @@ PolygonMesh read_binary_slices(const std::filesystem::path& path, std::string_vi
         return collector.take_points();
     };
     PolygonMesh mesh;
-    set_vertices(mesh, join_facets(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.loop, read, mesh));
+    set_vertices(mesh, join_facets(static_cast<Index>((n + per_slice - 1) / per_slice), slicing.exec, read, mesh));
     return mesh;
 }
 
@@ -116,7 +116,7 @@ bool has_size_of_binary(std::string_view file)
 
 }  // namespace
 
-PointNumbers join_facets(Index n_slices, const Loop& loop,
+PointNumbers join_facets(Index n_slices, const Executor& exec,
                          const std::function<PointNumbers(Index slice, const MeshSlice& place)>& read,
                          PolygonMesh& faces)
 {
@@ -124,7 +124,7 @@ PointNumbers join_facets(Index n_slices, const Loop& loop,
     std::vector<PointNumbers> of_slice(at(n_slices));
     Points none(0, 3);
     append_faces(
-        faces, n_slices, loop,
+        faces, n_slices, exec,
         [&](Index i, PolygonMesh& part) {
             of_slice[i] = read(i, {none, 0, part});
         },
@@ -157,7 +157,7 @@ bool is_text_stl(std::string_view file)
     return solid && file.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
-StlStretches::StlStretches(std::filesystem::path path, std::string_view content)
+StlRanges::StlRanges(std::filesystem::path path, std::string_view content)
     : path_(std::move(path))
     , content_(content)
 {
@@ -170,12 +170,12 @@ StlStretches::StlStretches(std::filesystem::path path, std::string_view content)
     n_facets_ = static_cast<Index>(declared_facets(content));
 }
 
-std::string_view StlStretches::bytes(Index begin, Index end) const
+std::string_view StlRanges::bytes(Index begin, Index end) const
 {
     return content_.substr(header_bytes + facet_bytes * at(begin), facet_bytes * at(end - begin));
 }
 
-PointNumbers StlStretches::facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const
+PointNumbers StlRanges::facets(Index begin, Index end, PolygonMesh& faces, FaultLog& faults) const
 {
     ByteScanner scanner(path_, content_, header_bytes + facet_bytes * at(begin), std::endian::little);
     scanner.note_faults_in(&faults);
@@ -185,12 +185,12 @@ PointNumbers StlStretches::facets(Index begin, Index end, PolygonMesh& faces, Fa
     return collector.take_points();
 }
 
-void StlStretches::require_end() const
+void StlRanges::require_end() const
 {
     ByteScanner(path_, content_, header_bytes + facet_bytes * at(n_facets_), std::endian::little).require_end();
 }
 
-void StlStretches::refuse_empty() const
+void StlRanges::refuse_empty() const
 {
     ByteScanner(path_, content_, header_bytes + facet_bytes * at(n_facets_), std::endian::little)
         .fail("the file has no vertices; export the mesh again");

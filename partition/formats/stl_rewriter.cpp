@@ -96,7 +96,7 @@ std::string_view StlForm::begin() const
 
 std::string_view StlForm::facets() const
 {
-    return is_text_ ? whole_.rest() : StlStretches({}, content_).all();
+    return is_text_ ? whole_.rest() : StlRanges({}, content_).all();
 }
 
 std::string_view StlForm::end() const
@@ -177,11 +177,11 @@ std::vector<std::string> rewrite_stl(OutputFile& file, const std::filesystem::pa
     const std::vector<std::string_view> pieces = form.pieces(form.facets(), slicing.bytes);
     const auto n = static_cast<Index>(pieces.size());
     std::vector<Index> first(pieces.size() + 1, 0);
-    for_each(slicing.loop, n, [&](Index i) { first[i + 1] = form.count(pieces[i]); });
+    for_each(slicing.exec, n, [&](Index i) { first[i + 1] = form.count(pieces[i]); });
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::atomic<Index> n_lines = 0;
     file.text(form.begin());
-    file.slices(n, slicing.loop, [&](Index i, OutputBuffer& slice) {
+    file.slices(n, slicing.exec, [&](Index i, OutputBuffer& slice) {
         n_lines += form.rewrite(slice, pieces[i], [&](Index f) { return facet_of(mesh, first[i] + f); });
     });
     file.text(form.end());
@@ -206,7 +206,7 @@ std::vector<std::string> extras_of_stl(const std::filesystem::path& path, std::s
     if (form.is_text()) {
         const std::vector<std::string_view> pieces = form.pieces(form.facets(), slicing.bytes);
         std::vector<std::uint8_t> has_name(pieces.size(), 0);
-        for_each(slicing.loop, static_cast<Index>(pieces.size()), [&](Index i) {
+        for_each(slicing.exec, static_cast<Index>(pieces.size()), [&](Index i) {
             TextScanner scanner(TextScanner(path, content, {.comment = '\0'}), pieces[i]);
             while (scanner.next_line())
                 if (is_keyword(scanner.token(), "solid") && scanner.has_token())

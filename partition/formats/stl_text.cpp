@@ -190,7 +190,7 @@ PointNumbers StlText::facets(std::string_view share, PolygonMesh& faces, const S
             throw InputError("a solid ends too early, or does not end");
         return reader.collector().take_points();
     };
-    return join_facets(static_cast<Index>(slices.size()), slicing.loop, read, faces);
+    return join_facets(static_cast<Index>(slices.size()), slicing.exec, read, faces);
 }
 
 PointNumbers StlText::check(std::string_view share, std::size_t lines_before, bool& in_solid, PolygonMesh& faces,

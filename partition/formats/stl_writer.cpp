@@ -128,7 +128,7 @@ void write_stl(OutputFile& file, const PolygonMesh& mesh, Encoding encoding, con
         file.binary(static_cast<std::uint32_t>(mesh.n_faces()), std::endian::little);
     }
     constexpr std::size_t bytes_per_facet = 128;
-    write_elements(file, mesh.n_faces(), elements_per_slice(slicing, bytes_per_facet), slicing.loop,
+    write_elements(file, mesh.n_faces(), elements_per_slice(slicing, bytes_per_facet), slicing.exec,
                    [&](ByteWriter& slice, Index f) {
                        const StlFacet facet = facet_of(mesh, f);
                        is_text ? write_text_facet(slice, facet) : write_binary_facet(slice, facet);

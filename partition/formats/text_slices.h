@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/fault_log.h"
 #include "partition/io/text_scanner.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 /// Mesh files that are text, of which a reader takes, and a writer makes, some lines alone.
@@ -68,7 +68,7 @@ class SlicedText {
 
     /// Counts what stands before each of some slices that follow each other, from 0, and in all of them.
     [[nodiscard]] virtual std::vector<TextCounts> count(std::span<const std::string_view> slices,
-                                                        const Loop& loop) const = 0;
+                                                        const Executor& exec) const = 0;
 
     /// How many vertices precede a place; with the counts of the whole file, how many it has to have.
     [[nodiscard]] virtual std::int64_t n_vertices_before(const TextCounts& counts) const = 0;
@@ -76,7 +76,7 @@ class SlicedText {
 
     /// The vertices of some slices, and their faces with corners numbered in the whole file.
     /// @throws InputError if there is any fault in them or in the counts, not necessarily naming it (see `check`).
-    [[nodiscard]] virtual PolygonMesh read(const TextSlices& slices, const Loop& loop) const = 0;
+    [[nodiscard]] virtual PolygonMesh read(const TextSlices& slices, const Executor& exec) const = 0;
 
     /// Reads one slice as a reader of the whole file does who notes faults of faces and rows.
     /// @param scanner of the slice, which knows the number of its first line. @param slices this one alone.

@@ -37,19 +37,19 @@ struct Surface {
 
 /// The edges of the half-edges for which `holds`, each once, ascending.
 template <class Predicate>
-std::vector<Edge> edges_where(const Surface& s, const Loop& loop, Predicate&& holds)
+std::vector<Edge> edges_where(const Surface& s, const Executor& exec, Predicate&& holds)
 {
     std::vector<Edge> edges;
-    for (const Index h : select(loop, s.mesh.n_corners(), holds))
+    for (const Index h : select(exec, s.mesh.n_corners(), holds))
         edges.push_back(s.edge(h));
     sort_unique(edges);
     return edges;
 }
 
 /// Half-edges without a twin are on edges of one face, or of three and more.
-void inspect_edges(const Surface& s, const Loop& loop, MeshInspection& found)
+void inspect_edges(const Surface& s, const Executor& exec, MeshInspection& found)
 {
-    const auto alone = select(loop, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[h] < 0; });
+    const auto alone = select(exec, s.mesh.n_corners(), [&](Index h) { return s.topology.twin[h] < 0; });
     std::vector<Edge> edges;
     for (const Index h : alone)
         edges.push_back(s.edge(h));
@@ -64,12 +64,12 @@ void inspect_edges(const Surface& s, const Loop& loop, MeshInspection& found)
             found.defects.non_manifold_edges.push_back(*first);
         first = last;
     }
-    found.defects.inconsistent_edges = edges_where(s, loop, [&](Index h) {
+    found.defects.inconsistent_edges = edges_where(s, exec, [&](Index h) {
         const Index twin = s.topology.twin[h];
         return twin > h && s.start(h) == s.start(twin);
     });
     found.defects.edges_without_length =
-        edges_where(s, loop, [&](Index h) { return s.is_finite(h) && !std::isnormal(s.length(h)); });
+        edges_where(s, exec, [&](Index h) { return s.is_finite(h) && !std::isnormal(s.length(h)); });
 }
 
 EdgeLengths measure_edges(const Surface& s)
@@ -223,7 +223,7 @@ std::vector<RepeatedFace> find_repeated_faces(const PolygonMesh& mesh, const std
     return repeated;
 }
 
-MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     const Surface surface{mesh, topology};
     MeshInspection found;
@@ -232,25 +232,25 @@ MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const 
     for (Index f = 0; f < mesh.n_faces(); ++f)
         ++found.counts.faces_by_sides[std::min(mesh.face(f).size() - 3, found.counts.faces_by_sides.size() - 1)];
     found.counts.components = face_components(mesh, topology).count();
-    inspect_edges(surface, loop, found);
-    if (const std::optional<Weld> welded = weld(mesh, topology, 0.0, loop)) {
+    inspect_edges(surface, exec, found);
+    if (const std::optional<Weld> welded = weld(mesh, topology, 0.0, exec)) {
         found.counts.seam_edges = welded->n_edges;
         found.counts.seam_vertices = welded->n_vertices;
     }
     found.edge_lengths = measure_edges(surface);
     measure_box(mesh, found);
     found.defects.vertices_not_finite =
-        select(loop, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
+        select(exec, mesh.n_vertices(), [&](Index v) { return !mesh.vertices.row(v).allFinite(); });
     const auto of_kind = [&](VertexKind kind) {
-        return select(loop, mesh.n_vertices(), [&](Index v) { return topology.kind[v] == kind; });
+        return select(exec, mesh.n_vertices(), [&](Index v) { return topology.kind[v] == kind; });
     };
     found.defects.non_manifold_vertices = of_kind(VertexKind::NonManifold);
     found.defects.isolated_vertices = of_kind(VertexKind::Isolated);
     found.orientable = is_orientable(surface);
     found.defects.duplicate_faces = duplicate_faces(mesh);
-    found.defects.faces_without_area = select(loop, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
+    found.defects.faces_without_area = select(exec, mesh.n_faces(), [&](Index f) { return lacks_area(mesh, f); });
     found.defects.coincident_vertices = coincident_vertices(mesh.vertices);
-    found.defects.self_intersections = self_intersections(mesh, mesh.vertices, loop);
+    found.defects.self_intersections = self_intersections(mesh, mesh.vertices, exec);
     return found;
 }
 

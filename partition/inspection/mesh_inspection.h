@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/metrics/self_intersections.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
@@ -80,7 +80,7 @@ struct MeshInspection {
 
 /// Examines a mesh. Near to linear in its size.
 /// @param mesh valid (see require_valid), but that coordinates need not be finite.
-MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+MeshInspection inspect(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
 /// A face with the same vertices as one before it, in whatever order.
 struct RepeatedFace {

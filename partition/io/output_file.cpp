@@ -193,7 +193,7 @@ void OutputFile::write(std::string_view bytes, std::size_t offset) const
     }
 }
 
-void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Index, OutputBuffer&)>& make)
+void OutputFile::slices(Index n, const Executor& exec, const std::function<void(Index, OutputBuffer&)>& make)
 {
     struct Slice {
         OutputBuffer made;
@@ -206,7 +206,7 @@ void OutputFile::slices(Index n, const Loop& loop, const std::function<void(Inde
     std::vector<Slice> round(at(std::min(n, at_once)));
     // Each round writes what the one before has made, for only then it is known where that belongs.
     for (Index begin = 0; begin < n + at_once; begin += at_once) {
-        for_each(loop, static_cast<Index>(round.size()), [&](Index i) {
+        for_each(exec, static_cast<Index>(round.size()), [&](Index i) {
             Slice& slice = round[i];
             write(slice.to_write.content(), slice.offset);
             slice.to_write.clear();

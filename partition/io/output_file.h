@@ -6,9 +6,9 @@
 #include <memory>
 #include <string_view>
 
+#include "partition/executor.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/gzip.h"
-#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -50,7 +50,7 @@ class OutputFile final : public ByteWriter {
 
     /// Writes n slices, one behind the other, each of which `make` puts into a buffer: several at a time are made and
     /// written.
-    void slices(Index n, const Loop& loop, const std::function<void(Index slice, OutputBuffer& buffer)>& make);
+    void slices(Index n, const Executor& exec, const std::function<void(Index slice, OutputBuffer& buffer)>& make);
 
     /// Writes what is left to the disk and gives the file its name. To be called once, at the end.
     void commit();

@@ -64,10 +64,10 @@ Index sum_of_counts(std::int64_t a, std::int64_t b)
 }
 
 std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const std::string_view> slices,
-                                      const Loop& loop)
+                                      const Executor& exec)
 {
     std::vector<std::int64_t> first(slices.size() + 1);
-    for_each(loop, static_cast<Index>(slices.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(slices.size()), [&](Index i) {
         TextScanner scanner(whole, slices[i]);
         while (scanner.next_line())
             ++first[i + 1];
@@ -83,7 +83,7 @@ Points uninitialised_points(Index n)
     return points;
 }
 
-void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
+void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read,
                   const std::function<void(Index slice, PolygonMesh& faces)>& finish)
 {
@@ -92,7 +92,7 @@ void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
     std::vector<PolygonMesh> parts(at(std::min(n, at_once)));
     for (Index begin = 0; begin < n; begin += at_once) {
         parts.resize(at(std::min(at_once, n - begin)));
-        for_each(loop, static_cast<Index>(parts.size()), [&](Index i) {
+        for_each(exec, static_cast<Index>(parts.size()), [&](Index i) {
             parts[i].face_offsets.resize(1);
             parts[i].face_vertices.clear();
             read(begin + i, parts[i]);

@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "partition/errors.h"
+#include "partition/executor.h"
 #include "partition/io/output_file.h"
 #include "partition/io/text_scanner.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
 
 /// How files are read and made by several threads: slice by slice.
 struct Slicing {
-    Loop loop = run_serially;
+    Executor exec = run_serially;
     /// About how many bytes of a file are one.
     std::size_t bytes = std::size_t{1} << 18;
 };
@@ -33,9 +33,9 @@ inline Index elements_per_slice(const Slicing& slicing, std::size_t size)
 /// Writes n elements in slices of so many, several at a time.
 /// @param write called with what takes the bytes and the element.
 template <class Write>
-void write_elements(OutputFile& file, Index n, Index per_slice, const Loop& loop, Write&& write)
+void write_elements(OutputFile& file, Index n, Index per_slice, const Executor& exec, Write&& write)
 {
-    file.slices(n / per_slice + (n % per_slice > 0 ? 1 : 0), loop, [&](Index i, OutputBuffer& slice) {
+    file.slices(n / per_slice + (n % per_slice > 0 ? 1 : 0), exec, [&](Index i, OutputBuffer& slice) {
         const Index begin = i * per_slice;
         const Index end = begin + std::min(per_slice, n - begin);
         for (Index element = begin; element < end; ++element)
@@ -49,7 +49,7 @@ Index sum_of_counts(std::int64_t a, std::int64_t b);
 
 /// How many lines with a token there are before each slice of a text and, at the end, in all of them.
 std::vector<std::int64_t> count_lines(const TextScanner& whole, std::span<const std::string_view> slices,
-                                      const Loop& loop);
+                                      const Executor& exec);
 
 /// #V by 3, in large pages where the system has them; the positions are still to be set.
 Points uninitialised_points(Index n);
@@ -58,7 +58,7 @@ Points uninitialised_points(Index n);
 /// @param read called with a slice and an empty mesh, which gets the faces of the slice.
 /// @param finish called with the same, one slice after another, before its faces are appended.
 /// @throws InputError if there are more than 2^31 - 1 corners.
-void append_faces(PolygonMesh& mesh, Index n, const Loop& loop,
+void append_faces(PolygonMesh& mesh, Index n, const Executor& exec,
                   const std::function<void(Index slice, PolygonMesh& faces)>& read,
                   const std::function<void(Index slice, PolygonMesh& faces)>& finish = {});
 

@@ -86,7 +86,7 @@ TextScanner::TextScanner(const TextScanner& whole, std::string_view slice, std::
     line_ = lines_before;
 }
 
-/// Behind the line break of the line that goes on from there.
+/// Behind the line break of the line that continues from there.
 const char* TextScanner::end_of_line(const char* from) const
 {
     const auto* const line_break =

@@ -7,13 +7,14 @@
 
 namespace seamflow {
 
-std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, const Points& after, const Loop& loop)
+std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
+                                 const Executor& exec)
 {
     // Normalised, for areas of small faces may have a product that is 0.
     const auto normal = [&](Index f, const Points& positions) -> Point {
         return vector_area(mesh.face(f), positions).stableNormalized();
     };
-    return select(loop, mesh.n_faces(), [&](Index f) { return normal(f, before).dot(normal(f, after)) < 0.0; });
+    return select(exec, mesh.n_faces(), [&](Index f) { return normal(f, before).dot(normal(f, after)) < 0.0; });
 }
 
 std::vector<Index> folded_faces(const PolygonMesh& mesh, const Points& before, const Points& after,

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -12,7 +12,7 @@ namespace seamflow {
 /// @param before, after #V by 3, in units of length.
 /// @returns ascending.
 std::vector<Index> flipped_faces(const PolygonMesh& mesh, const Points& before, const Points& after,
-                                 const Loop& loop = run_serially);
+                                 const Executor& exec = run_serially);
 
 /// Those among them that lie against the faces around their vertices in the state `after`, and did not before: the
 /// surface has folded there. The others are those that noise had turned, and the ones of regions that turned as a

@@ -358,12 +358,12 @@ struct Evidence {
 
 }  // namespace
 
-double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     const Index n = mesh.n_vertices();
     const Index n_middles = std::min(n, most_neighbourhoods);
     std::vector<Neighbourhood> neighbourhoods(at(n_middles));
-    for_each(loop, n_middles, [&](Index i) {
+    for_each(exec, n_middles, [&](Index i) {
         const Index middle = middle_of_part(i, n_middles, n);
         if (topology.kind[middle] == VertexKind::Interior)
             neighbourhoods[i] = measure_neighbourhood(mesh, topology, middle);
@@ -377,7 +377,7 @@ double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const L
     evidence.add_smoothest(neighbourhoods, 0);
     evidence.add_smoothest(neighbourhoods, 1);
     const double noise = evidence.noise();
-    const double edge = mean_edge_length(mesh, mesh.vertices, loop);
+    const double edge = mean_edge_length(mesh, mesh.vertices, exec);
     const bool is_believed = noise >= least_noise * edge && noise <= most_noise * edge;
     return is_believed && quiet_part(neighbourhoods, noise) <= most_quiet ? noise : 0.0;
 }

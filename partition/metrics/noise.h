@@ -1,6 +1,6 @@
 #pragma once
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -23,6 +23,6 @@ namespace seamflow {
 /// @returns in units of length; 0 where noise is not proved: on meshes of fewer than 200 vertices with rings to fit to,
 /// where the estimate is above a third of the mean edge, which noise of half of the true mean edge makes, and where it
 /// is below a hundredth of it, where it hardly shows: it bends faces by about a degree.
-double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+double estimate_noise(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -44,7 +44,7 @@ std::uint64_t place_on_curve(const Box& box, const Box& whole)
 }
 
 /// All triangles of all faces with finite corners, face by face.
-std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
     const auto add_face = [&](std::vector<Piece>& pieces, Index f) {
         if (!std::ranges::all_of(mesh.face(f), [&](Index v) { return positions.row(v).allFinite(); }))
@@ -54,27 +54,27 @@ std::vector<Piece> pieces_of(const PolygonMesh& mesh, const Points& positions, c
         for (const Triangle& t : triangles)
             pieces.push_back({t, f});
     };
-    return reduce(loop, mesh.n_faces(), std::vector<Piece>{}, add_face,
+    return reduce(exec, mesh.n_faces(), std::vector<Piece>{}, add_face,
                   [](auto& pieces, const auto& part) { pieces.insert(pieces.end(), part.begin(), part.end()); });
 }
 
 /// The triangles of a mesh, neighbours together, and a tree over them.
 class CrossingSearch {
   public:
-    CrossingSearch(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+    CrossingSearch(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
         : positions_(positions)
-        , pieces_(pieces_of(mesh, positions, loop))
-        , tree_((sort_pieces(loop), boxes_of_leaves(loop)))
+        , pieces_(pieces_of(mesh, positions, exec))
+        , tree_((sort_pieces(exec), boxes_of_leaves(exec)))
     {
     }
 
     /// Not in order, and pairs of polygons perhaps several times.
-    [[nodiscard]] std::vector<FacePair> run(const Loop& loop) const
+    [[nodiscard]] std::vector<FacePair> run(const Executor& exec) const
     {
         std::vector<FacePair> found;
         for (Index first = 0; first < tree_.size() && found.size() < most_self_intersections;
              first += tasks_of_round * leaves_of_task)
-            run_round(first, found, loop);
+            run_round(first, found, exec);
         return found;
     }
 
@@ -93,9 +93,9 @@ class CrossingSearch {
         return box;
     }
 
-    void sort_pieces(const Loop& loop);
-    [[nodiscard]] std::vector<Box> boxes_of_leaves(const Loop& loop) const;
-    void run_round(Index first, std::vector<FacePair>& found, const Loop& loop) const;
+    void sort_pieces(const Executor& exec);
+    [[nodiscard]] std::vector<Box> boxes_of_leaves(const Executor& exec) const;
+    void run_round(Index first, std::vector<FacePair>& found, const Executor& exec) const;
     void search(Index leaf, std::vector<FacePair>& found) const;
     void search(const Piece& piece, const Box& its_box, Index begin, Index end, std::vector<FacePair>& found) const;
 
@@ -111,25 +111,25 @@ class CrossingSearch {
 };
 
 /// Along the curve, those at one place as they come.
-void CrossingSearch::sort_pieces(const Loop& loop)
+void CrossingSearch::sort_pieces(const Executor& exec)
 {
     const auto n = static_cast<Index>(pieces_.size());
     Box whole;
     for (const Piece& piece : pieces_)
         whole.add(box(piece));
     std::vector<std::pair<std::uint64_t, Index>> order(pieces_.size());
-    for_each(loop, n, [&](Index i) { order[i] = {place_on_curve(box(pieces_[i]), whole), i}; });
+    for_each(exec, n, [&](Index i) { order[i] = {place_on_curve(box(pieces_[i]), whole), i}; });
     std::sort(order.begin(), order.end());
     std::vector<Piece> sorted(pieces_.size());
-    for_each(loop, n, [&](Index i) { sorted[i] = pieces_[order[i].second]; });
+    for_each(exec, n, [&](Index i) { sorted[i] = pieces_[order[i].second]; });
     pieces_ = std::move(sorted);
 }
 
-std::vector<Box> CrossingSearch::boxes_of_leaves(const Loop& loop) const
+std::vector<Box> CrossingSearch::boxes_of_leaves(const Executor& exec) const
 {
     const auto n = static_cast<Index>(pieces_.size());
     std::vector<Box> leaves(at(n / leaf_size) + (n % leaf_size > 0 ? 1 : 0));
-    for_each(loop, static_cast<Index>(leaves.size()), [&](Index leaf) {
+    for_each(exec, static_cast<Index>(leaves.size()), [&](Index leaf) {
         for (Index i = begin_of(leaf); i < end_of(leaf); ++i)
             leaves[leaf].add(box(pieces_[i]));
     });
@@ -138,10 +138,10 @@ std::vector<Box> CrossingSearch::boxes_of_leaves(const Loop& loop) const
 
 /// Searches for pairs with a triangle in the leaves from `first` to the end of a round, and one in the same leaf or a
 /// later one.
-void CrossingSearch::run_round(Index first, std::vector<FacePair>& found, const Loop& loop) const
+void CrossingSearch::run_round(Index first, std::vector<FacePair>& found, const Executor& exec) const
 {
     std::vector<std::vector<FacePair>> of_task(tasks_of_round);
-    for_each(loop, tasks_of_round, [&](Index task) {
+    for_each(exec, tasks_of_round, [&](Index task) {
         const Index begin = std::min(tree_.size(), first + task * leaves_of_task);
         const Index end = std::min(tree_.size(), begin + leaves_of_task);
         for (Index leaf = begin; leaf < end && of_task[task].size() < most_self_intersections; ++leaf)
@@ -174,9 +174,9 @@ void CrossingSearch::search(const Piece& piece, const Box& its_box, Index begin,
 
 }  // namespace
 
-std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
-    std::vector<FacePair> pairs = CrossingSearch(mesh, positions, loop).run(loop);
+    std::vector<FacePair> pairs = CrossingSearch(mesh, positions, exec).run(exec);
     sort_unique(pairs);
     if (pairs.size() > most_self_intersections)
         pairs.resize(most_self_intersections);

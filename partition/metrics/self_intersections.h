@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -26,6 +26,6 @@ inline constexpr std::size_t most_self_intersections = 1'000'000;
 /// @param positions #V by 3, not necessarily those of the mesh; need not be finite.
 /// @returns ascending. Of more than most_self_intersections just so many.
 std::vector<FacePair> self_intersections(const PolygonMesh& mesh, const Points& positions,
-                                         const Loop& loop = run_serially);
+                                         const Executor& exec = run_serially);
 
 }  // namespace seamflow

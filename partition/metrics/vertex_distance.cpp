@@ -15,9 +15,9 @@ double mean_edge_length(const PolygonMesh& mesh)
     return mean_edge_length(mesh, mesh.vertices);
 }
 
-double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Loop& loop)
+double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec)
 {
-    const double total = sum(loop, mesh.n_faces(), [&](Index f) {
+    const double total = sum(exec, mesh.n_faces(), [&](Index f) {
         const auto corners = mesh.face(f);
         double around = 0.0;
         for (std::size_t k = 0; k < corners.size(); ++k)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -19,7 +19,7 @@ struct VertexDistance {
 double mean_edge_length(const PolygonMesh& mesh);
 
 /// As above for positions other than the mesh's own, #V by 3.
-double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Loop& loop = run_serially);
+double mean_edge_length(const PolygonMesh& mesh, const Points& positions, const Executor& exec = run_serially);
 
 /// Distances between `candidate` and `reference`, #V by 3 each, over all vertices; `mesh` gives the faces.
 /// @throws InputError if the numbers of vertices differ, those of `mesh` included.

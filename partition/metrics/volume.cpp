@@ -23,7 +23,7 @@ XXH64_hash_t hash_of_half_edge(Index from, Index to)
 }  // namespace
 
 /// Half-edges and their opposites cancel each other: the sum of their hashes is 0 then, and hardly ever else.
-bool encloses_volume(const PolygonMesh& mesh, const Loop& loop)
+bool encloses_volume(const PolygonMesh& mesh, const Executor& exec)
 {
     const auto hash_of_face = [&](Index f) {
         const std::span<const Index> corners = mesh.face(f);
@@ -35,12 +35,12 @@ bool encloses_volume(const PolygonMesh& mesh, const Loop& loop)
         }
         return of_face;
     };
-    return mesh.n_faces() > 0 && sum(loop, mesh.n_faces(), hash_of_face, XXH64_hash_t{0}) == 0;
+    return mesh.n_faces() > 0 && sum(exec, mesh.n_faces(), hash_of_face, XXH64_hash_t{0}) == 0;
 }
 
-double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Loop& loop)
+double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec)
 {
-    return sum(loop, mesh.n_faces(), [&](Index f) {
+    return sum(exec, mesh.n_faces(), [&](Index f) {
         const std::span<const Index> corners = mesh.face(f);
         Point mean = Point::Zero();
         for (const Index v : corners)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/vector_area.h"
 
@@ -10,10 +10,10 @@ namespace seamflow {
 /// are turned towards it. Polygons that are not planar are fans around the mean of their corners.
 /// Where a surface encloses a volume, that is the same from any origin.
 /// @param positions #V by 3, not necessarily those of the mesh.
-double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Loop& loop);
+double volume_of_cones(const PolygonMesh& mesh, const Points& positions, const Point& origin, const Executor& exec);
 
 /// Whether the faces run along each edge as often in one direction as in the other; if not, the surface is open, or its
 /// faces are not oriented alike. False without faces.
-bool encloses_volume(const PolygonMesh& mesh, const Loop& loop);
+bool encloses_volume(const PolygonMesh& mesh, const Executor& exec);
 
 }  // namespace seamflow

@@ -26,7 +26,7 @@ class LooseComponents {
     {
     }
 
-    void find(const std::vector<bool>& suspects, const Loop& loop);
+    void find(const std::vector<bool>& suspects, const Executor& exec);
     std::vector<Index> join();
 
   private:
@@ -82,7 +82,7 @@ void LooseComponents::keep_loose_components(const IndexLists& components)
     }
 }
 
-void LooseComponents::find(const std::vector<bool>& suspects, const Loop& loop)
+void LooseComponents::find(const std::vector<bool>& suspects, const Executor& exec)
 {
     component_of_.assign(labels_.size(), settled);
     std::vector<Index> lowest(suspects.size(), -1);
@@ -95,7 +95,7 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Loop& loop)
         }
     // The component with the lowest face is all there is of most parts.
     std::vector<IndexLists> found(suspects.size());
-    for_each(loop, static_cast<Index>(found.size()), [&](Index label) {
+    for_each(exec, static_cast<Index>(found.size()), [&](Index label) {
         if (n_faces[label] == 0)
             return;
         collect_component(lowest[label], found[label]);
@@ -103,7 +103,7 @@ void LooseComponents::find(const std::vector<bool>& suspects, const Loop& loop)
             found[label] = {};
     });
     const auto is_left = [&](Index f) { return component_of_[f] == unvisited; };
-    for (const Index f : select(loop, mesh_.n_faces(), is_left))
+    for (const Index f : select(exec, mesh_.n_faces(), is_left))
         if (is_left(f))
             collect_component(f, found[labels_[f]]);
     for (const IndexLists& components : found)
@@ -168,12 +168,12 @@ std::vector<Index> LooseComponents::join()
 
 std::vector<Index> join_loose_components(const PolygonMesh& mesh, const Topology& topology,
                                          const std::vector<bool>& suspects, std::vector<Index>& labels,
-                                         const Loop& loop)
+                                         const Executor& exec)
 {
     if (std::find(suspects.begin(), suspects.end(), true) == suspects.end())
         return {};
     LooseComponents components(mesh, topology, labels, suspects.size());
-    components.find(suspects, loop);
+    components.find(suspects, exec);
     return components.join();
 }
 

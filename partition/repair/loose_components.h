@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -15,7 +15,7 @@ namespace seamflow {
 /// @returns the faces that changed their label.
 std::vector<Index> join_loose_components(const PolygonMesh& mesh, const Topology& topology,
                                          const std::vector<bool>& suspects, std::vector<Index>& labels,
-                                         const Loop& loop = run_serially);
+                                         const Executor& exec = run_serially);
 
 /// Gives a part that lies in several connected components of the mesh a label for each of them: the first
 /// component keeps the label, the others get new ones.

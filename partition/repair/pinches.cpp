@@ -58,10 +58,10 @@ PinchMender::PinchMender(const PolygonMesh& mesh, const Topology& topology, std:
 {
 }
 
-void PinchMender::count_faces(const Loop& loop)
+void PinchMender::count_faces(const Executor& exec)
 {
     n_faces_ = sums_by_value(
-        loop, mesh_.n_faces(), static_cast<Index>(n_faces_.size()), [&](Index f) { return labels_[f]; },
+        exec, mesh_.n_faces(), static_cast<Index>(n_faces_.size()), [&](Index f) { return labels_[f]; },
         [](Index) { return 1; });
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -22,7 +22,7 @@ class PinchMender {
 
     /// To be called before faces are moved or parts compared, and after others have changed labels: counts the faces of
     /// the parts.
-    void count_faces(const Loop& loop = run_serially);
+    void count_faces(const Executor& exec = run_serially);
 
     /// How many runs too many there are at v.
     Index pinches_at(Index v);

@@ -60,26 +60,26 @@ struct Suspects {
 };
 
 Suspects suspect_all(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
-                     const std::vector<Index>& labels, const Loop& loop)
+                     const std::vector<Index>& labels, const Executor& exec)
 {
     return {
         .parts = std::vector<bool>(n_labels, true),
-        .vertices = select(loop, mesh.n_vertices(), [&](Index v) { return may_be_pinched(mesh, topology, labels, v); }),
+        .vertices = select(exec, mesh.n_vertices(), [&](Index v) { return may_be_pinched(mesh, topology, labels, v); }),
     };
 }
 
 Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
-                     const std::vector<Index>& labels, const Loop& loop)
+                     const std::vector<Index>& labels, const Executor& exec)
 {
     std::vector<std::uint8_t> is_corner(mesh.n_vertices(), 0);
-    for_each(loop, static_cast<Index>(suspected.faces.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(suspected.faces.size()), [&](Index i) {
         for (const Index v : mesh.face(suspected.faces[i]))
             std::atomic_ref(is_corner[v]).store(1, std::memory_order_relaxed);
     });
     // Not all at once: where memory lacks for a later member, GCC 12 destroys twice what it has made of {}.
     Suspects suspects;
     suspects.parts = suspected.parts;
-    suspects.vertices = select(loop, mesh.n_vertices(),
+    suspects.vertices = select(exec, mesh.n_vertices(),
                                [&](Index v) { return is_corner[v] != 0 && may_be_pinched(mesh, topology, labels, v); });
     return suspects;
 }
@@ -87,7 +87,7 @@ Suspects suspects_of(const PolygonMesh& mesh, const Topology& topology, const Su
 /// Mends loose components and pinches in turn, as either may cause the other. Leaves all parts connected.
 /// @returns whether no vertex is pinched any more.
 bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects found, std::vector<Index>& labels,
-                    const Loop& loop)
+                    const Executor& exec)
 {
     auto& suspects = found.parts;
     if (found.vertices.empty() && std::ranges::find(suspects, true) == suspects.end())
@@ -96,10 +96,10 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
     PinchMender mender(mesh, topology, labels, n_labels);
     VertexQueue queue(mesh.n_vertices(), std::move(found.vertices));
     for (int round = 0;; ++round) {
-        queue.add_corners_of(mesh, join_loose_components(mesh, topology, suspects, labels, loop));
+        queue.add_corners_of(mesh, join_loose_components(mesh, topology, suspects, labels, exec));
         if (round == max_repair_rounds)
             return false;
-        mender.count_faces(loop);
+        mender.count_faces(exec);
         std::vector<Index> moved;
         std::vector<Index> labels_before;
         for (const Index v : queue.take())
@@ -113,10 +113,10 @@ bool mend_in_rounds(const PolygonMesh& mesh, const Topology& topology, Suspects 
     }
 }
 
-std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Loop& loop)
+std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Executor& exec)
 {
     auto copy = std::make_unique_for_overwrite<Index[]>(labels.size());
-    for_each(loop, static_cast<Index>(labels.size()), [&](Index f) { copy[f] = labels[f]; });
+    for_each(exec, static_cast<Index>(labels.size()), [&](Index f) { copy[f] = labels[f]; });
     return copy;
 }
 
@@ -124,15 +124,15 @@ std::unique_ptr<Index[]> copy_of(const std::vector<Index>& labels, const Loop& l
 /// @param before #F, the labels at first.
 /// @returns the number of faces whose labels differ from them.
 Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects, const Index* before,
-           std::vector<Index>& labels, const Loop& loop)
+           std::vector<Index>& labels, const Executor& exec)
 {
     const auto n_labels = static_cast<Index>(suspects.parts.size());
-    if (!mend_in_rounds(mesh, topology, std::move(suspects), labels, loop))
+    if (!mend_in_rounds(mesh, topology, std::move(suspects), labels, exec))
         merge_pinched(mesh, topology, n_labels, labels);
     const auto n_moved =
-        static_cast<Index>(sum(loop, mesh.n_faces(), [&](Index f) { return labels[f] != before[f] ? 1.0 : 0.0; }));
+        static_cast<Index>(sum(exec, mesh.n_faces(), [&](Index f) { return labels[f] != before[f] ? 1.0 : 0.0; }));
     const auto n_faces = sums_by_value(
-        loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; }, [](Index) { return 1; });
+        exec, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; }, [](Index) { return 1; });
     if (std::ranges::find(n_faces, 0) != n_faces.end())
         compact_labels(labels);
     return n_moved;
@@ -140,27 +140,27 @@ Index mend(const PolygonMesh& mesh, const Topology& topology, Suspects suspects,
 
 }  // namespace
 
-Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, const Loop& loop)
+Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels, const Executor& exec)
 {
     Index n_labels = compact_labels(labels);
-    const auto before = copy_of(labels, loop);
+    const auto before = copy_of(labels, exec);
     n_labels = split_by_component(mesh, topology, n_labels, labels);
-    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before.get(), labels, loop);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, exec), before.get(), labels, exec);
 }
 
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
-                               const Loop& loop)
+                               const Executor& exec)
 {
     const Index n_labels = compact_labels(labels);
-    const auto before = copy_of(labels, loop);
-    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, loop), before.get(), labels, loop);
+    const auto before = copy_of(labels, exec);
+    return mend(mesh, topology, suspect_all(mesh, topology, n_labels, labels, exec), before.get(), labels, exec);
 }
 
 Index repair_where_suspected(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
-                             std::vector<Index>& labels, const Loop& loop)
+                             std::vector<Index>& labels, const Executor& exec)
 {
-    const auto before = copy_of(labels, loop);
-    return mend(mesh, topology, suspects_of(mesh, topology, suspected, labels, loop), before.get(), labels, loop);
+    const auto before = copy_of(labels, exec);
+    return mend(mesh, topology, suspects_of(mesh, topology, suspected, labels, exec), before.get(), labels, exec);
 }
 
 }  // namespace seamflow

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -26,15 +26,15 @@ struct SuspectedDefects {
 /// had to be divided get new labels after the largest.
 /// @returns the number of faces that were given another label, renumbering apart.
 Index repair(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
-             const Loop& loop = run_serially);
+             const Executor& exec = run_serially);
 
 /// The same for a cut of which each part is known to lie within one connected component of the mesh.
 Index repair_within_components(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& labels,
-                               const Loop& loop = run_serially);
+                               const Executor& exec = run_serially);
 
 /// The same for such a cut that is known to have defects nowhere but where they are suspected.
 /// @param labels #F, from 0 to n_parts - 1 without gaps, as many as suspected.parts has entries.
 Index repair_where_suspected(const PolygonMesh& mesh, const Topology& topology, const SuspectedDefects& suspected,
-                             std::vector<Index>& labels, const Loop& loop = run_serially);
+                             std::vector<Index>& labels, const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -11,7 +11,7 @@
 #include "engine/distributed/distributed_flow.h"
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/whole_mesh.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 
 namespace seamflow {
 
@@ -27,24 +27,24 @@ RunOnRanks run_on_ranks(const PolygonMesh& mesh, FlowOptions flow, int n)
     RunOnRanks run;
     run.reports.resize(n);
     flow.resources.threads = 1;
-    run_on_threads(n, [&](Communicator& communicator) {
+    run_on_threads(n, [&](Transport& transport) {
         RankSlice slice;
         MeshPart part;
-        run_together(communicator, [&](Conversation& talk) {
-            slice = hand_out(talk, mesh, 1);
-            cut_together(talk, slice, flow);
-            part = deal(talk, slice);
+        run_together(transport, [&](Communicator& comm) {
+            slice = hand_out(comm, mesh, 1);
+            cut_together(comm, slice, flow);
+            part = deal(comm, slice);
         });
         FlowOptions options = flow;
         options.cut = {};
-        RankReport report = distributed_mean_curvature_flow(communicator, part, options);
-        run_together(communicator, [&](Conversation& talk) {
-            collect_positions(talk, part.vertex_numbers, part.mesh.vertices, slice);
-            Points positions = gather_positions(talk, slice.vertices);
-            if (talk.rank() == 0)
+        RankReport report = distributed_mean_curvature_flow(transport, part, options);
+        run_together(transport, [&](Communicator& comm) {
+            collect_positions(comm, part.vertex_numbers, part.mesh.vertices, slice);
+            Points positions = gather_positions(comm, slice.vertices);
+            if (comm.rank() == 0)
                 run.positions = std::move(positions);
         });
-        run.reports[communicator.rank()] = std::move(report);
+        run.reports[transport.rank()] = std::move(report);
     });
     return run;
 }

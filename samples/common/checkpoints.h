@@ -4,8 +4,8 @@
 #include <memory>
 #include <string_view>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "engine/state/flow_state.h"
 #include "engine/tasks/stopwatch.h"
 

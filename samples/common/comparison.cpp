@@ -39,18 +39,18 @@ void measure_surfaces(const PolygonMesh& reference, const PolygonMesh& candidate
 }
 
 void measure_vertices(const PolygonMesh& reference, const PolygonMesh& candidate, Comparison& comparison,
-                      const Loop& loop)
+                      const Executor& exec)
 {
     comparison.vertex_distance = vertex_distance(reference, reference.vertices, candidate.vertices);
     comparison.displacement =
         displacement_statistics(displacement_field(reference, reference.vertices, candidate.vertices));
     comparison.flipped_faces =
-        static_cast<Index>(flipped_faces(reference, reference.vertices, candidate.vertices, loop).size());
+        static_cast<Index>(flipped_faces(reference, reference.vertices, candidate.vertices, exec).size());
 }
 
-Index n_crossing(const PolygonMesh& mesh, const Loop& loop)
+Index n_crossing(const PolygonMesh& mesh, const Executor& exec)
 {
-    return static_cast<Index>(self_intersections(mesh, mesh.vertices, loop).size());
+    return static_cast<Index>(self_intersections(mesh, mesh.vertices, exec).size());
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMes
 }
 
 Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction,
-                          const Loop& loop)
+                          const Executor& exec)
 {
     Comparison comparison;
     comparison.vertices = reference.n_vertices();
@@ -92,7 +92,7 @@ Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candi
     comparison.direction = direction;
     const std::string mismatch = why_not_corresponding(reference, candidate);
     if (mismatch.empty())
-        measure_vertices(reference, candidate, comparison, loop);
+        measure_vertices(reference, candidate, comparison, exec);
     else
         comparison.remarks.push_back(
             "V_ and displacements are left out, for the vertices do not correspond: " + mismatch + ".");
@@ -104,8 +104,8 @@ Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candi
         throw InputError("the meshes have nothing to compare: without faces there is no surface, and their vertices do "
                          "not correspond: " +
                          mismatch);
-    comparison.self_intersections = n_crossing(reference, loop);
-    comparison.candidate_self_intersections = n_crossing(candidate, loop);
+    comparison.self_intersections = n_crossing(reference, exec);
+    comparison.candidate_self_intersections = n_crossing(candidate, exec);
     return comparison;
 }
 

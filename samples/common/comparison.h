@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/metrics/displacement.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/vertex_distance.h"
@@ -61,6 +61,6 @@ std::string why_not_corresponding(const PolygonMesh& reference, const PolygonMes
 /// Measures all that can be measured of two meshes; the names of the files are left to the caller.
 /// @throws InputError if there is nothing.
 Comparison compare_meshes(const PolygonMesh& reference, const PolygonMesh& candidate, Direction direction,
-                          const Loop& loop = run_serially);
+                          const Executor& exec = run_serially);
 
 }  // namespace seamflow

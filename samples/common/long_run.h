@@ -4,8 +4,8 @@
 #include <iosfwd>
 #include <optional>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_control.h"
-#include "engine/options/flow_report.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"

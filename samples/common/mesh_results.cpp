@@ -18,20 +18,20 @@ bool has_format_of(const MeshFile& input, const std::filesystem::path& path)
 }  // namespace
 
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
-                                     const PolygonMesh* separated, const MeshFile& input, const Loop& loop)
+                                     const PolygonMesh* separated, const MeshFile& input, const Executor& exec)
 {
     if (separated == nullptr && has_format_of(input, path))
-        return write_mesh_like(*input.source, path, mesh, loop);
-    return write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind), loop);
+        return write_mesh_like(*input.source, path, mesh, exec);
+    return write_mesh(path, separated == nullptr ? mesh : *separated, kind_for_writing(path, input.kind), exec);
 }
 
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
-                                           const Loop& loop)
+                                           const Executor& exec)
 {
     if (joined && has_format_of(input, path))
         return {};
     std::string list;
-    for (const std::string& extra : extras_of(*input.source, loop)) {
+    for (const std::string& extra : extras_of(*input.source, exec)) {
         list += list.empty() ? "" : ", ";
         list += extra;
     }

@@ -17,13 +17,13 @@ namespace seamflow {
 /// @throws OutputError, InputError (see write_mesh_like).
 std::vector<std::string> write_state(const std::filesystem::path& path, const PolygonMesh& mesh,
                                      const PolygonMesh* separated, const MeshFile& input,
-                                     const Loop& loop = run_serially);
+                                     const Executor& exec = run_serially);
 
 /// Says what of the input such a file will not have.
 /// @param joined whether the sub-meshes will be.
 /// @returns remarks for the user.
 std::vector<std::string> remarks_on_losses(const std::filesystem::path& path, bool joined, const MeshFile& input,
-                                           const Loop& loop = run_serially);
+                                           const Executor& exec = run_serially);
 
 /// Checks that there is a surface.
 /// @param left_out what of the file is not among the faces.

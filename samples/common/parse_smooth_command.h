@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smooth_command.h"
 

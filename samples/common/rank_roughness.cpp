@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
 #include "samples/common/surface_sample.h"
@@ -32,7 +32,7 @@ RankRoughness::RankRoughness(const MeshPart& part, std::int64_t n_vertices)
 {
 }
 
-Roughness RankRoughness::measure(Conversation& talk) const
+Roughness RankRoughness::measure(Communicator& comm) const
 {
     std::vector<SampledCorner> corners;
     for (const Index f : sample_)
@@ -40,7 +40,7 @@ Roughness RankRoughness::measure(Conversation& talk) const
             corners.push_back({part_->face_numbers[f],
                                part_->vertex_numbers[v],
                                {part_->mesh.vertices(v, 0), part_->mesh.vertices(v, 1), part_->mesh.vertices(v, 2)}});
-    corners = talk.gather_at_first(corners);
+    corners = comm.gather_at_first(corners);
     if (corners.empty())
         return {};
     // In the order of the whole mesh; those of a face stay in theirs.

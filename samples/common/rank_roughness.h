@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/distributed/parts/mesh_part.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/metrics/roughness.h"
 
 namespace seamflow {
@@ -18,7 +18,7 @@ class RankRoughness {
 
     /// That of the part's vertices as they are now. All ranks call this together.
     /// @returns at rank 0; the others know nothing of it.
-    [[nodiscard]] Roughness measure(Conversation& talk) const;
+    [[nodiscard]] Roughness measure(Communicator& comm) const;
 
   private:
     const MeshPart* part_;

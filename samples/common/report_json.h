@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/io/fault_log.h"
 #include "samples/common/comparison.h"

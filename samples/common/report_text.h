@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "engine/tasks/schedule_simulation.h"
 #include "samples/common/comparison.h"
 #include "samples/common/error_map.h"

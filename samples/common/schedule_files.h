@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 
 namespace seamflow {
 

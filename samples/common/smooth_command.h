@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/measure/flow_report.h"
 #include "engine/options/flow_options.h"
-#include "engine/options/flow_report.h"
 #include "samples/common/checkpoints.h"
 #include "samples/common/exit_status.h"
 #include "samples/common/smoothing_request.h"

@@ -33,20 +33,20 @@ void add_amount(CLI::App& app, SmoothCommand& command)
     app.option_defaults()->group(option_group::amount);
     FlowOptions& options = command.options;
     add_length(app, "--noise", command.noise,
-               "how far vertices are off the surface, where that is known [measured]\n"
-               "The standard deviation along the normals. A preset chooses the amount by it.");
+               "noise of the vertices, if it is known [measured]\n"
+               "The standard deviation along the normals. A preset derives the amount from it.");
     add_length(app, "--radius", command.amount.radius,
-               "bumps of this radius and smaller lose half their height or more, over all steps together");
-    add_real(app, "--time-step", command.amount.time_step, positive(), "of each step, in length²");
+               "bumps of this radius and smaller lose at least half their height, over all steps together");
+    add_real(app, "--time-step", command.amount.time_step, positive(), "time step, in length²");
     add_real(app, "--time-step-edges", command.amount.time_step_edges, positive(),
-             "of each step, in squared mean edge lengths");
+             "time step, in squared mean edge lengths");
     add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
     add_length(app, "--within", command.within,
                "no vertex ends further than this from where it was\n"
-               "Those that would are held there, and the others give way smoothly.");
+               "Vertices beyond it are put back to it, and their neighbours follow smoothly.");
     add_choice(app, "--rescale", options.motion.rescale,
                "scale the result to the area or volume of the input [none]\n"
-               "Its centroid is kept. Where no vertex is held, so of open surfaces with --boundary free.");
+               "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free.");
 }
 
 void add_kind(CLI::App& app, SmoothCommand& command)
@@ -57,38 +57,40 @@ void add_kind(CLI::App& app, SmoothCommand& command)
     for (const PresetTraits& preset : all_presets())
         names.emplace_back(preset.name);
     app.add_option("--preset", command.preset,
-                   "options that suit a kind of mesh [scan if no amount is given; cad with --keep-edges or --edges]\n"
-                   "Options that are given go before those of the preset." +
+                   "options for a kind of mesh [scan if no amount is given; cad with --keep-edges or --edges]\n"
+                   "Options on the command line override those of the preset." +
                        describe_presets())
         ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
     add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
     add_choice(app, "--flow", options.flow,
                "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
-               "Closed surfaces without handles go to a sphere with it.");
+               "It turns closed surfaces without handles into spheres.");
     add_choice(app, "--filter", options.filter,
-               "low-pass: what is large hardly shrinks [diffusion]\n"
-               "diffusion leaves 1/(1 + λᵏ) of what has λ, dt times its eigenvalue, low-pass 1 - (λ/(1 + λ))ᵐ.");
+               "low-pass: large features hardly shrink [diffusion]\n"
+               "With λ = dt times an eigenvalue, the factor of diffusion is 1/(1 + λᵏ), that of low-pass "
+               "1 - (λ/(1 + λ))ᵐ.");
     add_integer(app, "--order", options.order, 1,
-                "of the filter, diffusion 1 to 3, low-pass 2 to 8: the higher, the less is taken of what is large [1, "
+                "order of the filter, diffusion 1 to 3, low-pass 2 to 8: higher orders shrink large features less [1, "
                 "low-pass 2]\n"
                 "It is k of the filter diffusion and m of low-pass. A step takes 8 solutions for k = 2, 11 for k = 3, "
-                "m for m.");
+                "m for low-pass.");
 }
 
 void add_feature_edges(CLI::App& app, SmoothCommand& command)
 {
-    add_real(app, "--keep-edges", command.options.keep_edges, {0.0, 180.0, true},
-             "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 are good\n"
-             "What lies between them is smoothed, with --time-step-edges 32 or so. It takes the whole mesh.");
-    auto* edges = app.add_option("--edges", command.edges,
-                                 "further edges that are kept: two numbers of vertices a line, from 0, or an .obj or "
-                                 ".ply with them\n"
-                                 "They are kept however little they bend. An .obj has them as polylines, a .ply as "
-                                 "elements edge. With --keep-edges or --preset cad.")
-                      ->type_name("FILE");
-    app.add_flag("--edges-from-file", command.edges_from_file,
-                 "the same by the polylines (.obj) or edges (.ply) of INPUT")
+    add_real(
+        app, "--keep-edges", command.options.keep_edges, {0.0, 180.0, true},
+        "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit most meshes\n"
+        "The surface between them is smoothed; --time-step-edges 32 suits most noise. On the whole mesh.");
+    auto* edges =
+        app.add_option("--edges", command.edges,
+                       "further edges to keep: two numbers of vertices a line, from 0, or an .obj or .ply "
+                       "with them\n"
+                       "They are kept whatever their angle. An .obj has polylines, a .ply elements edge. With "
+                       "--keep-edges or --preset cad.")
+            ->type_name("FILE");
+    app.add_flag("--edges-from-file", command.edges_from_file, "keep the polylines (.obj) or edges (.ply) of INPUT")
         ->excludes(edges);
 }
 
@@ -98,22 +100,22 @@ void add_what_stays(CLI::App& app, SmoothCommand& command)
     MotionOptions& motion = command.options.motion;
     add_feature_edges(app, command);
     add_choice(app, "--boundary", motion.boundary,
-               "whether the rims of an open surface stay or draw in freely [fixed]");
+               "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]");
     auto* fix = app.add_option("--fix", command.fix,
-                               "vertices that stay: their numbers from 0, one a line, or a .ply that marks them\n"
-                               "The .ply has as many vertices, and a property that is not 0 where they stay.")
+                               "fixed vertices: their numbers from 0, one a line, or a .ply that marks them\n"
+                               "The .ply has as many vertices, and a property that is not 0 at fixed ones.")
                     ->type_name("FILE");
     app.add_option("--fix-property", command.fix_property, "the name of the property that marks them [fixed]")
         ->needs(fix)
         ->type_name("NAME");
     auto* attach = add_length(app, "--attach", command.attach,
-                              "pull every vertex back to where it was: what is larger than this stays");
+                              "pull every vertex towards where it was: features larger than this stay");
     auto* weights = app.add_option("--attach-weights", command.attach_weights,
                                    "how strongly each vertex is pulled back, in 1/length²: a number a line, or a .ply\n"
-                                   "The .ply has as many vertices, and a property that says it.")
+                                   "The .ply has as many vertices, and a property with the weight.")
                         ->excludes(attach)
                         ->type_name("FILE");
-    app.add_option("--attach-property", command.attach_property, "the name of the property that says it [weight]")
+    app.add_option("--attach-property", command.attach_property, "the name of the property with the weight [weight]")
         ->needs(weights)
         ->type_name("NAME");
     const auto parse = [](const std::string& text) -> std::optional<LengthOnMesh> {
@@ -124,37 +126,37 @@ void add_what_stays(CLI::App& app, SmoothCommand& command)
         }
     };
     add_parsed(app, "--weld", command.weld, parse, "never|LENGTH",
-               "vertices along seams that are so near to each other move as one [those at equal places]\n"
-               "Seams are where edges of one face each lie on each other, as along those of a texture.");
+               "copies of vertices along seams, at most this far apart, move as one [at equal places]\n"
+               "A seam is where edges of one face each coincide, for example along those of a texture.");
     app.add_flag("--strict", motion.strict,
                  "refuse meshes that are not manifold or have edges or faces of size 0\n"
-                 "Without it such vertices are held fixed, and faces that cannot be used are left out.");
+                 "Without it, such vertices stay fixed, and unusable faces are left out.");
 }
 
 void add_accuracy(CLI::App& app, FlowOptions& options)
 {
     app.option_defaults()->group(option_group::accuracy);
     add_converge(app, options,
-                 "the undecomposed step itself, to this relative residual; never: one sweep each step [auto]\n"
-                 "auto: loosely, where --approach needs a tolerance or sweeps would stray, unless another option "
-                 "speaks of sweeps.");
+                 "converge to the undecomposed step, to this relative residual; never: one sweep a step [auto]\n"
+                 "auto: to a loose tolerance where --approach needs one or sweeps would drift, unless another option "
+                 "concerns sweeps.");
     add_integer(app, "--converge-iterations", options.accuracy.converge_iterations, 0,
-                "most iterations of a converged step [1000]");
+                "largest number of iterations of a converged step [1000]");
     add_choice(app, "--approach", options.accuracy.approach,
-               "how a step is taken [auto: the fastest]\n"
-               "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed step; decomposed: "
-               "one of both; cg: the whole mesh by conjugate gradients, which need hardly any set-up; undecomposed: "
-               "the whole mesh by one factorisation; auto: the fastest, in sub-meshes where another option speaks of "
-               "them.");
+               "the solver [auto: the fastest]\n"
+               "sweep: one sweep over the sub-meshes; converged: sub-meshes converge to the undecomposed step; "
+               "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
+               "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another option "
+               "concerns them.");
     add_choice(app, "--precision", options.resources.precision,
-               "of the factorisations of converged steps [auto]\n"
-               "Steps are refined to the tolerance in any. auto: single where that loses few digits.");
+               "precision of the factorisations of converged steps [auto]\n"
+               "Steps are refined to the tolerance in any case. auto: single where that loses few digits.");
     add_choice(app, "--factorisation", options.resources.factorisation,
-               "whose factorisation solves the equations of sub-meshes [auto: the fastest]\n"
-               "cholmod: UMFPACK where they are not symmetric. Both keep symmetric Laplacians to sweeps.");
+               "the direct solver of sub-meshes [auto: the fastest]\n"
+               "cholmod: UMFPACK where they are not symmetric. With either, symmetric Laplacians take sweeps.");
     add_choice(app, "--scheme", options.scheme,
                "backward or explicit Euler steps [implicit]\n"
-               "Explicit ones are undecomposed and stable for small time steps only.");
+               "Explicit steps are undecomposed, and stable for small time steps only.");
 }
 
 /// Options that only mean something for the derivatives of the paper, and so ask for them.
@@ -192,39 +194,39 @@ void add_sub_meshes(CLI::App& app, SmoothCommand& command)
     app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
         ->excludes(subdomains)
         ->type_name("FILE");
-    add_choice(app, "--conditions", interface.conditions, "what holds between sub-meshes [adapted-robin]");
+    add_choice(app, "--conditions", interface.conditions, "conditions between sub-meshes [adapted-robin]");
     add_choice(app, "--coloring", interface.colouring,
-               "how sub-meshes are coloured, which sets the order in which they solve [greedy]");
+               "colouring of the sub-meshes, which sets the order in which they solve [greedy]");
     add_choice(app, "--sweep", interface.sweep,
                "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
     add_choice(app, "--transmission", interface.transmission,
-               "how the first sub-mesh at the interface learns of the others [predicted]");
+               "how the first sub-mesh at the interface takes account of the others [predicted]");
     add_parameters(app, interface);
     add_integer(app, "--overlap", interface.overlap, 1, "layers of faces by which sub-meshes overlap with schwarz [1]");
     app.add_flag_callback(
         "--no-correction", [&interface] { interface.correction = Correction::None; },
-        "leave the vertices of the interface where the step puts them");
+        "do not correct the vertices of the interface after a step");
     app.add_flag("--keep-gaps", options.report.keep_gaps,
-                 "write the sub-meshes as they are, each with its own copy of the interface; for robin and ventcell");
+                 "write the sub-meshes separately, each with its own copy of the interface; for robin and ventcell");
 }
 
 void add_machine(CLI::App& app, ResourceOptions& resources)
 {
     app.option_defaults()->group(option_group::machine);
     add_integer(app, "--threads", resources.threads, 0,
-                "number of threads, at most 1024; 0: as many as there are cores, and as the control group allows [0]");
-    add_bytes(app, "--memory-limit", resources.memory_limit,
-              "most that the factorisations of sub-meshes may take at once: 500M, 2GiB [as much as is fast]\n"
-              "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. It asks for sub-meshes, and does not change their "
-              "result. Converged steps make again what they cannot keep. By default sweeps take as little as keeps "
-              "all threads busy, and converged steps have no limit.");
+                "number of threads, at most 1024; 0: all cores that the control group allows [0]");
+    add_bytes(
+        app, "--memory-limit", resources.memory_limit,
+        "limit for the factorisations of sub-meshes at any time: 500M, 2GiB [as much as is fast]\n"
+        "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. It implies sub-meshes; the result does not depend on "
+        "its value. Converged steps recompute the factors that they cannot keep. By default sweeps take as little "
+        "as keeps all threads busy, and converged steps have no limit.");
 }
 
 void add_what_is_printed(CLI::App& app, SmoothCommand& command)
 {
     auto* quiet = app.add_flag("--quiet", command.quiet, "print nothing but errors");
-    app.add_flag("--verbose", command.verbose, "also print what each step did, the cut, and the time in tasks")
-        ->excludes(quiet);
+    app.add_flag("--verbose", command.verbose, "also print each step, the cut, and the time in tasks")->excludes(quiet);
 }
 
 /// What matters if the flow takes long.
@@ -232,9 +234,9 @@ void add_checkpoints(CLI::App& app, SmoothCommand& command)
 {
     auto* checkpoint =
         app.add_option("--checkpoint", command.checkpoint,
-                       "keep there what the run needs to go on after its last complete step\n"
-                       "The same command does so then, with the same result. The folder stays at the end, from where "
-                       "more --steps go on.")
+                       "save there all that the run needs to resume after its last complete step\n"
+                       "The same command then resumes, with the same result. The folder remains at the end, so that "
+                       "more --steps can follow.")
             ->type_name("FOLDER");
     add_parsed(app, "--checkpoint-every", command.checkpoint_period, parse_checkpoint_period, "STEPS|TIME",
                "how often, in steps (10) or time (30s, 5min, 1h), and at the end [1]")
@@ -259,30 +261,31 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_machine(app, options.resources);
     app.option_defaults()->group(option_group::written);
     app.add_flag("--reference", options.report.reference,
-                 "also run the undecomposed flow, and give the distances to it (V_ and H_)");
+                 "also run the undecomposed flow, and print the distances to it (V_ and H_)");
     app.add_flag("--self-intersections", command.self_intersections,
-                 "count the pairs of faces that cross each other, before and after; --report does so, too");
+                 "count the pairs of faces that cross each other, before and after; implied by --report");
 }
 
 void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
 {
     app.option_defaults()->group(option_group::written);
-    app.add_option("INPUT", command.input, "mesh: " + extensions_of() + ", .gz behind it or not; - for standard input")
+    app.add_option("INPUT", command.input,
+                   "mesh: " + extensions_of() + ", optionally followed by .gz; - for standard input")
         ->required()
         ->type_name("");
     app.add_option("OUTPUT", command.output, "smoothed mesh; - for standard output")->required()->type_name("");
     app.add_option("--report", command.report,
-                   "what was done, with times, sizes and distances, or why it failed; - for standard output")
+                   "the report: times, sizes and distances, or the reason of a failure; - for standard output")
         ->type_name("REPORT.json");
-    app.add_option("--csv", command.csv, "the same of every step, one a row")->type_name("STEPS.csv");
-    app.add_option("--html", command.html, "a page that shows the surface step by step, and plots, in a browser")
+    app.add_option("--csv", command.csv, "the values of every step, one step a row")->type_name("STEPS.csv");
+    app.add_option("--html", command.html, "a page for the browser with the surface step by step, and plots")
         ->type_name("PAGE.html");
-    app.add_option("--every-step", every_step, "also the mesh after every step; %d is its number")
+    app.add_option("--every-step", every_step, "also write the mesh after every step; %d is its number")
         ->type_name("PATTERN");
     app.add_option("--parts", command.parts, "the cut: faces with colours and labels")->type_name("PARTS.ply");
     app.add_option("--trace", command.trace, "which task ran when in which thread, for ui.perfetto.dev")
         ->type_name("TRACE.json");
-    app.add_option("--task-graph", command.task_graph, "the tasks of a step and what each waits for, for Graphviz")
+    app.add_option("--task-graph", command.task_graph, "the tasks of a step and their dependencies, for Graphviz")
         ->type_name("GRAPH.dot");
     add_checkpoints(app, command);
     add_what_is_printed(app, command);
@@ -290,7 +293,7 @@ void add_files(CLI::App& app, SmoothCommand& command, std::string& every_step)
 
 std::string smooth_examples()
 {
-    return "smooth scan.obj smooth.obj                             as much as the noise that it measures asks for\n"
+    return "smooth scan.obj smooth.obj                             the amount follows from the measured noise\n"
            "smooth scan.ply smooth.ply --radius 1% --within 0.2    bumps up to 1 % of the size; no vertex goes further "
            "than 0.2\n"
            "smooth part.stl smooth.stl --preset cad                sharp edges and flat faces stay\n";

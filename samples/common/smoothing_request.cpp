@@ -20,9 +20,9 @@ double require_step(double time_step, const char* option)
 
 }  // namespace
 
-MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop)
+MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec)
 {
-    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, loop), .diagonal = extent_of(mesh.vertices)};
+    return {.mean_edge = mean_edge_length(mesh, mesh.vertices, exec), .diagonal = extent_of(mesh.vertices)};
 }
 
 double time_step_of(const SmoothingRequest& request, const MeshScale& scale, int steps, const StepFilter& filter)

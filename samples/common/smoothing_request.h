@@ -14,7 +14,7 @@ struct MeshScale {
     double diagonal = 0.0;
 };
 
-MeshScale measure_scale(const PolygonMesh& mesh, const Loop& loop = run_serially);
+MeshScale measure_scale(const PolygonMesh& mesh, const Executor& exec = run_serially);
 
 /// How much a flow is to smooth, in one of three ways.
 struct SmoothingRequest {

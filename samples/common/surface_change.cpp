@@ -17,14 +17,14 @@ namespace {
 /// The mesh, and some of its faces, as its vertices move.
 class Surface {
   public:
-    Surface(const PolygonMesh& mesh, const Loop& loop)
+    Surface(const PolygonMesh& mesh, const Executor& exec)
         : mesh_(mesh)
-        , loop_(loop)
-        , has_volume_(encloses_volume(mesh, loop))
+        , exec_(exec)
+        , has_volume_(encloses_volume(mesh, exec))
     {
         std::vector<char> is_in_sample(at(mesh.n_vertices()));
-        for_each(loop, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
-        const std::vector<Index> faces = select(loop, mesh.n_faces(), [&](Index f) {
+        for_each(exec, mesh.n_vertices(), [&](Index v) { is_in_sample[v] = is_sampled(v, mesh.n_vertices()) ? 1 : 0; });
+        const std::vector<Index> faces = select(exec, mesh.n_faces(), [&](Index f) {
             return std::ranges::any_of(mesh.face(f), [&](Index v) { return is_in_sample[v] != 0; });
         });
         IndexLists corners;
@@ -43,17 +43,17 @@ class Surface {
         for (std::size_t i = 0; i < sampled_vertices_.size(); ++i)
             sampled.row(static_cast<Eigen::Index>(i)) = positions.row(sampled_vertices_[i]);
         SurfaceLook look{
-            .area = sum(loop_, mesh_.n_faces(), [&](Index f) { return vector_area(mesh_.face(f), positions).norm(); }),
+            .area = sum(exec_, mesh_.n_faces(), [&](Index f) { return vector_area(mesh_.face(f), positions).norm(); }),
             .volume = std::nullopt,
             .roughness = roughness(sample_, sampled)};
         if (has_volume_)
-            look.volume = std::abs(volume_of_cones(mesh_, positions, positions.row(mesh_.face(0).front()), loop_));
+            look.volume = std::abs(volume_of_cones(mesh_, positions, positions.row(mesh_.face(0).front()), exec_));
         return look;
     }
 
   private:
     const PolygonMesh& mesh_;
-    const Loop& loop_;
+    const Executor& exec_;
     /// Some of the faces, and which vertices of the mesh theirs are.
     PolygonMesh sample_;
     std::vector<Index> sampled_vertices_;
@@ -62,20 +62,20 @@ class Surface {
 
 /// The faces alone.
 /// @param moved_with see MeshReport; not empty.
-PolygonMesh joined(const PolygonMesh& mesh, const std::vector<Index>& moved_with, const Loop& loop)
+PolygonMesh joined(const PolygonMesh& mesh, const std::vector<Index>& moved_with, const Executor& exec)
 {
     PolygonMesh faces{.vertices = Points(mesh.n_vertices(), 3),
                       .face_offsets = mesh.face_offsets,
                       .face_vertices = std::vector<Index>(mesh.face_vertices.size())};
-    for_each(loop, mesh.n_corners(),
+    for_each(exec, mesh.n_corners(),
              [&](Index corner) { faces.face_vertices[corner] = moved_with[mesh.face_vertices[corner]]; });
     return faces;
 }
 
-void find_crossings(const PolygonMesh& mesh, const Points& before, SurfaceChange& change, const Loop& loop)
+void find_crossings(const PolygonMesh& mesh, const Points& before, SurfaceChange& change, const Executor& exec)
 {
-    const std::vector<FacePair> old_pairs = self_intersections(mesh, before, loop);
-    const std::vector<FacePair> pairs = self_intersections(mesh, mesh.vertices, loop);
+    const std::vector<FacePair> old_pairs = self_intersections(mesh, before, exec);
+    const std::vector<FacePair> pairs = self_intersections(mesh, mesh.vertices, exec);
     change.before.self_intersections = old_pairs.size();
     change.after.self_intersections = pairs.size();
     change.new_self_intersections = static_cast<std::size_t>(std::ranges::count_if(
@@ -84,17 +84,17 @@ void find_crossings(const PolygonMesh& mesh, const Points& before, SurfaceChange
 
 }  // namespace
 
-SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop)
+SurfaceChangeMeter::SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& exec)
     : positions_(mesh.n_vertices(), 3)
 {
-    copy(loop, mesh.vertices, positions_);
+    copy(exec, mesh.vertices, positions_);
 }
 
 SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
-                                          bool finds_crossings, const Loop& loop) const
+                                          bool finds_crossings, const Executor& exec) const
 {
     std::vector<LengthSums> of_block(at(mesh.n_vertices() / block_size) + 1);
-    for_each_block(loop, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
+    for_each_block(exec, mesh.n_vertices(), [&](Index block, Index begin, Index end) {
         for (Index v = begin; v < end; ++v)
             of_block[block].add((mesh.vertices.row(v) - positions_.row(v)).norm());
     });
@@ -103,16 +103,16 @@ SurfaceChange SurfaceChangeMeter::measure(const PolygonMesh& mesh, const std::ve
         moved.add(sums);
     std::optional<PolygonMesh> welded;
     if (!moved_with.empty())
-        welded = joined(mesh, moved_with, loop);
+        welded = joined(mesh, moved_with, exec);
     const PolygonMesh& faces = welded ? *welded : mesh;
-    const Surface surface(faces, loop);
+    const Surface surface(faces, exec);
     SurfaceChange change{
         .before = surface.look(positions_), .after = surface.look(mesh.vertices), .moved = moved.statistics()};
-    const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, loop);
+    const std::vector<Index> flipped = flipped_faces(faces, positions_, mesh.vertices, exec);
     change.flipped_faces = flipped.size();
     change.folded_faces = flipped.empty() ? 0 : folded_faces(faces, positions_, mesh.vertices, flipped).size();
     if (finds_crossings)
-        find_crossings(mesh, positions_, change, loop);
+        find_crossings(mesh, positions_, change, exec);
     return change;
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/roughness.h"
 #include "partition/polygon_mesh.h"
@@ -41,13 +41,13 @@ struct SurfaceChange {
 class SurfaceChangeMeter {
   public:
     /// Notes where the vertices are before they move.
-    SurfaceChangeMeter(const PolygonMesh& mesh, const Loop& loop);
+    SurfaceChangeMeter(const PolygonMesh& mesh, const Executor& exec);
 
     /// @param mesh the same faces, with the vertices somewhere else.
     /// @param moved_with see MeshReport::moved_with: the surface goes on where vertices move as one.
     /// @param finds_crossings whether to look for self-intersections, which takes longer than all the rest.
     [[nodiscard]] SurfaceChange measure(const PolygonMesh& mesh, const std::vector<Index>& moved_with,
-                                        bool finds_crossings, const Loop& loop) const;
+                                        bool finds_crossings, const Executor& exec) const;
 
   private:
     Points positions_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/measure/surface_measures.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/page/shown_steps.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "partition/topology.h"
 #include "samples/page/file_colours.h"
 #include "samples/page/packed_state.h"

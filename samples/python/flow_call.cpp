@@ -6,9 +6,9 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "samples/common/flow_run.h"
 #include "samples/common/option_words.h"
 #include "samples/common/report_json.h"
+#include "samples/common/smoothing_run.h"
 
 namespace seamflow {
 
@@ -20,13 +20,13 @@ FlowReport run(SmoothCommand& command, PolygonMesh& mesh, const FlowControl& con
         throw InputError("has no vertices");
     const Stopwatch whole;
     Workers workers(command.options.resources.threads);
-    const Loop loop = workers.loop();
-    require_valid(mesh, loop);
-    resolve_amount(command, mesh, loop, record);
-    const SurfaceChangeMeter change(mesh, loop);
+    const Executor exec = workers.exec();
+    require_valid(mesh, exec);
+    resolve_amount(command, mesh, exec, record);
+    const SurfaceChangeMeter change(mesh, exec);
     FlowReport report = mean_curvature_flow(mesh, command.options, {}, control);
     report.remarks.insert(report.remarks.begin(), record.remarks.begin(), record.remarks.end());
-    record.surface = change.measure(mesh, report.mesh.moved_with, command.self_intersections, loop);
+    record.surface = change.measure(mesh, report.mesh.moved_with, command.self_intersections, exec);
     remark_on_loss(command.options, record.surface, report.remarks);
     remark_on_folds(command.options, record.surface, report.remarks);
     for (std::string& remark : report.remarks)

@@ -11,9 +11,9 @@ namespace {
 double mean_edge_at(const SubMesh& sub_mesh, Index i, const Points& positions)
 {
     double sum = 0.0;
-    for (const Index neighbour : sub_mesh.seam.neighbours[i])
-        sum += (positions.row(neighbour) - positions.row(sub_mesh.seam.vertices[i])).norm();
-    return sum / static_cast<double>(sub_mesh.seam.neighbours[i].size());
+    for (const Index neighbour : sub_mesh.corrected.neighbours[i])
+        sum += (positions.row(neighbour) - positions.row(sub_mesh.corrected.vertices[i])).norm();
+    return sum / static_cast<double>(sub_mesh.corrected.neighbours[i].size());
 }
 
 /// Whether the coefficients of a fan's ∂n are neither vanishing nor huge against 1 / edge. Bounds found by measurement.

@@ -40,14 +40,14 @@ Eigen::VectorXd ChebyshevExpansion::coefficients(const std::function<double(doub
 }
 
 void visit_chebyshev_basis(const FilterSample& sample, const Signals& signals, Index n_terms, const VisitTerm& visit,
-                           const Loop& loop)
+                           const Executor& exec)
 {
     Signals before(signals.rows(), Signals::ColsAtCompileTime);
     Signals term = signals;
     visit(0, term);
     for (Index j = 1; j < n_terms; ++j) {
         // T₁ = x T₀, Tⱼ = 2 x Tⱼ₋₁ - Tⱼ₋₂, into the place of Tⱼ₋₂.
-        for_each(loop, sample.neighbours.size(), [&](Index i) {
+        for_each(exec, sample.neighbours.size(), [&](Index i) {
             const Eigen::RowVector4d next = shifted_laplacian(sample, term, i);
             if (j == 1)
                 before.row(i) = next;

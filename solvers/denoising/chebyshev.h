@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "solvers/denoising/filter_sample.h"
 
 namespace seamflow {
@@ -33,6 +33,6 @@ using VisitTerm = std::function<void(Index j, const Signals& term)>;
 /// Makes the signals Tⱼ(L - 1) X: any filter f(L) X is a linear combination of them. L = D⁻¹ K is the Laplacian of the
 /// graph, D its degrees and K of ones, whose spectrum is in [0, 2]; rows of vertices that stay are 0.
 void visit_chebyshev_basis(const FilterSample& sample, const Signals& signals, Index n_terms, const VisitTerm& visit,
-                           const Loop& loop = run_serially);
+                           const Executor& exec = run_serially);
 
 }  // namespace seamflow

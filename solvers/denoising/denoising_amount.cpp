@@ -142,13 +142,13 @@ class Risks {
 /// A sample of a mesh, and what filters make of it.
 class FilteredSample {
   public:
-    FilteredSample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+    FilteredSample(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
         : normals_(mesh, topology)
-        , sample_(take_filter_sample(mesh, topology, loop))
+        , sample_(take_filter_sample(mesh, topology, exec))
         , signals_(signals_of(mesh, sample_))
         , positions_(mesh.n_vertices(), 3)
         , filters_(n_terms, n_amounts)
-        , loop_(loop)
+        , exec_(exec)
     {
         for (Index k = 0; k < n_amounts; ++k)
             filters_.col(k) = coefficients(amount_at(k));
@@ -162,21 +162,21 @@ class FilteredSample {
         filter_positions(coefficients(amount));
         const auto n = static_cast<Index>(sample_.measured.size());
         std::vector<Point> normals(at(n));
-        for_each(loop_, n, [&](Index m) { normals[m] = normals_(sample_.vertices[sample_.measured[m]], positions_); });
+        for_each(exec_, n, [&](Index m) { normals[m] = normals_(sample_.vertices[sample_.measured[m]], positions_); });
         Eigen::MatrixXd along_normals(n, n_terms);
         Eigen::VectorXd traces(n_terms);
         visit_chebyshev_basis(
             sample_, signals_, n_terms,
             [&](Index j, const Signals& term) {
-                for_each(loop_, n, [&](Index m) {
+                for_each(exec_, n, [&](Index m) {
                     along_normals(m, j) = normals[m].dot(change(j, term, sample_.measured[m]).head<3>());
                 });
-                traces[j] = sum(loop_, n, [&](Index m) {
+                traces[j] = sum(exec_, n, [&](Index m) {
                     const Index place = sample_.measured[m];
                     return signals_(place, probe_column) * change(j, term, place)[probe_column];
                 });
             },
-            loop_);
+            exec_);
         return {products(along_normals) / n, traces / n, filters_};
     }
 
@@ -201,10 +201,10 @@ class FilteredSample {
         visit_chebyshev_basis(
             sample_, signals_, n_terms,
             [&](Index j, const Signals& term) {
-                for_each(loop_, n, [&](Index i) { filtered.row(i) += coefficients[j] * change(j, term, i); });
+                for_each(exec_, n, [&](Index i) { filtered.row(i) += coefficients[j] * change(j, term, i); });
             },
-            loop_);
-        for_each(loop_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });
+            exec_);
+        for_each(exec_, n, [&](Index i) { positions_.row(sample_.vertices[i]) = filtered.row(i).head<3>(); });
     }
 
     /// Of all columns with all columns.
@@ -212,7 +212,7 @@ class FilteredSample {
     {
         const auto n = static_cast<Index>(columns.rows());
         std::vector<Eigen::MatrixXd> of_blocks(at(n / block_size) + 1, Eigen::MatrixXd::Zero(n_terms, n_terms));
-        for_each_block(loop_, n, [&](Index block, Index begin, Index end) {
+        for_each_block(exec_, n, [&](Index block, Index begin, Index end) {
             const auto rows = columns.middleRows(begin, end - begin);
             of_blocks[block].noalias() = rows.transpose() * rows;
         });
@@ -230,7 +230,7 @@ class FilteredSample {
     ChebyshevExpansion expansion_{n_terms};
     /// n_terms by n_amounts.
     Eigen::MatrixXd filters_;
-    const Loop& loop_;
+    const Executor& exec_;
 };
 
 DenoisingAmount choose(const Risks& risks, double noise)
@@ -245,12 +245,12 @@ DenoisingAmount choose(const Risks& risks, double noise)
 
 }  // namespace
 
-DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topology, double noise, const Loop& loop)
+DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topology, double noise, const Executor& exec)
 {
     const DenoisingAmount none{0.0, noise * noise, 0.0};
     if (!(noise > 0.0))
         return {};
-    FilteredSample sample(mesh, topology, loop);
+    FilteredSample sample(mesh, topology, exec);
     if (sample.empty())
         return none;
     DenoisingAmount found{first_amount, 0.0, 0.0};

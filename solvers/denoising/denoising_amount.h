@@ -1,6 +1,6 @@
 #pragma once
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -33,6 +33,6 @@ struct DenoisingAmount {
 /// factorised, and the result does not depend on how the loop is divided.
 /// @param noise σ: the standard deviation along the normals, in units of length, as estimate_noise gives it.
 DenoisingAmount denoising_amount(const PolygonMesh& mesh, const Topology& topology, double noise,
-                                 const Loop& loop = run_serially);
+                                 const Executor& exec = run_serially);
 
 }  // namespace seamflow

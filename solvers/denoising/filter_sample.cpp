@@ -43,16 +43,16 @@ std::vector<std::int8_t> rings_around_middles(const PolygonMesh& mesh, const Top
 
 }  // namespace
 
-FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     const Index n = mesh.n_vertices();
     const std::vector<std::int8_t> rings =
         n <= most_vertices ? std::vector<std::int8_t>(at(n), 0) : rings_around_middles(mesh, topology);
     FilterSample sample;
-    sample.vertices = select(loop, n, [&](Index v) { return rings[v] < outside_patches; });
+    sample.vertices = select(exec, n, [&](Index v) { return rings[v] < outside_patches; });
     const auto n_places = static_cast<Index>(sample.vertices.size());
     std::vector<std::vector<Index>> neighbours(at(n_places));
-    for_each(loop, n_places, [&](Index i) {
+    for_each(exec, n_places, [&](Index i) {
         const Index v = sample.vertices[i];
         if (!topology.moves(v) || rings[v] >= patch_rings)
             return;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 
@@ -21,6 +21,6 @@ struct FilterSample {
 };
 
 /// The whole mesh up to 30,000 vertices; else 32 patches of 18 rings of faces, measured within 8.
-FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+FilterSample take_filter_sample(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially);
 
 }  // namespace seamflow

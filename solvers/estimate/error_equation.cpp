@@ -13,18 +13,18 @@
 namespace seamflow {
 
 ErrorEquation::ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                             const ScaledLaplacian& laplacian, InterfacePeers& peers, const Loop& loop)
+                             const ScaledLaplacian& laplacian, InterfacePeers& peers, const Executor& exec)
     : decomposition_(&decomposition)
     , peers_(&peers)
     , laplacian_(laplacian)
     , tree_(peers)
 {
     std::vector<Index> kinds(topology.fixed.size());
-    for_each(loop, static_cast<Index>(kinds.size()),
+    for_each(exec, static_cast<Index>(kinds.size()),
              [&](Index v) { kinds[v] = topology.moves(v) ? off_interface : held_fixed; });
     number_own(kinds);
     number_foreign(mesh, topology, kinds);
-    list_neighbours(kinds, loop);
+    list_neighbours(kinds, exec);
     share_rows();
     rows_.couplings.resize(rows_.neighbours.values.size());
     for (auto* array : {&rows_.mass, &rows_.diagonal, &rows_.row_sum, &rows_.response})
@@ -70,7 +70,7 @@ void ErrorEquation::number_foreign(const PolygonMesh& mesh, const Topology& topo
     std::vector<Index> around;
     for (Index s = 0; s < static_cast<Index>(sub_meshes.size()); ++s)
         for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i)
-            for (const Index neighbour : sub_meshes[s].seam.neighbours[numbering_.index_in_sub_mesh[i]]) {
+            for (const Index neighbour : sub_meshes[s].corrected.neighbours[numbering_.index_in_sub_mesh[i]]) {
                 const Index v = sub_meshes[s].local_to_global[neighbour];
                 if (kinds[v] != off_interface)
                     continue;
@@ -102,7 +102,7 @@ void ErrorEquation::share_rows()
 }
 
 /// @param kinds #V: the number of a vertex of Γ, or see off_interface.
-void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Loop& loop)
+void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Executor& exec)
 {
     const auto& sub_meshes = decomposition_->sub_meshes;
     auto& [offsets, values] = rows_.neighbours;
@@ -110,13 +110,13 @@ void ErrorEquation::list_neighbours(std::span<const Index> kinds, const Loop& lo
         for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i)
             offsets.push_back(
                 offsets.back() +
-                static_cast<Index>(sub_meshes[s].seam.neighbours[numbering_.index_in_sub_mesh[i]].size()));
+                static_cast<Index>(sub_meshes[s].corrected.neighbours[numbering_.index_in_sub_mesh[i]].size()));
     values.resize(offsets.back());
-    for_each(loop, static_cast<Index>(sub_meshes.size()), [&](Index s) {
+    for_each(exec, static_cast<Index>(sub_meshes.size()), [&](Index s) {
         const SubMesh& sub_mesh = sub_meshes[s];
         for (Index i = numbering_.first[s]; i < numbering_.first[s + 1]; ++i) {
             Index place = rows_.neighbours.offsets[i];
-            for (const Index neighbour : sub_mesh.seam.neighbours[numbering_.index_in_sub_mesh[i]])
+            for (const Index neighbour : sub_mesh.corrected.neighbours[numbering_.index_in_sub_mesh[i]])
                 rows_.neighbours.values[place++] = kinds[sub_mesh.local_to_global[neighbour]];
         }
     });
@@ -142,10 +142,10 @@ void ErrorEquation::assemble(Index s, const Points& before, const Points& after,
 }
 
 void ErrorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                                       const Points& after, double time_step, const Loop& loop)
+                                       const Points& after, double time_step, const Executor& exec)
 {
-    whole_->measure(mesh, topology, before, after, time_step, loop);
-    for_each(loop, static_cast<Index>(decomposition_->sub_meshes.size()), [&](Index s) {
+    whole_->measure(mesh, topology, before, after, time_step, exec);
+    for_each(exec, static_cast<Index>(decomposition_->sub_meshes.size()), [&](Index s) {
         for (Index i = first(s); i < first(s + 1); ++i)
             iteration_.residual.row(i) = whole_->residual(s, numbering_.index_in_sub_mesh[i]);
     });
@@ -155,9 +155,9 @@ void ErrorEquation::measure_whole_rows(const PolygonMesh& mesh, const Topology& 
 /// grows with the wave number along Γ, and not with its square. A multiple of the response, the
 /// smaller the more the vertices are coupled already, comes near to that: with these numbers within a factor of 2 for
 /// Δ_F and Δ_A on regular quads and triangles at all wave numbers but the highest.
-void ErrorEquation::stiffen(const Loop& loop)
+void ErrorEquation::stiffen(const Executor& exec)
 {
-    for_each(loop, size(), [&](Index i) {
+    for_each(exec, size(), [&](Index i) {
         for (Index e = rows_.neighbours.offsets[i]; e < rows_.neighbours.offsets[i + 1]; ++e)
             if (const Index other = rows_.neighbours.values[e]; other >= 0) {
                 const double response = std::min(rows_.response[i], rows_.response[other]);
@@ -170,10 +170,10 @@ void ErrorEquation::stiffen(const Loop& loop)
 
 /// The sum of value(i) over the vertices of all peers, always in the same order.
 template <class Value>
-double ErrorEquation::add_up(const Loop& loop, Value&& value)
+double ErrorEquation::add_up(const Executor& exec, Value&& value)
 {
     sums_.assign(at(peers_->n_places()), 0.0);
-    for_each(loop, static_cast<Index>(peers_->places().size()), [&](Index s) {
+    for_each(exec, static_cast<Index>(peers_->places().size()), [&](Index s) {
         double total = 0.0;
         for (Index i = first(s); i < first(s + 1); ++i)
             total += value(i);
@@ -194,13 +194,13 @@ Point ErrorEquation::product(Index i) const
 }
 
 /// Conjugate gradients on x, y and z as one system, preconditioned by the diagonal.
-void ErrorEquation::solve(const Loop& loop)
+void ErrorEquation::solve(const Executor& exec)
 {
     constexpr int most_iterations = 30;
     constexpr double squared_tolerance = 1e-4;
     shared_->complete(rows_.response.data(), 1);
-    stiffen(loop);
-    double size_before = add_up(loop, [&](Index i) {
+    stiffen(exec);
+    double size_before = add_up(exec, [&](Index i) {
         iteration_.direction.row(i) = iteration_.residual.row(i) / rows_.diagonal[i];
         iteration_.error.row(i).setZero();
         return iteration_.residual.row(i).dot(iteration_.direction.row(i));
@@ -210,18 +210,18 @@ void ErrorEquation::solve(const Loop& loop)
     const double enough = squared_tolerance * size_before;
     for (int iteration = 0; iteration < most_iterations && size_before > enough; ++iteration) {
         shared_->complete(iteration_.direction.data(), 3);
-        const double curvature = add_up(loop, [&](Index i) {
+        const double curvature = add_up(exec, [&](Index i) {
             iteration_.product.row(i) = product(i);
             return iteration_.product.row(i).dot(iteration_.direction.row(i));
         });
         const double length = size_before / curvature;
-        const double size_now = add_up(loop, [&](Index i) {
+        const double size_now = add_up(exec, [&](Index i) {
             iteration_.error.row(i) += length * iteration_.direction.row(i);
             iteration_.residual.row(i) -= length * iteration_.product.row(i);
             return iteration_.residual.row(i).squaredNorm() / rows_.diagonal[i];
         });
         const double share = size_now / size_before;
-        for_each(loop, size(), [&](Index i) {
+        for_each(exec, size(), [&](Index i) {
             iteration_.direction.row(i) =
                 iteration_.residual.row(i) / rows_.diagonal[i] + share * iteration_.direction.row(i);
         });

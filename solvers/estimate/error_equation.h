@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/estimate/whole_rows.h"
 #include "solvers/interface/interface_peers.h"
@@ -25,7 +25,7 @@ class ErrorEquation {
     /// (see
     ///        decompose_part), and then not for Δ_P.
     ErrorEquation(const Decomposition& decomposition, const PolygonMesh& mesh, const Topology& topology,
-                  const ScaledLaplacian& laplacian, InterfacePeers& peers, const Loop& loop = run_serially);
+                  const ScaledLaplacian& laplacian, InterfacePeers& peers, const Executor& exec = run_serially);
 
     /// Number of this peer's vertices on Γ, numbered sub-mesh by sub-mesh, each by the lowest that has it.
     [[nodiscard]] Index size() const { return static_cast<Index>(rows_.diagonal.size()); }
@@ -46,7 +46,7 @@ class ErrorEquation {
     /// this together.
     /// @param before, after see WholeRows::measure.
     void measure_whole_rows(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                            const Points& after, double time_step, const Loop& loop);
+                            const Points& after, double time_step, const Executor& exec);
 
     /// Adds what attaches a vertex to V⁰.
     /// @param weight dt w. @param distance of Vᵏ⁺¹ from V⁰, as solved.
@@ -69,7 +69,7 @@ class ErrorEquation {
     [[nodiscard]] Point normal(Index i) const { return rows_.normal.row(i); }
 
     /// Solves to two digits; may be called once after the rows have been filled in. All peers call this together.
-    void solve(const Loop& loop);
+    void solve(const Executor& exec);
 
     /// #Γ by 3, in units of length: not finite where the rows are not.
     [[nodiscard]] const Points& error() const { return iteration_.error; }
@@ -77,11 +77,11 @@ class ErrorEquation {
   private:
     void number_own(std::vector<Index>& kinds);
     void number_foreign(const PolygonMesh& mesh, const Topology& topology, std::vector<Index>& kinds);
-    void list_neighbours(std::span<const Index> kinds, const Loop& loop);
+    void list_neighbours(std::span<const Index> kinds, const Executor& exec);
     void share_rows();
-    void stiffen(const Loop& loop);
+    void stiffen(const Executor& exec);
     template <class Value>
-    double add_up(const Loop& loop, Value&& value);
+    double add_up(const Executor& exec, Value&& value);
     [[nodiscard]] Point product(Index i) const;
 
     /// The vertices of Γ.

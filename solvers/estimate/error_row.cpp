@@ -149,7 +149,7 @@ ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, In
     const auto& interface = sub_mesh.interface;
     const Index v = interface.vertices[i];
     std::fill(couplings.begin(), couplings.end(), 0.0);
-    Draft draft{before, after, stiffness_at, v, sub_mesh.seam.neighbours[i], couplings, {}};
+    Draft draft{before, after, stiffness_at, v, sub_mesh.corrected.neighbours[i], couplings, {}};
     draft.along = unit(before.row(interface.after[i]) - before.row(interface.before[i]));
     with_kernel(laplacian, [&]<class Given>(Given given) {
         using Kernel = WithinOneRing<Given>;

@@ -30,7 +30,7 @@ struct ErrorRow {
 };
 
 /// The row at the i-th vertex of a sub-mesh's Γ. Δ_P has the T of Δ_A, and no residual here: its rows reach further.
-/// @param kinds one per edge neighbour of the vertex (see SubMeshSeam): its number on Γ, or one of the above.
+/// @param kinds one per edge neighbour of the vertex (see CorrectedVertices): its number on Γ, or one of the above.
 /// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
 /// @param stiffness_at #local by 3: the positions whose K the step has; Vᵏ, where it is not kept.
 /// @param time_step dt, in length².

@@ -32,19 +32,19 @@ PtackovaRows::PtackovaRows(const PolygonMesh& mesh, const Topology& topology, st
 }
 
 void PtackovaRows::evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before,
-                            const Points& after, double time_step, const Loop& loop, Points& residuals)
+                            const Points& after, double time_step, const Executor& exec, Points& residuals)
 {
-    for_each(loop, static_cast<Index>(faces_.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(faces_.size()), [&](Index i) {
         Face& face = faces_[i];
         face.area = area(mesh.face(face.index), before);
         face.flux = PtackovaVelho::flux_map(mesh.face(face.index), before, after, face.area);
     });
     const auto flux_map_of = [&](Index f) -> const Eigen::Matrix3d& { return faces_[number_[f]].flux; };
-    for_each(loop, n_inner_, [&](Index i) {
+    for_each(exec, n_inner_, [&](Index i) {
         Face& face = faces_[i];
         face.share = PtackovaVelho::corner_share(mesh, topology, before, face.index, flux_map_of);
     });
-    for_each(loop, static_cast<Index>(vertices_.size()), [&](Index i) {
+    for_each(exec, static_cast<Index>(vertices_.size()), [&](Index i) {
         const Index v = vertices_[i];
         Point laplacian = Point::Zero();
         double vertex_area = 0.0;

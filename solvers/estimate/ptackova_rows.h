@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"
 
@@ -22,7 +22,7 @@ class PtackovaRows {
     /// @param time_step dt, in length².
     /// @param residuals #rows by 3.
     void evaluate(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
-                  double time_step, const Loop& loop, Points& residuals);
+                  double time_step, const Executor& exec, Points& residuals);
 
   private:
     /// A face of a mesh, and what is needed of it.

@@ -70,11 +70,11 @@ WholeRows::Parts WholeRows::list_parts(const Decomposition& decomposition, const
 }
 
 void WholeRows::measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
-                        double time_step, const Loop& loop)
+                        double time_step, const Executor& exec)
 {
-    rows_.evaluate(mesh, topology, before, after, time_step, loop, of_rows_);
+    rows_.evaluate(mesh, topology, before, after, time_step, exec, of_rows_);
     const auto n = static_cast<Index>(copy_of_row_.size());
-    for_each(loop, n, [&](Index row) {
+    for_each(exec, n, [&](Index row) {
         Point sum = of_rows_.row(row);
         for (const Index other : beside_[row])
             sum += of_rows_.row(n + other) / n_sharing_[other];

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/topology.h"
 #include "solvers/estimate/ptackova_rows.h"
 #include "solvers/interface/interface_copies.h"
@@ -27,7 +27,7 @@ class WholeRows {
     /// All peers call this together.
     /// @param before, after #V by 3: Vᵏ, and Vᵏ⁺¹ as solved; at own faces and those that share an edge with one.
     void measure(const PolygonMesh& mesh, const Topology& topology, const Points& before, const Points& after,
-                 double time_step, const Loop& loop);
+                 double time_step, const Executor& exec);
 
     /// At the i-th vertex of an own sub-mesh's Γ.
     [[nodiscard]] Point residual(Index s, Index i) const;

@@ -47,40 +47,41 @@ Polynomial harmonic_polynomial(const StepFilter& filter)
 }
 
 /// x = a x + b y + c z.
-void combine(double a, PointBlocks& x, double b, const PointBlocks& y, double c, const PointBlocks& z, const Loop& loop)
+void combine(double a, PointBlocks& x, double b, const PointBlocks& y, double c, const PointBlocks& z,
+             const Executor& exec)
 {
     if (x.size() == 1) {
-        for_each(loop, static_cast<Index>(x.front().rows()), [&](Index i) {
+        for_each(exec, static_cast<Index>(x.front().rows()), [&](Index i) {
             x.front().row(i) = a * x.front().row(i) + b * y.front().row(i) + c * z.front().row(i);
         });
         return;
     }
-    for_each(loop, static_cast<Index>(x.size()), [&](Index s) { x[s] = a * x[s] + b * y[s] + c * z[s]; });
+    for_each(exec, static_cast<Index>(x.size()), [&](Index s) { x[s] = a * x[s] + b * y[s] + c * z[s]; });
 }
 
 /// rest = g(u S) rest, by the recurrence of the Chebyshev polynomials T_j(8 u S - 1).
 void divide(const Polynomial& g, PointBlocks& rest, const std::function<const PointBlocks&(const PointBlocks&)>& solve,
-            const Loop& loop)
+            const Executor& exec)
 {
     double constant = 1.0;
     for (std::size_t j = 1; j <= g.a.size(); ++j)
         constant -= g.a[j - 1] * (j % 2 == 0 ? 1.0 : -1.0);
     PointBlocks before = rest;
     PointBlocks now = rest;
-    combine(constant, rest, 0.0, now, 0.0, now, loop);
+    combine(constant, rest, 0.0, now, 0.0, now, exec);
     PointBlocks product;
     for (std::size_t j = 1; j <= g.a.size(); ++j) {
         // u S t = S t - S S t, t being T_{j-1} rest.
         product = solve(now);
         const PointBlocks& twice = solve(product);
-        combine(1.0, product, -1.0, twice, 0.0, twice, loop);
+        combine(1.0, product, -1.0, twice, 0.0, twice, exec);
         if (j == 1) {
-            combine(-1.0, now, 8.0, product, 0.0, product, loop);
+            combine(-1.0, now, 8.0, product, 0.0, product, exec);
         } else {
-            combine(-1.0, before, 16.0, product, -2.0, now, loop);
+            combine(-1.0, before, 16.0, product, -2.0, now, exec);
             before.swap(now);
         }
-        combine(1.0, rest, g.a[j - 1], now, 0.0, now, loop);
+        combine(1.0, rest, g.a[j - 1], now, 0.0, now, exec);
     }
 }
 
@@ -109,14 +110,14 @@ int n_solutions(const StepFilter& filter)
 }
 
 void complete(const StepFilter& filter, PointBlocks& rest,
-              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Loop& loop)
+              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Executor& exec)
 {
     for (int i = 1; i < filter.order; ++i) {
         const PointBlocks& solution = solve(rest);
-        combine(1.0, rest, -1.0, solution, 0.0, solution, loop);
+        combine(1.0, rest, -1.0, solution, 0.0, solution, exec);
     }
     if (filter.kind == Filter::Diffusion)
-        divide(harmonic_polynomial(filter), rest, solve, loop);
+        divide(harmonic_polynomial(filter), rest, solve, exec);
 }
 
 }  // namespace seamflow

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -53,6 +53,6 @@ using PointBlocks = std::vector<Points>;
 /// @param rest in: u V, that is V - S V; out: what is to be taken off V.
 /// @param solve gives S D; what it returns may change with the next call.
 void complete(const StepFilter& filter, PointBlocks& rest,
-              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Loop& loop);
+              const std::function<const PointBlocks&(const PointBlocks& data)>& solve, const Executor& exec);
 
 }  // namespace seamflow

@@ -106,7 +106,7 @@ CoarseSpace::CoarseSpace(const InterfaceCopies& copies, InterfacePeers& peers)
 
 void CoarseSpace::find_functions()
 {
-    std::vector<Stretch> here;
+    std::vector<VertexClass> here;
     std::vector<std::vector<Index>> vertices_of;
     std::map<std::vector<Index>, std::vector<Index>> found;
     // Vertices with the same first sub-mesh follow each other.
@@ -124,11 +124,11 @@ void CoarseSpace::find_functions()
             vertices_of.push_back(std::move(vertices));
         }
     }
-    const std::vector<Stretch> stretches = stretches_of_all(here);
+    const std::vector<VertexClass> classes = classes_of_all(here);
     function_.resize(copies_.n_copies());
     values_at_.resize(function_.size());
     Index n_functions = 0;
-    auto next = stretches.begin();
+    auto next = classes.begin();
     const auto pass = [&] { n_functions += (next++)->n_functions(); };
     for (std::size_t i = 0; i < here.size(); ++i, pass()) {
         while (next->sharing != here[i].sharing)
@@ -137,41 +137,41 @@ void CoarseSpace::find_functions()
             for (std::size_t k = 0; k < here[i].sharing.size(); ++k)
                 function_[copies_.of_vertex[v][k]] = n_functions + (here[i].is_single ? 0 : static_cast<Index>(k));
     }
-    while (next != stretches.end())
+    while (next != classes.end())
         pass();
     copies_in_ = inverse_lists(function_, n_functions);
-    list_functions(stretches);
-    divide_terms(stretches);
+    list_functions(classes);
+    divide_terms(classes);
 }
 
 /// Those of all peers, ascending: each tells of those that begin with a sub-mesh of its own.
 /// @param here ascending.
-std::vector<CoarseSpace::Stretch> CoarseSpace::stretches_of_all(const std::vector<Stretch>& here) const
+std::vector<CoarseSpace::VertexClass> CoarseSpace::classes_of_all(const std::vector<VertexClass>& here) const
 {
     std::vector<double> own;
-    for (const Stretch& stretch : here)
-        if (peers_.holders()[stretch.sharing.front()] == peers_.self()) {
-            own.push_back(stretch.is_single ? 1.0 : 0.0);
-            own.push_back(static_cast<double>(stretch.sharing.size()));
-            own.insert(own.end(), stretch.sharing.begin(), stretch.sharing.end());
+    for (const VertexClass& vertices : here)
+        if (peers_.holders()[vertices.sharing.front()] == peers_.self()) {
+            own.push_back(vertices.is_single ? 1.0 : 0.0);
+            own.push_back(static_cast<double>(vertices.sharing.size()));
+            own.insert(own.end(), vertices.sharing.begin(), vertices.sharing.end());
         }
-    std::vector<Stretch> all;
+    std::vector<VertexClass> all;
     for (const std::vector<double>& numbers : peers_.gather(own))
         for (auto number = numbers.begin(); number != numbers.end();) {
-            Stretch& stretch = all.emplace_back();
-            stretch.is_single = *number++ != 0.0;
-            stretch.sharing.resize(static_cast<std::size_t>(*number++));
-            for (Index& place : stretch.sharing)
+            VertexClass& vertices = all.emplace_back();
+            vertices.is_single = *number++ != 0.0;
+            vertices.sharing.resize(static_cast<std::size_t>(*number++));
+            for (Index& place : vertices.sharing)
                 place = static_cast<Index>(*number++);
         }
-    std::ranges::stable_sort(all, {}, &Stretch::sharing);
+    std::ranges::stable_sort(all, {}, &VertexClass::sharing);
     return all;
 }
 
 /// The first copy of a vertex has the constant.
-void CoarseSpace::set_functions(std::span<const double> weights, const Loop& loop)
+void CoarseSpace::set_functions(std::span<const double> weights, const Executor& exec)
 {
-    for_each(loop, size(), [&](Index f) {
+    for_each(exec, size(), [&](Index f) {
         const auto copies = copies_in_[f];
         const auto is_first = [this](Index copy) { return copies_.of_vertex[copies_.vertex[copy]].front() == copy; };
         const bool is_constant = std::any_of(copies.begin(), copies.end(), is_first);
@@ -183,31 +183,31 @@ void CoarseSpace::set_functions(std::span<const double> weights, const Loop& loo
     });
 }
 
-void CoarseSpace::list_functions(const std::vector<Stretch>& stretches)
+void CoarseSpace::list_functions(const std::vector<VertexClass>& classes)
 {
     functions_at_ = make_lists(peers_.n_places(), [&](auto&& add) {
         Index f = 0;
-        for (const Stretch& stretch : stretches) {
-            for (const Index place : stretch.sharing)
-                for (Index k = 0; k < stretch.n_functions(); ++k)
+        for (const VertexClass& vertices : classes) {
+            for (const Index place : vertices.sharing)
+                for (Index k = 0; k < vertices.n_functions(); ++k)
                     add(place, f + k);
-            f += stretch.n_functions();
+            f += vertices.n_functions();
         }
     });
     terms_of_ = inverse_lists(functions_at_.values, size());
 }
 
-void CoarseSpace::divide_terms(const std::vector<Stretch>& stretches)
+void CoarseSpace::divide_terms(const std::vector<VertexClass>& classes)
 {
     const std::vector<Index>& holders = peers_.holders();
     told_.resize(holders.empty() ? 0 : at(*std::ranges::max_element(holders)) + 1);
     std::vector<std::uint8_t> is_begun(at(size()), 0);
     Index f = 0;
-    for (const Stretch& stretch : stretches) {
-        const Index holder = holders[stretch.sharing.front()];
+    for (const VertexClass& vertices : classes) {
+        const Index holder = holders[vertices.sharing.front()];
         const bool is_finished =
-            std::ranges::all_of(stretch.sharing, [&](Index place) { return holders[place] == holder; });
-        for (const Index end = f + stretch.n_functions(); f < end; ++f) {
+            std::ranges::all_of(vertices.sharing, [&](Index place) { return holders[place] == holder; });
+        for (const Index end = f + vertices.n_functions(); f < end; ++f) {
             (is_finished ? told_[holder].finished : told_[holder].begun).push_back(f);
             is_begun[f] = is_finished ? 0 : 1;
         }
@@ -249,12 +249,13 @@ void CoarseSpace::analyse()
         energy_.diagonal_slots.push_back(upper.slot({u, u}));
 }
 
-void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Loop& loop)
+void CoarseSpace::prepare(std::span<const DenseFactor> complements, std::span<const double> weights,
+                          const Executor& exec)
 {
     if (size() == 0)
         return;
-    set_functions(weights, loop);
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+    set_functions(weights, exec);
+    for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
         if (peers_.is_own(s))
             multiply_functions(s, complements[s]);
     });
@@ -319,11 +320,11 @@ void CoarseSpace::assemble()
             energy_.values[diagonal] > 0.0 ? (1.0 + regularisation) * energy_.values[diagonal] : 1.0;
 }
 
-void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
+void CoarseSpace::correct(const Points& residual, Points& y, const Executor& exec)
 {
     if (!energy_.factor)
         return;
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+    for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
         if (peers_.is_own(s))
             multiply_transposed(s, y);
     });
@@ -335,7 +336,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
     };
     if (at(peers_.self()) < told_.size()) {
         const Told& own = told_[peers_.self()];
-        for_each(loop, static_cast<Index>(own.finished.size()), [&](Index i) {
+        for_each(exec, static_cast<Index>(own.finished.size()), [&](Index i) {
             begin(own.finished[i]);
             subtract_terms(own.finished[i]);
         });
@@ -345,7 +346,7 @@ void CoarseSpace::correct(const Points& residual, Points& y, const Loop& loop)
     for (Index f = 0; f < size(); ++f)
         coefficients_.row(energy_.unknown_of[f]) = sums_.row(f);
     energy_.factor->solve(coefficients_, coefficients_, energy_.workspace);
-    for_each(loop, copies_.n_vertices(), [&](Index v) {
+    for_each(exec, copies_.n_vertices(), [&](Index v) {
         for (const Index copy : copies_.of_vertex[v])
             y.row(v) += values_at_[copy] * coefficients_.row(energy_.unknown_of[function_[copy]]);
     });

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "solvers/direct/columns.h"
 #include "solvers/direct/dense_factor.h"
 #include "solvers/direct/factor_memory.h"
@@ -14,13 +14,13 @@
 
 namespace seamflow {
 
-/// The coarse space: few unknowns for the part of the error that single sub-meshes cannot reduce. A stretch of Γ is the
-/// set of vertices that the same sub-meshes share. On each stretch, the columns of Z are the functions that equal a
-/// sub-mesh's weights W there, and 0 elsewhere. Their basis is well conditioned where weights hardly differ: the
-/// constant, and the weights of all but the first sub-mesh without their mean; for a single vertex the constant alone.
-/// Balances the Neumann-Neumann preconditioner (Mandel, "Balancing domain decomposition", 1993, with one function for
-/// all stretches of a sub-mesh) in the form in which an iteration needs no second product with S (A-DEF2 of Tang,
-/// Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
+/// The coarse space: few unknowns for the part of the error that single sub-meshes cannot reduce. An equivalence class
+/// of Γ is the set of vertices that the same sub-meshes share. On each class, the columns of Z are the functions that
+/// equal a sub-mesh's weights W there, and 0 elsewhere. Their basis is well conditioned where weights hardly differ:
+/// the constant, and the weights of all but the first sub-mesh without their mean; for a single vertex the constant
+/// alone. Balances the Neumann-Neumann preconditioner (Mandel, "Balancing domain decomposition", 1993, with one
+/// function for all classes of a sub-mesh) in the form in which an iteration needs no second product with S (A-DEF2 of
+/// Tang, Nabben, Vuik and Erlangga 2009): y becomes y + Z E⁻¹ Zᵀ (r - S y), where E = Zᵀ S Z.
 class CoarseSpace {
   public:
     /// All peers construct it together, each with the functions of all.
@@ -36,11 +36,11 @@ class CoarseSpace {
     /// Makes S Z and factorises E; all peers call this together.
     /// @param complements one per sub-mesh; those of foreign ones are not used.
     /// @param weights one per copy, positive, those of a vertex adding up to 1.
-    void prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Loop& loop);
+    void prepare(std::span<const DenseFactor> complements, std::span<const double> weights, const Executor& exec);
 
     /// y becomes y + Z E⁻¹ Zᵀ (residual - S y); all peers call this together.
     /// @param residual, y one row per vertex of Γ.
-    void correct(const Points& residual, Points& y, const Loop& loop);
+    void correct(const Points& residual, Points& y, const Executor& exec);
 
   private:
     /// E in the elimination ordering, and its factor.
@@ -57,15 +57,15 @@ class CoarseSpace {
         /// None where there are no functions, or E is not definite to rounding.
         std::optional<LdlFactor<double>> factor;
     };
-    /// A stretch of Γ: the places of the sub-meshes that share it.
-    struct Stretch {
+    /// A class of vertices of Γ: the places of the sub-meshes that share it.
+    struct VertexClass {
         std::vector<Index> sharing;
         bool is_single = false;
 
         [[nodiscard]] Index n_functions() const { return is_single ? 1 : static_cast<Index>(sharing.size()); }
     };
-    /// What a peer tells others when all terms of Zᵀ (r - S y) are put together: the sums for functions on stretches of
-    /// which all sub-meshes are its own; those that it begins, for functions on other stretches; and the terms of its
+    /// What a peer tells others when all terms of Zᵀ (r - S y) are put together: the sums for functions on classes of
+    /// which all sub-meshes are its own; those that it begins, for functions on other classes; and the terms of its
     /// sub-meshes for these.
     struct Told {
         std::vector<Index> finished;
@@ -84,12 +84,12 @@ class CoarseSpace {
     };
 
     void find_functions();
-    [[nodiscard]] std::vector<Stretch> stretches_of_all(const std::vector<Stretch>& here) const;
-    void list_functions(const std::vector<Stretch>& stretches);
-    void divide_terms(const std::vector<Stretch>& stretches);
+    [[nodiscard]] std::vector<VertexClass> classes_of_all(const std::vector<VertexClass>& here) const;
+    void list_functions(const std::vector<VertexClass>& classes);
+    void divide_terms(const std::vector<VertexClass>& classes);
     void analyse();
     [[nodiscard]] std::vector<MatrixEntry> entries() const;
-    void set_functions(std::span<const double> weights, const Loop& loop);
+    void set_functions(std::span<const double> weights, const Executor& exec);
     void multiply_functions(Index s, const DenseFactor& schur);
     void multiply_transposed(Index s, const Points& y);
     void assemble();

@@ -17,8 +17,8 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
     , residual_copies_(copies_.n_copies(), 3)
     , right_hand_side_(copies_.n_vertices(), 3)
     , sums_(copies_, peers)
-    , vectors_(copies_.n_vertices(), [this](std::initializer_list<VectorPair> pairs, const Loop& loop) {
-        return sums_.products(pairs, loop);
+    , vectors_(copies_.n_vertices(), [this](std::initializer_list<VectorPair> pairs, const Executor& exec) {
+        return sums_.products(pairs, exec);
     })
 {
     std::size_t n_numbers = 0;
@@ -33,26 +33,26 @@ InterfaceEquation::InterfaceEquation(const Decomposition& decomposition, Balanci
 
 InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complements, Points& right_hand_sides,
                                          const Residuals& residuals, const Points* guess, const IterationStop& stop,
-                                         Points& x, const Loop& loop)
+                                         Points& x, const Executor& exec)
 {
     x.setZero(copies_.n_vertices(), 3);
-    weigh_copies(complements, loop);
+    weigh_copies(complements, exec);
     if (coarse_)
-        coarse_->prepare(complements, weights_, loop);
-    sum_copies(right_hand_sides, right_hand_side_, loop);
+        coarse_->prepare(complements, weights_, exec);
+    sum_copies(right_hand_sides, right_hand_side_, exec);
     const Point unit = measure_right_hand_side();
-    vectors_.begin(right_hand_side_, loop);
-    const auto multiply = [&](const Points& p, Points& product) { this->multiply(complements, p, product, loop); };
-    const auto precondition = [&](const Points& r, Points& z) { this->precondition(complements, r, z, loop); };
+    vectors_.begin(right_hand_side_, exec);
+    const auto multiply = [&](const Points& p, Points& product) { this->multiply(complements, p, product, exec); };
+    const auto precondition = [&](const Points& r, Points& z) { this->precondition(complements, r, z, exec); };
     const auto measure = [&](const Points& at_x, Points& r) {
-        sum_copies(residuals((at_x.array().rowwise() * unit.array()).matrix()), r, loop);
+        sum_copies(residuals((at_x.array().rowwise() * unit.array()).matrix()), r, exec);
         r.array().rowwise() /= unit.array();
     };
     if (stop.iterations > 0)
-        start(multiply, guess, unit, x, loop);
-    InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, loop)};
+        start(multiply, guess, unit, x, exec);
+    InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, exec)};
     require_finite_result(std::isfinite(result.residual));
-    result.residuals = quotients(vectors_.norms(vectors_.r, loop), vectors_.b_norms);
+    result.residuals = quotients(vectors_.norms(vectors_.r, exec), vectors_.b_norms);
     precondition(vectors_.r, vectors_.z);
     result.estimated_distance = estimate_distance(unit);
     x.array().rowwise() *= unit.array();
@@ -81,16 +81,16 @@ double InterfaceEquation::estimate_distance(const Point& unit)
 }
 
 /// By the diagonals of the Schur complements.
-void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, const Loop& loop)
+void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, const Executor& exec)
 {
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+    for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
         if (!peers_->is_own(s))
             return;
         const std::vector<double>& diagonal = complements[s].diagonal();
         std::copy(diagonal.begin(), diagonal.end(), weights_.begin() + copies_.first[s]);
     });
     shared_.complete(weights_.data(), 1);
-    for_each(loop, copies_.n_vertices(), [&](Index v) {
+    for_each(exec, copies_.n_vertices(), [&](Index v) {
         double sum = 0.0;
         for (const Index copy : copies_.of_vertex[v])
             sum += weights_[copy];
@@ -100,10 +100,10 @@ void InterfaceEquation::weigh_copies(std::span<const DenseFactor> complements, c
 }
 
 /// The shares may cancel each other almost wholly: only their sum is used.
-void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Loop& loop)
+void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Executor& exec)
 {
     shared_.complete(copies.data(), 3);
-    for_each(loop, copies_.n_vertices(), [&](Index v) {
+    for_each(exec, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])
             sum += copies.row(copy);
@@ -115,25 +115,25 @@ void InterfaceEquation::sum_copies(Points& copies, Points& sums, const Loop& loo
 /// far along the guess as pays.
 template <class Multiply>
 void InterfaceEquation::start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x,
-                              const Loop& loop)
+                              const Executor& exec)
 {
     if (coarse_) {
-        coarse_->correct(vectors_.r, vectors_.p, loop);
-        advance(multiply, x, vectors_, loop);
+        coarse_->correct(vectors_.r, vectors_.p, exec);
+        advance(multiply, x, vectors_, exec);
     }
     if (guess != nullptr) {
         vectors_.p = guess->array().rowwise() / unit.array();
         if (coarse_)
-            coarse_->correct(vectors_.r, vectors_.p, loop);
-        advance(multiply, x, vectors_, loop);
+            coarse_->correct(vectors_.r, vectors_.p, exec);
+        advance(multiply, x, vectors_, exec);
     }
     vectors_.alpha.setOnes();
 }
 
 void InterfaceEquation::multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
-                                 const Loop& loop)
+                                 const Executor& exec)
 {
-    on_each(complements, direction, false, product, loop,
+    on_each(complements, direction, false, product, exec,
             [](const DenseFactor& schur, FloatColumns columns, FloatColumns result) {
                 schur.multiply(columns, result);
                 return std::pair(result, schur.scale());
@@ -141,15 +141,15 @@ void InterfaceEquation::multiply(std::span<const DenseFactor> complements, const
 }
 
 void InterfaceEquation::precondition(std::span<const DenseFactor> complements, const Points& residual,
-                                     Points& preconditioned, const Loop& loop)
+                                     Points& preconditioned, const Executor& exec)
 {
-    on_each(complements, residual, true, preconditioned, loop,
+    on_each(complements, residual, true, preconditioned, exec,
             [](const DenseFactor& schur, FloatColumns columns, FloatColumns scratch) {
                 schur.solve(columns, scratch);
                 return std::pair(columns, 1.0 / schur.scale());
             });
     if (coarse_)
-        coarse_->correct(residual, preconditioned, loop);
+        coarse_->correct(residual, preconditioned, exec);
 }
 
 /// target = Σ W_i apply(W_i source) over the sub-meshes, W_i = 1 where not weighted. Applied to columns in units of
@@ -157,10 +157,10 @@ void InterfaceEquation::precondition(std::span<const DenseFactor> complements, c
 /// and by what that is to be multiplied.
 template <class Apply>
 void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted,
-                                Points& target, const Loop& loop, Apply&& apply)
+                                Points& target, const Executor& exec, Apply&& apply)
 {
     const auto weight = [&](Index copy) { return weighted ? weights_[copy] : 1.0; };
-    for_each(loop, copies_.n_sub_meshes(), [&](Index s) {
+    for_each(exec, copies_.n_sub_meshes(), [&](Index s) {
         if (!peers_->is_own(s))
             return;
         if (s + 1 < copies_.n_sub_meshes())
@@ -205,7 +205,7 @@ void InterfaceEquation::on_each(std::span<const DenseFactor> complements, const 
         }
     });
     shared_.complete(residual_copies_.data(), 3);
-    for_each(loop, copies_.n_vertices(), [&](Index v) {
+    for_each(exec, copies_.n_vertices(), [&](Index v) {
         Point sum = Point::Zero();
         for (const Index copy : copies_.of_vertex[v])
             sum += weight(copy) * residual_copies_.row(copy);

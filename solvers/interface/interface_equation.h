@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "partition/decomposition/decomposition.h"
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "solvers/direct/dense_factor.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/interface/interface_copies.h"
@@ -63,21 +63,22 @@ class InterfaceEquation {
     /// @throws ComputationError if the right-hand side or the result is not finite.
     InterfaceResult solve(std::span<const DenseFactor> complements, Points& right_hand_sides,
                           const Residuals& residuals, const Points* guess, const IterationStop& stop, Points& x,
-                          const Loop& loop);
+                          const Executor& exec);
 
   private:
-    void weigh_copies(std::span<const DenseFactor> complements, const Loop& loop);
-    void sum_copies(Points& copies, Points& sums, const Loop& loop);
+    void weigh_copies(std::span<const DenseFactor> complements, const Executor& exec);
+    void sum_copies(Points& copies, Points& sums, const Executor& exec);
     template <class Multiply>
-    void start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x, const Loop& loop);
+    void start(const Multiply& multiply, const Points* guess, const Point& unit, Points& x, const Executor& exec);
     Point measure_right_hand_side();
     [[nodiscard]] double estimate_distance(const Point& unit);
-    void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product, const Loop& loop);
+    void multiply(std::span<const DenseFactor> complements, const Points& direction, Points& product,
+                  const Executor& exec);
     void precondition(std::span<const DenseFactor> complements, const Points& residual, Points& preconditioned,
-                      const Loop& loop);
+                      const Executor& exec);
     template <class Apply>
     void on_each(std::span<const DenseFactor> complements, const Points& source, bool weighted, Points& target,
-                 const Loop& loop, Apply&& apply);
+                 const Executor& exec, Apply&& apply);
 
     InterfacePeers* peers_;
     InterfaceCopies copies_;

@@ -69,11 +69,11 @@ InterfaceSums::InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peer
 {
 }
 
-std::vector<Point> InterfaceSums::products(std::initializer_list<VectorPair> pairs, const Loop& loop)
+std::vector<Point> InterfaceSums::products(std::initializer_list<VectorPair> pairs, const Executor& exec)
 {
     const std::size_t width = 3 * pairs.size();
     rows_.resize(at(peers_->n_places()) * width);
-    for_each(loop, copies_->n_sub_meshes(), [&](Index s) {
+    for_each(exec, copies_->n_sub_meshes(), [&](Index s) {
         if (!peers_->is_own(s))
             return;
         double* row = rows_.data() + at(peers_->places()[s]) * width;

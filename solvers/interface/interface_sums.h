@@ -47,7 +47,7 @@ class InterfaceSums {
     InterfaceSums(const InterfaceCopies& copies, InterfacePeers& peers);
 
     /// See InnerProducts; all peers call this together.
-    std::vector<Point> products(std::initializer_list<VectorPair> pairs, const Loop& loop);
+    std::vector<Point> products(std::initializer_list<VectorPair> pairs, const Executor& exec);
 
   private:
     const InterfaceCopies* copies_;

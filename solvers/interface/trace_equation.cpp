@@ -66,19 +66,19 @@ TraceEquation::TraceEquation(Blocks blocks, Index n_vertices)
 InterfaceResult TraceEquation::solve(const FactorisedBlocks& system, const IterationStop& stop, Points& x,
                                      const Threads& threads)
 {
-    for_each(threads.loop, static_cast<Index>(ends_.size()), [&](Index s) {
+    for_each(threads.exec, static_cast<Index>(ends_.size()), [&](Index s) {
         const SchwarzBlock& block = *system.blocks[s];
         for (std::size_t i = 0; i < ends_[s].outputs.size(); ++i)
             traces_.row(first_[s] + static_cast<Index>(i)) =
                 x.row(block.sub_mesh().local_to_global[block.unknowns()[ends_[s].outputs[i]]]);
     });
     renew(system, x, threads);
-    const Loop& loop = threads.loop;
-    const double unit = std::max(norm(residual_, loop), rounding * norm(traces_, loop) / stop.tolerance);
+    const Executor& exec = threads.exec;
+    const double unit = std::max(norm(residual_, exec), rounding * norm(traces_, exec) / stop.tolerance);
     const auto multiply = [&](const Points& p, Points& product) { this->multiply(system, p, product, threads); };
     const auto measure = [&] { renew(system, x, threads); };
     const GmresResult found = gmres(multiply, measure, {stop.tolerance * unit, stop.iterations},
-                                    most_directions(size()), basis_, traces_, residual_, loop);
+                                    most_directions(size()), basis_, traces_, residual_, exec);
     InterfaceResult result{found};
     result.residual = unit > 0.0 ? found.residual / unit : 0.0;
     result.estimated_distance = std::max(1.0, amplified_share * found.amplification) * longest_row(residual_);
@@ -88,7 +88,7 @@ InterfaceResult TraceEquation::solve(const FactorisedBlocks& system, const Itera
 /// All vertices from the traces, and the traces' residual T g + c - g.
 void TraceEquation::renew(const FactorisedBlocks& system, Points& x, const Threads& threads)
 {
-    for_each(threads.loop, static_cast<Index>(ends_.size()), [&](Index s) {
+    for_each(threads.exec, static_cast<Index>(ends_.size()), [&](Index s) {
         const SchwarzBlock& block = *system.blocks[s];
         SolverWorkspace& workspace = threads.workspace();
         solve_block(system, s, traces_, SchwarzBlock::RightHandSide::Step, workspace);
@@ -109,7 +109,7 @@ void TraceEquation::renew(const FactorisedBlocks& system, Points& x, const Threa
 void TraceEquation::multiply(const FactorisedBlocks& system, const Points& p, Points& product,
                              const Threads& threads) const
 {
-    for_each(threads.loop, static_cast<Index>(ends_.size()), [&](Index s) {
+    for_each(threads.exec, static_cast<Index>(ends_.size()), [&](Index s) {
         SolverWorkspace& workspace = threads.workspace();
         solve_block(system, s, p, SchwarzBlock::RightHandSide::Zero, workspace);
         Index trace = first_[s];

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "solvers/interface/interface_result.h"
 #include "solvers/krylov/gmres.h"
 #include "solvers/systems/schwarz_block.h"
@@ -22,7 +22,7 @@ class TraceEquation {
   public:
     /// How the work on many blocks is run, and what the calling thread works with.
     struct Threads {
-        Loop loop;
+        Executor exec;
         std::function<SolverWorkspace&()> workspace;
     };
 

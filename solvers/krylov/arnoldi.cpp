@@ -20,11 +20,11 @@ constexpr double rounding_of_directions = 16.0 * std::numeric_limits<double>::ep
 using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 
-Matrix3d KrylovBasis::begin(const Points& residual, const Loop& loop)
+Matrix3d KrylovBasis::begin(const Points& residual, const Executor& exec)
 {
     n_used_ = 0;
     product_ = residual;
-    return normalise(column_norms(product_, loop), loop);
+    return normalise(column_norms(product_, exec), exec);
 }
 
 void KrylovBasis::append()
@@ -35,67 +35,67 @@ void KrylovBasis::append()
     product_.resize(n_, 3);
 }
 
-std::vector<Matrix3d> KrylovBasis::orthogonalise(const Loop& loop)
+std::vector<Matrix3d> KrylovBasis::orthogonalise(const Executor& exec)
 {
-    const RowVector3d sizes = column_norms(product_, loop);
-    std::vector<Matrix3d> amounts = project(loop);
-    subtract(amounts, loop);
-    const std::vector<Matrix3d> again = project(loop);
-    subtract(again, loop);
+    const RowVector3d sizes = column_norms(product_, exec);
+    std::vector<Matrix3d> amounts = project(exec);
+    subtract(amounts, exec);
+    const std::vector<Matrix3d> again = project(exec);
+    subtract(again, exec);
     for (std::size_t k = 0; k < amounts.size(); ++k)
         amounts[k] += again[k];
-    amounts.push_back(normalise(sizes, loop));
+    amounts.push_back(normalise(sizes, exec));
     return amounts;
 }
 
 /// Makes the columns of W orthonormal, or zero if they depend on others.
 /// @param sizes what the columns' norms were before anything was taken away from them.
 /// @returns the triangle by which they have to be multiplied to become what they were.
-Matrix3d KrylovBasis::normalise(const RowVector3d& sizes, const Loop& loop)
+Matrix3d KrylovBasis::normalise(const RowVector3d& sizes, const Executor& exec)
 {
     Matrix3d amounts = Matrix3d::Zero();
     for (Eigen::Index c = 0; c < 3; ++c) {
         for (int pass = 0; pass < 2 && c > 0; ++pass) {
-            RowVector3d before = products_with_column(c, loop);
+            RowVector3d before = products_with_column(c, exec);
             before.tail(3 - c).setZero();
-            for_each(loop, n_, [&](Index i) { product_(i, c) -= before.dot(product_.row(i)); });
+            for_each(exec, n_, [&](Index i) { product_(i, c) -= before.dot(product_.row(i)); });
             amounts.col(c) += before.transpose();
         }
-        const double length = std::sqrt(products_with_column(c, loop)[c]);
+        const double length = std::sqrt(products_with_column(c, exec)[c]);
         const bool is_new = length > rounding_of_directions * sizes[c];
         amounts(c, c) = is_new ? length : 0.0;
-        for_each(loop, n_, [&](Index i) { product_(i, c) = is_new ? product_(i, c) / length : 0.0; });
+        for_each(exec, n_, [&](Index i) { product_(i, c) = is_new ? product_(i, c) / length : 0.0; });
     }
     return amounts;
 }
 
-RowVector3d KrylovBasis::products_with_column(Eigen::Index c, const Loop& loop) const
+RowVector3d KrylovBasis::products_with_column(Eigen::Index c, const Executor& exec) const
 {
-    return sum_of<RowVector3d>(loop, n_, [&](Index i) { return product_(i, c) * product_.row(i); });
+    return sum_of<RowVector3d>(exec, n_, [&](Index i) { return product_(i, c) * product_.row(i); });
 }
 
 /// Vᵀ W for all V.
-std::vector<Matrix3d> KrylovBasis::project(const Loop& loop) const
+std::vector<Matrix3d> KrylovBasis::project(const Executor& exec) const
 {
     std::vector<Matrix3d> sums;
     for (std::size_t k = 0; k < n_used_; ++k)
         sums.push_back(sum_of<Matrix3d>(
-            loop, n_, [&](Index i) -> Matrix3d { return blocks_[k].row(i).transpose() * product_.row(i); }));
+            exec, n_, [&](Index i) -> Matrix3d { return blocks_[k].row(i).transpose() * product_.row(i); }));
     return sums;
 }
 
-void KrylovBasis::subtract(const std::vector<Matrix3d>& amounts, const Loop& loop)
+void KrylovBasis::subtract(const std::vector<Matrix3d>& amounts, const Executor& exec)
 {
-    for_each_block(loop, n_, [&](Index, Index begin, Index end) {
+    for_each_block(exec, n_, [&](Index, Index begin, Index end) {
         for (std::size_t k = 0; k < amounts.size(); ++k)
             for (Index i = begin; i < end; ++i)
                 product_.row(i) -= blocks_[k].row(i) * amounts[k];
     });
 }
 
-void KrylovBasis::add_combination(const Eigen::MatrixXd& y, Points& x, const Loop& loop) const
+void KrylovBasis::add_combination(const Eigen::MatrixXd& y, Points& x, const Executor& exec) const
 {
-    for_each_block(loop, n_, [&](Index, Index begin, Index end) {
+    for_each_block(exec, n_, [&](Index, Index begin, Index end) {
         for (std::size_t k = 0; k < n_used_; ++k) {
             const Matrix3d amounts = y.middleRows<3>(static_cast<Eigen::Index>(3 * k));
             for (Index i = begin; i < end; ++i)

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 
 /// What block GMRES is made of: Arnoldi's basis, and the least-squares problem in it.
@@ -23,7 +23,7 @@ class KrylovBasis {
 
     /// Forgets what there was. The residual becomes W, of orthonormal columns.
     /// @returns the triangle R with residual = W R.
-    Eigen::Matrix3d begin(const Points& residual, const Loop& loop);
+    Eigen::Matrix3d begin(const Points& residual, const Executor& exec);
 
     /// Takes W in as the next V, and makes W = A V of it.
     /// @param multiply multiply(V, product) makes the product, #unknowns by 3.
@@ -36,18 +36,18 @@ class KrylovBasis {
 
     /// Makes the columns of W orthonormal and orthogonal to all V.
     /// @returns H₁, H₂, … with V₁ H₁ + V₂ H₂ + … = the W before, the last one the triangle that belongs to the new W.
-    std::vector<Eigen::Matrix3d> orthogonalise(const Loop& loop);
+    std::vector<Eigen::Matrix3d> orthogonalise(const Executor& exec);
 
     /// x += V₁ Y₁ + V₂ Y₂ + …
     /// @param y three rows for each V.
-    void add_combination(const Eigen::MatrixXd& y, Points& x, const Loop& loop) const;
+    void add_combination(const Eigen::MatrixXd& y, Points& x, const Executor& exec) const;
 
   private:
     void append();
-    [[nodiscard]] Eigen::Matrix3d normalise(const Eigen::RowVector3d& sizes, const Loop& loop);
-    [[nodiscard]] std::vector<Eigen::Matrix3d> project(const Loop& loop) const;
-    void subtract(const std::vector<Eigen::Matrix3d>& amounts, const Loop& loop);
-    [[nodiscard]] Eigen::RowVector3d products_with_column(Eigen::Index c, const Loop& loop) const;
+    [[nodiscard]] Eigen::Matrix3d normalise(const Eigen::RowVector3d& sizes, const Executor& exec);
+    [[nodiscard]] std::vector<Eigen::Matrix3d> project(const Executor& exec) const;
+    void subtract(const std::vector<Eigen::Matrix3d>& amounts, const Executor& exec);
+    [[nodiscard]] Eigen::RowVector3d products_with_column(Eigen::Index c, const Executor& exec) const;
 
     Index n_;
     /// The first `n_used_` of the list are in use.

@@ -24,10 +24,10 @@ struct ConjugateGradientVectors {
     }
 
     /// For x = 0.
-    void begin(const Points& b, const Loop& loop)
+    void begin(const Points& b, const Executor& exec)
     {
         r = b;
-        b_norms = norms(b, loop);
+        b_norms = norms(b, exec);
         p.setZero();
         q.setZero();
         pq.setZero();
@@ -35,9 +35,9 @@ struct ConjugateGradientVectors {
     }
 
     /// The norm of each column.
-    [[nodiscard]] Point norms(const Points& a, const Loop& loop) const
+    [[nodiscard]] Point norms(const Points& a, const Executor& exec) const
     {
-        return products({{a, a}}, loop).front().cwiseSqrt();
+        return products({{a, a}}, exec).front().cwiseSqrt();
     }
 
     /// The residual B - A X, the direction and its product, and the preconditioned residual.
@@ -70,13 +70,13 @@ inline double largest_ratio(const Point& norms, const Point& first)
 
 /// x goes along p to where the energy is least; r follows.
 template <class Multiply>
-void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Loop& loop)
+void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
     multiply(v.p, v.q);
-    const std::vector<Point> found = v.products({{v.p, v.q}, {v.p, v.r}}, loop);
+    const std::vector<Point> found = v.products({{v.p, v.q}, {v.p, v.r}}, exec);
     v.pq = found[0];
     v.alpha = quotients(found[1], v.pq);
-    for_each(loop, static_cast<Index>(x.rows()), [&](Index i) {
+    for_each(exec, static_cast<Index>(x.rows()), [&](Index i) {
         x.row(i) += v.p.row(i).cwiseProduct(v.alpha);
         v.r.row(i) -= v.q.row(i).cwiseProduct(v.alpha);
     });
@@ -93,7 +93,8 @@ void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, c
 /// @param v in: begun, and brought to x by `advance`, or not at all.
 template <class Multiply, class Precondition, class Measure>
 IterationResult conjugate_gradients(const Multiply& multiply, const Precondition& precondition, const Measure& measure,
-                                    const IterationStop& stop, Points& x, ConjugateGradientVectors& v, const Loop& loop)
+                                    const IterationStop& stop, Points& x, ConjugateGradientVectors& v,
+                                    const Executor& exec)
 {
     // From one measurement to the next so many iterations, and so much of the residual; what may be left of it then
     // without too little progress.
@@ -116,15 +117,15 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         return (norms.array() <= limits.array()).all();
     };
     const auto norms_as_measured = [&] {
-        const Point norms = v.norms(v.r, loop);
+        const Point norms = v.norms(v.r, exec);
         const Point doubt = safety * drift.cwiseProduct(measured);
         if (!is_below(norms, goals()) || is_below(norms.cwiseMax(doubt), wanted))
             return norms;
         measure(x, v.z);
-        for_each(loop, static_cast<Index>(x.rows()), [&](Index i) { v.r.row(i) -= v.z.row(i); });
-        drift = quotients(v.norms(v.r, loop), measured).cwiseMax(least_drift);
+        for_each(exec, static_cast<Index>(x.rows()), [&](Index i) { v.r.row(i) -= v.z.row(i); });
+        drift = quotients(v.norms(v.r, exec), measured).cwiseMax(least_drift);
         v.r.swap(v.z);
-        return measured = v.norms(v.r, loop);
+        return measured = v.norms(v.r, exec);
     };
     Point norms = norms_as_measured();
     StoppingCriterion criterion(stop, most_left, largest_ratio(norms, v.b_norms));
@@ -134,11 +135,11 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         do {
             precondition(v.r, v.z);
             // Conjugate to the direction before even where the residual has just been measured.
-            const Point beta = -quotients(v.products({{v.z, v.q}}, loop).front(), v.pq);
-            for_each(loop, static_cast<Index>(x.rows()),
+            const Point beta = -quotients(v.products({{v.z, v.q}}, exec).front(), v.pq);
+            for_each(exec, static_cast<Index>(x.rows()),
                      [&](Index i) { v.p.row(i) = v.z.row(i) + v.p.row(i).cwiseProduct(beta); });
-            advance(multiply, x, v, loop);
-        } while (++iterations < most && !is_below(v.norms(v.r, loop), goals()));
+            advance(multiply, x, v, exec);
+        } while (++iterations < most && !is_below(v.norms(v.r, exec), goals()));
         const Point before = std::exchange(norms, norms_as_measured());
         criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));
         // Rounding can spoil the directions so much that they lead nowhere: new ones then.

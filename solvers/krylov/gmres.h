@@ -30,15 +30,15 @@ struct GmresCycle {
 /// @param V its memory is used again.
 template <class Multiply>
 GmresCycle gmres_cycle(const Multiply& multiply, const Points& residual, double goal, int most, KrylovBasis& V,
-                       Points& x, const Loop& loop)
+                       Points& x, const Executor& exec)
 {
-    HessenbergLeastSquares least_squares(V.begin(residual, loop));
+    HessenbergLeastSquares least_squares(V.begin(residual, exec));
     int iterations = 0;
     for (; iterations < most && !least_squares.has_reached(goal); ++iterations) {
         V.extend(multiply);
-        least_squares.append(V.orthogonalise(loop));
+        least_squares.append(V.orthogonalise(exec));
     }
-    V.add_combination(least_squares.solution(), x, loop);
+    V.add_combination(least_squares.solution(), x, exec);
     return {iterations, least_squares.amplification()};
 }
 
@@ -57,23 +57,23 @@ struct GmresResult : IterationResult {
 /// @param residual that `measure` brings up to date. In: of x.
 template <class Multiply, class Measure>
 GmresResult gmres(const Multiply& multiply, const Measure& measure, const IterationStop& stop, int most_in_cycle,
-                  KrylovBasis& V, Points& x, const Points& residual, const Loop& loop)
+                  KrylovBasis& V, Points& x, const Points& residual, const Executor& exec)
 {
     // What a cycle may leave of the residual without too little progress. The residual that GMRES estimates is about
     // the true one.
     constexpr double most_left = 0.95;
     constexpr double safety = 0.8;
 
-    double size = norm(residual, loop);
+    double size = norm(residual, exec);
     double amplification = 1.0;
     const auto excess = [&] { return std::max(1.0, amplification / most_amplification); };
     StoppingCriterion criterion(stop, most_left, size);
     while (!criterion.is_met()) {
         const GmresCycle cycle = gmres_cycle(multiply, residual, safety * stop.tolerance / excess(),
-                                             std::min(most_in_cycle, criterion.iterations_left()), V, x, loop);
+                                             std::min(most_in_cycle, criterion.iterations_left()), V, x, exec);
         amplification = std::max(amplification, cycle.amplification);
         measure();
-        const double before = std::exchange(size, norm(residual, loop));
+        const double before = std::exchange(size, norm(residual, exec));
         criterion.note(cycle.iterations, size * excess(), size / before);
     }
     return {criterion.result(size), amplification};

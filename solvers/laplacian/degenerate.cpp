@@ -66,11 +66,11 @@ bool divides_by_lengths(Laplacian laplacian)
 
 /// The faces by whose edges or areas the row of a vertex that may move divides in vain.
 std::vector<Index> degenerate_faces(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                                    const Loop& loop)
+                                    const Executor& exec)
 {
     if (traits_of(laplacian).divisor == Divisor::Nothing)
         return {};
-    return select(loop, mesh.n_faces(), [&](Index f) {
+    return select(exec, mesh.n_faces(), [&](Index f) {
         return divides_by_lengths(laplacian) ? edge_without_length(mesh, topology, f) >= 0
                                              : !has_area(mesh, topology, laplacian, f);
     });
@@ -106,10 +106,10 @@ void append_vertices_around(const PolygonMesh& mesh, const Topology& topology, L
 }  // namespace
 
 std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                                        const Loop& loop)
+                                        const Executor& exec)
 {
     std::vector<Index> vertices;
-    for (const Index f : degenerate_faces(mesh, topology, laplacian, loop)) {
+    for (const Index f : degenerate_faces(mesh, topology, laplacian, exec)) {
         if (divides_by_lengths(laplacian))
             append_ends(mesh, f, vertices);
         else
@@ -120,9 +120,10 @@ std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology&
     return vertices;
 }
 
-void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian, const Loop& loop)
+void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
+                            const Executor& exec)
 {
-    const auto bad = degenerate_faces(mesh, topology, laplacian, loop);
+    const auto bad = degenerate_faces(mesh, topology, laplacian, exec);
     if (bad.empty())
         return;
     if (divides_by_lengths(laplacian))

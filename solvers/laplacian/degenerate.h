@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/laplacian/laplacian.h"
@@ -13,10 +13,10 @@ namespace seamflow {
 /// of their edges, Alexa-Wardetzky by the areas of their faces, Ptáčková-Velho also by those of the faces next to them.
 /// @throws InputError naming the first edge without length or face without area, and what to do.
 void require_sound_geometry(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                            const Loop& loop = run_serially);
+                            const Executor& exec = run_serially);
 
 /// The vertices that may move and at which that is not so, ascending.
 std::vector<Index> vertices_without_row(const PolygonMesh& mesh, const Topology& topology, Laplacian laplacian,
-                                        const Loop& loop = run_serially);
+                                        const Executor& exec = run_serially);
 
 }  // namespace seamflow

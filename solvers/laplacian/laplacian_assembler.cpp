@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 
 namespace seamflow {

@@ -25,11 +25,11 @@ void list_neighbours(const PolygonMesh& mesh, const Topology& topology, Index f,
 
 }  // namespace
 
-FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Loop& loop)
+FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Executor& exec)
 {
     FaceNeighbours neighbours;
     neighbours.offsets.assign(at(mesh.n_faces()) + 1, 0);
-    loop(mesh.n_faces(), [&](Index begin, Index end) {
+    exec(mesh.n_faces(), [&](Index begin, Index end) {
         std::vector<Index> list;
         for (Index f = begin; f < end; ++f) {
             list_neighbours(mesh, topology, f, list);
@@ -39,7 +39,7 @@ FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& top
     for (Index f = 0; f < mesh.n_faces(); ++f)
         neighbours.offsets[f + 1] += neighbours.offsets[f];
     neighbours.faces.resize(neighbours.offsets.back());
-    loop(mesh.n_faces(), [&](Index begin, Index end) {
+    exec(mesh.n_faces(), [&](Index begin, Index end) {
         std::vector<Index> list;
         for (Index f = begin; f < end; ++f) {
             list_neighbours(mesh, topology, f, list);

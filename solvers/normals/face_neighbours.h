@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -27,7 +27,8 @@ struct FaceNeighbours {
 };
 
 /// @param topology with twins.
-FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially);
+FaceNeighbours make_face_neighbours(const PolygonMesh& mesh, const Topology& topology,
+                                    const Executor& exec = run_serially);
 
 /// 1 or -1 for each face, so that vector areas times these point to the same side wherever faces share an edge; on a
 /// surface with one side alone they cannot everywhere. Empty where they do so as they are.

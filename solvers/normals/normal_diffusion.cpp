@@ -37,9 +37,9 @@ constexpr double least_height = 4.0 * std::numeric_limits<float>::epsilon();
 /// Weights relative to the diagonal of A beyond which a face has the mean of its neighbours to all digits.
 constexpr double largest_diffusion_weight = 1e20;
 
-double sum_of_products(const Points& a, const Points& b, const Loop& loop)
+double sum_of_products(const Points& a, const Points& b, const Executor& exec)
 {
-    return sum(loop, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).dot(b.row(i)); });
+    return sum(exec, static_cast<Index>(a.rows()), [&](Index i) { return a.row(i).dot(b.row(i)); });
 }
 
 void normalise_row(Points& normals, Index f)
@@ -68,9 +68,9 @@ double area_with_normal(std::span<const Index> corners, const Points& positions)
 }  // namespace
 
 NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology,
-                                 const Loop& loop)
+                                 const Executor& exec)
     : mesh_(&mesh)
-    , neighbours_(make_face_neighbours(connected, topology, loop))
+    , neighbours_(make_face_neighbours(connected, topology, exec))
     , signs_(face_signs(connected, topology))
     , across_(mesh.face_vertices.size())
     , areas_(at(mesh.n_faces()))
@@ -86,43 +86,43 @@ NormalDiffusion::NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& con
     , direction_(mesh.n_faces(), 3)
     , product_(mesh.n_faces(), 3)
 {
-    for_each(loop, static_cast<Index>(across_.size()),
+    for_each(exec, static_cast<Index>(across_.size()),
              [&](Index h) { across_[h] = topology.twin[h] >= 0 ? topology.face_of[topology.twin[h]] : Index{-1}; });
 }
 
-Points NormalDiffusion::smoothed(const Points& positions, double time_step, double angle, const Loop& loop)
+Points NormalDiffusion::smoothed(const Points& positions, double time_step, double angle, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
-    measure(positions, time_step / diffusion_rounds, loop);
+    measure(positions, time_step / diffusion_rounds, exec);
     const double edge_chord = 2.0 * std::sin(angle * std::numbers::pi / 360.0);
     Points normals(n, 3);
-    for_each(loop, n, [&](Index f) {
+    for_each(exec, n, [&](Index f) {
         normals.row(f) = areas_[f] > 0.0 ? Point(vector_area(mesh_->face(f), positions)) : Point(Point::Zero());
         normals.row(f) *= signs_.empty() ? 1.0 : signs_[f];
         normalise_row(normals, f);
     });
-    noise_ = measure_noise(normals, edge_chord, loop);
+    noise_ = measure_noise(normals, edge_chord, exec);
     const double longest = std::min(sigmas_at_edges * std::max(sigma_by_noise * noise_, least_sigma), edge_chord);
     for (int round = 0; round < diffusion_rounds; ++round) {
-        find_guides(normals, loop);
+        find_guides(normals, exec);
         if (noise_ > much_noise)
-            find_patches(normals, loop);
-        find_weights(normals, longest, loop);
-        diffuse(normals, loop);
-        for_each(loop, n, [&](Index f) { normalise_row(normals, f); });
+            find_patches(normals, exec);
+        find_weights(normals, longest, exec);
+        diffuse(normals, exec);
+        for_each(exec, n, [&](Index f) { normalise_row(normals, f); });
     }
     return normals;
 }
 
-void NormalDiffusion::measure(const Points& positions, double time_step, const Loop& loop)
+void NormalDiffusion::measure(const Points& positions, double time_step, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
-    for_each(loop, n, [&](Index f) {
+    for_each(exec, n, [&](Index f) {
         areas_[f] = area_with_normal(mesh_->face(f), positions);
         centroids_.row(f) = centroid(mesh_->face(f), positions);
     });
-    const double mean_area = sum(loop, n, [&](Index f) { return areas_[f]; }) / n;
-    for_each(loop, n, [&](Index f) {
+    const double mean_area = sum(exec, n, [&](Index f) { return areas_[f]; }) / n;
+    for_each(exec, n, [&](Index f) {
         areas_[f] = mean_area > 0.0 ? areas_[f] / mean_area : 0.0;
         double squares = 0.0;
         for (const Index g : neighbours_[f])
@@ -130,7 +130,7 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const L
         const std::size_t count = neighbours_[f].size();
         reach_[f] = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
     });
-    for_each(loop, n, [&](Index f) {
+    for_each(exec, n, [&](Index f) {
         double moment = 0.0;
         for (const Index g : neighbours_[f]) {
             const double squared = (centroids_.row(f) - centroids_.row(g)).squaredNorm();
@@ -143,11 +143,11 @@ void NormalDiffusion::measure(const Points& positions, double time_step, const L
 
 /// The median of the chords between each face and the neighbour across an edge that it is most alike, or the mean of
 /// these, which round parts are more alike. Those of sharper edges do not count.
-double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Loop& loop) const
+double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, const Executor& exec) const
 {
     const Index n = mesh_->n_faces();
     std::vector<double> chords(at(n));
-    for_each(loop, n, [&](Index f) {
+    for_each(exec, n, [&](Index f) {
         chords[f] = std::numeric_limits<double>::infinity();
         if (areas_[f] == 0.0)
             return;
@@ -171,10 +171,10 @@ double NormalDiffusion::measure_noise(const Points& normals, double edge_chord, 
     return *middle;
 }
 
-void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
+void NormalDiffusion::find_guides(const Points& normals, const Executor& exec)
 {
     const double width = std::max(width_by_noise * noise_, least_sigma);
-    for_each(loop, mesh_->n_faces(), [&](Index f) {
+    for_each(exec, mesh_->n_faces(), [&](Index f) {
         Point total = areas_[f] * normals.row(f);
         for (const Index g : neighbours_[f]) {
             const double chord = (normals.row(f) - normals.row(g)).norm() / width;
@@ -187,10 +187,10 @@ void NormalDiffusion::find_guides(const Points& normals, const Loop& loop)
 
 /// Takes the mean normal of a face and its neighbours, around the face or one of its neighbours, where that is of one
 /// side of edges.
-void NormalDiffusion::find_patches(const Points& normals, const Loop& loop)
+void NormalDiffusion::find_patches(const Points& normals, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
-    for_each(loop, n, [&](Index f) {
+    for_each(exec, n, [&](Index f) {
         Point total = areas_[f] * normals.row(f);
         double weight = areas_[f];
         for (const Index g : neighbours_[f]) {
@@ -201,7 +201,7 @@ void NormalDiffusion::find_patches(const Points& normals, const Loop& loop)
         means_.row(f) = total;
         normalise_row(means_, f);
     });
-    for_each(loop, n, [&](Index f) {
+    for_each(exec, n, [&](Index f) {
         Index patch = f;
         double least = clearly_less * disagreement_[f];
         for (const Index g : neighbours_[f])
@@ -214,9 +214,9 @@ void NormalDiffusion::find_patches(const Points& normals, const Loop& loop)
     });
 }
 
-void NormalDiffusion::find_weights(const Points& normals, double longest, const Loop& loop)
+void NormalDiffusion::find_weights(const Points& normals, double longest, const Executor& exec)
 {
-    for_each(loop, mesh_->n_faces(), [&](Index f) {
+    for_each(exec, mesh_->n_faces(), [&](Index f) {
         double total = 0.0;
         for (std::size_t k = neighbours_.offsets[f]; k < neighbours_.offsets[f + 1]; ++k) {
             const Index g = neighbours_.faces[k];
@@ -236,7 +236,7 @@ void NormalDiffusion::find_weights(const Points& normals, double longest, const 
 }
 
 /// Conjugate gradients for A N + τ L N = A N₀ from N₀ on, preconditioned by the diagonal.
-void NormalDiffusion::diffuse(Points& normals, const Loop& loop)
+void NormalDiffusion::diffuse(Points& normals, const Executor& exec)
 {
     const Index n = mesh_->n_faces();
     const auto laplacian = [&](const Points& x, Index f) {
@@ -248,26 +248,26 @@ void NormalDiffusion::diffuse(Points& normals, const Loop& loop)
     const auto preconditioned = [&](Index f) {
         return diagonal_[f] > 0.0 ? Point(residual_.row(f) / diagonal_[f]) : Point(Point::Zero());
     };
-    const auto energy = [&] { return sum(loop, n, [&](Index f) { return residual_.row(f).dot(preconditioned(f)); }); };
-    for_each(loop, n, [&](Index f) {
+    const auto energy = [&] { return sum(exec, n, [&](Index f) { return residual_.row(f).dot(preconditioned(f)); }); };
+    for_each(exec, n, [&](Index f) {
         residual_.row(f) = -laplacian(normals, f);
         direction_.row(f) = preconditioned(f);
     });
-    const double wanted = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, loop);
+    const double wanted = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, exec);
     double before = energy();
-    for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, loop) > wanted; ++i) {
-        for_each(loop, n, [&](Index f) { product_.row(f) = areas_[f] * direction_.row(f) + laplacian(direction_, f); });
-        const double alpha = before / sum_of_products(direction_, product_, loop);
+    for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, exec) > wanted; ++i) {
+        for_each(exec, n, [&](Index f) { product_.row(f) = areas_[f] * direction_.row(f) + laplacian(direction_, f); });
+        const double alpha = before / sum_of_products(direction_, product_, exec);
         if (!std::isfinite(alpha))
             break;
-        for_each(loop, n, [&](Index f) {
+        for_each(exec, n, [&](Index f) {
             normals.row(f) += alpha * direction_.row(f);
             residual_.row(f) -= alpha * product_.row(f);
         });
         const double after = energy();
         const double beta = after / before;
         before = after;
-        for_each(loop, n, [&](Index f) { direction_.row(f) = preconditioned(f) + beta * direction_.row(f); });
+        for_each(exec, n, [&](Index f) { direction_.row(f) = preconditioned(f) + beta * direction_.row(f); });
     }
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/topology.h"
 #include "solvers/normals/face_neighbours.h"
 
@@ -30,31 +30,32 @@ class NormalDiffusion {
   public:
     /// @param mesh must outlive this; its vertices are not looked at. @param topology with twins; not needed
     /// afterwards.
-    NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Loop& loop = run_serially)
-        : NormalDiffusion(mesh, mesh, topology, loop)
+    NormalDiffusion(const PolygonMesh& mesh, const Topology& topology, const Executor& exec = run_serially)
+        : NormalDiffusion(mesh, mesh, topology, exec)
     {
     }
 
     /// The same between faces that share vertices of another mesh.
     /// @param connected the faces of `mesh` with other vertices; not needed afterwards. @param topology of it.
-    NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology, const Loop& loop);
+    NormalDiffusion(const PolygonMesh& mesh, const PolygonMesh& connected, const Topology& topology,
+                    const Executor& exec);
 
     /// @param positions #V by 3. @param time_step the sum of all τ, in length².
     /// @param angle between the normals of faces, in degrees, 0 to 180: sharper edges stay.
     /// @returns #F by 3, of length 1, or 0 for faces without area.
     [[nodiscard]] Points smoothed(const Points& positions, double time_step, double angle,
-                                  const Loop& loop = run_serially);
+                                  const Executor& exec = run_serially);
 
     /// Of the normals smoothed last, before that: a chord of unit normals. 0 on planar faces.
     [[nodiscard]] double noise() const { return noise_; }
 
   private:
-    void measure(const Points& positions, double time_step, const Loop& loop);
-    [[nodiscard]] double measure_noise(const Points& normals, double edge_chord, const Loop& loop) const;
-    void find_guides(const Points& normals, const Loop& loop);
-    void find_patches(const Points& normals, const Loop& loop);
-    void find_weights(const Points& normals, double longest, const Loop& loop);
-    void diffuse(Points& normals, const Loop& loop);
+    void measure(const Points& positions, double time_step, const Executor& exec);
+    [[nodiscard]] double measure_noise(const Points& normals, double edge_chord, const Executor& exec) const;
+    void find_guides(const Points& normals, const Executor& exec);
+    void find_patches(const Points& normals, const Executor& exec);
+    void find_weights(const Points& normals, double longest, const Executor& exec);
+    void diffuse(Points& normals, const Executor& exec);
 
     const PolygonMesh* mesh_;
     FaceNeighbours neighbours_;

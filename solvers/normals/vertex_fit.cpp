@@ -49,17 +49,17 @@ Point fitting_step(const PolygonMesh& mesh, const Topology& topology, const Poin
 }  // namespace
 
 void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines, const Points& normals,
-                  double noise, const Points& from, Points& to, const Loop& loop)
+                  double noise, const Points& from, Points& to, const Executor& exec)
 {
     // Chords of noise up to here, which folds hardly any face, are as long as relaxation is to go.
     const double relaxation = std::min(noise, most_relaxation);
     Points centroids(mesh.n_faces(), 3);
     Points before = from;
-    copy(loop, from, to);
+    copy(exec, from, to);
     for (int i = 0; i < relaxing_fits + plain_fits; ++i) {
-        for_each(loop, mesh.n_faces(), [&](Index f) { centroids.row(f) = centroid(mesh.face(f), to); });
+        for_each(exec, mesh.n_faces(), [&](Index f) { centroids.row(f) = centroid(mesh.face(f), to); });
         before.swap(to);
-        for_each(loop, mesh.n_vertices(), [&](Index v) {
+        for_each(exec, mesh.n_vertices(), [&](Index v) {
             if (!topology.moves(v))
                 return;
             const bool relaxes = i < relaxing_fits && topology.kind[v] == VertexKind::Interior;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/topology.h"
 #include "solvers/normals/feature_lines.h"
 
@@ -19,6 +19,6 @@ namespace seamflow {
 /// @param lines of the mesh. @param from #V by 3, where vertices are. @param to #V by 3, of other memory: where they
 /// go.
 void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines, const Points& normals,
-                  double noise, const Points& from, Points& to, const Loop& loop = run_serially);
+                  double noise, const Points& from, Points& to, const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -37,7 +37,7 @@ Eigen::Array4f quotients(const Eigen::Array4d& numerators, const Eigen::Array4d&
 
 }  // namespace
 
-BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Loop& loop)
+BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec)
     : blocks_(std::move(blocks))
 {
     // Of each block, the columns of all rows, and where those in the block begin, those above the diagonal, those
@@ -49,7 +49,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
     std::vector<Lists> lists(blocks_.size() - 1);
     for (std::vector<Index>* begin : {&lower_.begin, &upper_.begin, &outer_.begin})
         begin->assign(at(n_rows()) + 1, 0);
-    for_each_block(loop, [&](Index block, Index begin, Index end) {
+    for_each_block(exec, [&](Index block, Index begin, Index end) {
         lists[block] = {pattern(block), {}};
         for (Index i = begin; i < end; ++i) {
             const std::span<const Index> columns = lists[block].rows[i - begin];
@@ -76,7 +76,7 @@ BlockRowMatrix::BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern
         reserve(*values, n_rows());
     for (Buffer<Row>* rows : {&residual_, &direction_, &step_, &product_, &increment_})
         reserve(*rows, n_rows());
-    for_each_block(loop, [&](Index block, Index begin, Index end) {
+    for_each_block(exec, [&](Index block, Index begin, Index end) {
         const Lists of_block = std::move(lists[block]);
         for (Index i = begin; i < end; ++i) {
             const auto columns = of_block.rows[i - begin].begin();
@@ -107,7 +107,7 @@ float& BlockRowMatrix::entry(const Place& place, Index column)
 /// in a modified factorisation (Gustafsson, A class of first order factorization methods, 1978), which preserves the
 /// sums of rows; no pivot is less than what keeps solutions bounded. Blocks with positive entries that count keep the
 /// diagonal: symmetric Gauss–Seidel.
-void BlockRowMatrix::factorise(const Loop& loop)
+void BlockRowMatrix::factorise(const Executor& exec)
 {
     const auto finish = [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
@@ -115,7 +115,7 @@ void BlockRowMatrix::factorise(const Loop& loop)
             shift_[i] = diagonal_[i] - 2.0F * pivot_[i];
         }
     };
-    for_each_block(loop, [&](Index, Index begin, Index end) {
+    for_each_block(exec, [&](Index, Index begin, Index end) {
         double positive = 0.0;
         double all = 0.0;
         for (Index e = lower_.begin[begin]; e < lower_.begin[end]; ++e) {
@@ -147,9 +147,9 @@ void BlockRowMatrix::factorise(const Loop& loop)
     });
 }
 
-Eigen::Array4d BlockRowMatrix::start(float scale, const Loop& loop)
+Eigen::Array4d BlockRowMatrix::start(float scale, const Executor& exec)
 {
-    return sum_of_blocks<Eigen::Array4d>(loop, [&](Index begin, Index end) {
+    return sum_of_blocks<Eigen::Array4d>(exec, [&](Index begin, Index end) {
         const Entries<Inner>::Product lower(lower_);
         Eigen::Array4d sum = Eigen::Array4d::Zero();
         for (Index i = begin; i < end; ++i) {
@@ -166,9 +166,9 @@ Eigen::Array4d BlockRowMatrix::start(float scale, const Loop& loop)
 }
 
 /// increment += α t; p = D r + β p; t = (D + Lᵀ)⁻¹ p.
-void BlockRowMatrix::solve_upper(const Row& alpha, const Row& beta, const Loop& loop)
+void BlockRowMatrix::solve_upper(const Row& alpha, const Row& beta, const Executor& exec)
 {
-    for_each_block(loop, [&, alpha = alpha, beta = beta](Index, Index begin, Index end) {
+    for_each_block(exec, [&, alpha = alpha, beta = beta](Index, Index begin, Index end) {
         const Entries<Inner>::Product upper(upper_);
         const float* const pivot = pivot_.get();
         const float* const inverse = inverse_.get();
@@ -188,9 +188,9 @@ void BlockRowMatrix::solve_upper(const Row& alpha, const Row& beta, const Loop& 
 
 /// q = (D + L)⁻¹ A t = t + (D + L)⁻¹ (p + (A - L - D - D - Lᵀ) t).
 /// @returns Σ p q.
-Eigen::Array4d BlockRowMatrix::solve_lower(const Loop& loop)
+Eigen::Array4d BlockRowMatrix::solve_lower(const Executor& exec)
 {
-    return sum_of_blocks<Eigen::Array4d>(loop, [&](Index begin, Index end) {
+    return sum_of_blocks<Eigen::Array4d>(exec, [&](Index begin, Index end) {
         const Entries<Inner>::Product lower(lower_);
         const Entries<Index>::Product outer(outer_);
         const float* const inverse = inverse_.get();
@@ -216,9 +216,9 @@ Eigen::Array4d BlockRowMatrix::solve_lower(const Loop& loop)
 
 /// r -= α q.
 /// @returns Σ r D r.
-Eigen::Array4d BlockRowMatrix::update_residual(const Row& alpha, const Loop& loop)
+Eigen::Array4d BlockRowMatrix::update_residual(const Row& alpha, const Executor& exec)
 {
-    return sum_of_blocks<Eigen::Array4d>(loop, [&, alpha = alpha](Index begin, Index end) {
+    return sum_of_blocks<Eigen::Array4d>(exec, [&, alpha = alpha](Index begin, Index end) {
         const float* const pivot = pivot_.get();
         const Row* const product = product_.get();
         const Row* const step = step_.get();
@@ -234,7 +234,7 @@ Eigen::Array4d BlockRowMatrix::update_residual(const Row& alpha, const Loop& loo
 }
 
 BlockRowMatrix::Result BlockRowMatrix::iterate(const Eigen::Array4d& squared_at_start, double goal, int most_iterations,
-                                               const Loop& loop)
+                                               const Executor& exec)
 {
     Eigen::Array4d squared = squared_at_start;
     const double first = squared.sum();
@@ -243,16 +243,16 @@ BlockRowMatrix::Result BlockRowMatrix::iterate(const Eigen::Array4d& squared_at_
     Result result;
     result.residual = 1.0;
     while (result.iterations < most_iterations && result.residual > goal) {
-        solve_upper(alpha, beta, loop);
-        alpha = quotients(squared, solve_lower(loop));
+        solve_upper(alpha, beta, exec);
+        alpha = quotients(squared, solve_lower(exec));
         const Eigen::Array4d squared_before = squared;
-        squared = update_residual(alpha, loop);
+        squared = update_residual(alpha, exec);
         beta = quotients(squared, squared_before);
         ++result.iterations;
         result.residual = std::sqrt(squared.sum() / first);
     }
     std::vector<float> farthest(blocks_.size(), 0.0F);
-    for_each_block(loop, [&](Index block, Index begin, Index end) {
+    for_each_block(exec, [&](Index block, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             const Row change = alpha * step_[i];
             increment_[i] += change;

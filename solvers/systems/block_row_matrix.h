@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "solvers/krylov/stopping_criterion.h"
 
@@ -35,7 +35,7 @@ class BlockRowMatrix {
     /// @param blocks #blocks + 1: the rows where they begin, and the number of rows.
     /// @param pattern called once for each block, for several at a time.
     /// @throws ComputationError if there are 2³¹ entries or more.
-    BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Loop& loop);
+    BlockRowMatrix(std::vector<Index> blocks, const Pattern& pattern, const Executor& exec);
 
     [[nodiscard]] Index n_rows() const { return blocks_.back(); }
 
@@ -47,7 +47,7 @@ class BlockRowMatrix {
     /// Runs body(place) for the rows of a block, several blocks at a time.
     /// @returns the sum of what it returns, of some matrix type.
     template <class Sum, class Body>
-    Sum sum_of_rows(const Loop& loop, Body&& body) const;
+    Sum sum_of_rows(const Executor& exec, Body&& body) const;
     /// Calls visit(column, value) for the entries of a row beside the diagonal.
     template <class Visit>
     void for_each_entry(const Place& place, Visit&& visit);
@@ -61,10 +61,10 @@ class BlockRowMatrix {
     [[nodiscard]] const Row& increment(Index i) const { return increment_[i]; }
 
     /// Makes the preconditioner, when all entries are set.
-    void factorise(const Loop& loop);
+    void factorise(const Executor& exec);
     /// Turns the residual, times a scale, into what the iteration works on.
     /// @returns of each column, the squared norm of the scaled residual, that of the inverse of the preconditioner.
-    Eigen::Array4d start(float scale, const Loop& loop);
+    Eigen::Array4d start(float scale, const Executor& exec);
 
     struct Result : IterationResult {
         /// The largest distance that the last iteration moved a row of the increment.
@@ -73,7 +73,7 @@ class BlockRowMatrix {
     /// A increment = residual, from 0 (after start).
     /// @param squared what start returned; of the residual about 1 in each row, so that single precision holds it.
     /// @param goal the part of the residual that may be left.
-    Result iterate(const Eigen::Array4d& squared, double goal, int most_iterations, const Loop& loop);
+    Result iterate(const Eigen::Array4d& squared, double goal, int most_iterations, const Executor& exec);
 
   private:
     /// What all threads fill, not the one that asks for the memory.
@@ -124,26 +124,26 @@ class BlockRowMatrix {
 
     /// Runs body(block, begin, end) for the rows of each block.
     template <class Body>
-    void for_each_block(const Loop& loop, Body&& body) const
+    void for_each_block(const Executor& exec, Body&& body) const
     {
-        for_each(loop, static_cast<Index>(blocks_.size()) - 1,
+        for_each(exec, static_cast<Index>(blocks_.size()) - 1,
                  [&](Index block) { body(block, blocks_[block], blocks_[block + 1]); });
     }
     /// The sum of body(begin, end).
     template <class Sum, class Body>
-    Sum sum_of_blocks(const Loop& loop, Body&& body) const
+    Sum sum_of_blocks(const Executor& exec, Body&& body) const
     {
         std::vector<Sum> parts(blocks_.size(), Sum::Zero());
-        for_each_block(loop, [&](Index block, Index begin, Index end) { parts[block] = body(begin, end); });
+        for_each_block(exec, [&](Index block, Index begin, Index end) { parts[block] = body(begin, end); });
         Sum sum = Sum::Zero();
         for (const Sum& part : parts)
             sum += part;
         return sum;
     }
 
-    void solve_upper(const Row& alpha, const Row& beta, const Loop& loop);
-    Eigen::Array4d solve_lower(const Loop& loop);
-    Eigen::Array4d update_residual(const Row& alpha, const Loop& loop);
+    void solve_upper(const Row& alpha, const Row& beta, const Executor& exec);
+    Eigen::Array4d solve_lower(const Executor& exec);
+    Eigen::Array4d update_residual(const Row& alpha, const Executor& exec);
 
     std::vector<Index> blocks_;
     /// Below the diagonal and above it in the block; their columns count from where it begins.
@@ -166,9 +166,9 @@ class BlockRowMatrix {
 };
 
 template <class Sum, class Body>
-Sum BlockRowMatrix::sum_of_rows(const Loop& loop, Body&& body) const
+Sum BlockRowMatrix::sum_of_rows(const Executor& exec, Body&& body) const
 {
-    return sum_of_blocks<Sum>(loop, [&](Index begin, Index end) {
+    return sum_of_blocks<Sum>(exec, [&](Index begin, Index end) {
         Sum sum = Sum::Zero();
         for (Index i = begin; i < end; ++i)
             sum += body(Place{begin, i});

@@ -17,7 +17,7 @@ GeneralSystem::GeneralSystem(SystemParts parts, std::unique_ptr<TransmissionCond
 {
     const SubMesh& sub_mesh = *sub_mesh_;
     make_rows();
-    attachment_ = make_attachment(parts.terms, std::span(sub_mesh.local_to_global).first(at(sub_mesh.n_vertices)));
+    screening_ = make_screening(parts.terms, std::span(sub_mesh.local_to_global).first(at(sub_mesh.n_vertices)));
     const auto is_laplacian = [&](const MatrixEntry& entry) { return row_of_[entry.row] == Row::Laplacian; };
     const Points first =
         parts.terms.keeps_stiffness ? rows_of(*parts.terms.first, sub_mesh.local_to_global) : Points(0, 3);
@@ -61,15 +61,15 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
                                                  double p, std::span<const InterfaceRole> roles, SolverWorkspace&)
 {
     time_step_ = time_step;
-    pulls_ = attachment_.exists();
+    pulls_ = screening_.exists();
     roles_.assign(roles.begin(), roles.end());
     const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)
             matrix_->diagonal(v) += 1.0;
         right_hand_side_.row(v) = positions.row(v);
-        if (row_of_[v] == Row::Laplacian && attachment_.exists()) {
-            matrix_->diagonal(v) += time_step * attachment_.weight(v);
+        if (row_of_[v] == Row::Laplacian && screening_.exists()) {
+            matrix_->diagonal(v) += time_step * screening_.weight(v);
             right_hand_side_.row(v) += pull(v);
         }
     }
@@ -81,7 +81,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
 /// dt w V⁰: what the attachment adds to the right-hand side.
 Point GeneralSystem::pull(Index v) const
 {
-    return pulls_ ? Point(time_step_ * attachment_.weight(v) * attachment_.first.row(v)) : Point::Zero();
+    return pulls_ ? Point(time_step_ * screening_.weight(v) * screening_.first.row(v)) : Point::Zero();
 }
 
 void GeneralSystem::assemble_interface(const Points& positions, const Points& other_side)
@@ -98,7 +98,7 @@ void GeneralSystem::assemble_interface(const Points& positions, const Points& ot
         right_hand_side_.row(vertices[i]) = condition_->right_hand_side(i, positions, other_side) + pull(vertices[i]);
         for (std::size_t k = 0; k < row_.size(); ++k)
             matrix_->at_slot(interface_slots_[begin + k]) = row_[k];
-        matrix_->diagonal(vertices[i]) += time_step_ * attachment_.weight(vertices[i]);
+        matrix_->diagonal(vertices[i]) += time_step_ * screening_.weight(vertices[i]);
     }
 }
 

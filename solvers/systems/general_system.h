@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "solvers/systems/attachment.h"
 #include "solvers/systems/lu_matrix.h"
+#include "solvers/systems/screening.h"
 #include "solvers/systems/sub_mesh_system.h"
 
 namespace seamflow {
@@ -51,7 +51,7 @@ class GeneralSystem final : public SubMeshSystem {
     std::vector<Index> interface_slots_;
     std::vector<InterfaceRole> roles_;
     std::vector<double> row_;
-    Attachment attachment_;
+    Screening screening_;
     /// dt of this step.
     double time_step_ = 0.0;
     /// Whether the right-hand side has what attaches to V⁰.

@@ -29,7 +29,7 @@ NeumannSystem::NeumannSystem(const SubMesh& sub_mesh, IndexLists faces, const Sc
     , solver_(number_unknowns(sub_mesh), n_interface_)
 {
     const std::span<const Index> local_to_global = sub_mesh.local_to_global;
-    matrix_.attachment = make_attachment(terms, local_to_global.first(at(sub_mesh.n_vertices)));
+    matrix_.screening = make_screening(terms, local_to_global.first(at(sub_mesh.n_vertices)));
     if (terms.keeps_stiffness)
         matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
                                            rows_of(*terms.first, sub_mesh.local_to_global));
@@ -80,10 +80,10 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
     for (const Index v : matrix_.vertex_of)
         residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);
-    const Attachment& attachment = matrix_.attachment;
-    for (const Index v : attachment.exists() ? std::span(matrix_.vertex_of) : std::span<const Index>())
-        residual.row(v) -= workspace.mass[v] * time_step * attachment.weight(v) *
-                           ((positions.row(v) - attachment.first.row(v)) + increments.row(v));
+    const Screening& screening = matrix_.screening;
+    for (const Index v : screening.exists() ? std::span(matrix_.vertex_of) : std::span<const Index>())
+        residual.row(v) -= workspace.mass[v] * time_step * screening.weight(v) *
+                           ((positions.row(v) - screening.first.row(v)) + increments.row(v));
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 
@@ -97,7 +97,7 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     for (const Index v : matrix_.vertex_of)
         residual.row(v) =
             -residual.row(v) -
-            workspace.mass[v] * ((1.0 + time_step * matrix_.attachment.weight(v)) * increments.row(v) - data.row(v));
+            workspace.mass[v] * ((1.0 + time_step * matrix_.screening.weight(v)) * increments.row(v) - data.row(v));
     return {matrix, residual, power_of_two_near(std::sqrt(time_step))};
 }
 

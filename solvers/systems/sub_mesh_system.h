@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "partition/decomposition/sub_mesh.h"
-#include "partition/decomposition/sweep_plan.h"
 #include "solvers/conditions/transmission_condition.h"
 #include "solvers/direct/direct_solver.h"
 #include "solvers/laplacian/flow_terms.h"
 #include "solvers/laplacian/laplacian.h"
+#include "solvers/systems/interface_role.h"
 
 namespace seamflow {
 

@@ -106,7 +106,7 @@ std::span<double> SymmetricMatrix::fill(const Points& positions, double time_ste
     for (Index u = 0; u < n(); ++u) {
         const Index v = vertex_of[u];
         workspace.values[diagonal_slot(u)] =
-            workspace.mass[v] * (1.0 + time_step * attachment.weight(v)) + workspace.diagonal[v];
+            workspace.mass[v] * (1.0 + time_step * screening.weight(v)) + workspace.diagonal[v];
     }
     return std::span(workspace.values).first(n_values);
 }

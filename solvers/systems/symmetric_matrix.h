@@ -9,7 +9,7 @@
 #include "solvers/direct/solver_workspace.h"
 #include "solvers/laplacian/symmetric_laplacian.h"
 #include "solvers/sparse/sparse_pattern.h"
-#include "solvers/systems/attachment.h"
+#include "solvers/systems/screening.h"
 
 namespace seamflow {
 
@@ -56,7 +56,7 @@ struct SymmetricMatrix {
     /// Per pair of the Laplacian: an entry of the pattern, one of the further values behind them, or the last value of
     /// all, which nobody reads.
     std::vector<Index> slots{};
-    Attachment attachment{};
+    Screening screening{};
 
     [[nodiscard]] Index n() const { return static_cast<Index>(vertex_of.size()); }
     [[nodiscard]] Index n_entries() const { return column_offsets.back(); }

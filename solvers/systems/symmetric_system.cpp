@@ -18,7 +18,7 @@ SymmetricSystem::SymmetricSystem(const SystemParts& parts, SymmetricRows rows, S
               sub_mesh_->n_vertices + sub_mesh_->n_halo}
 {
     const std::span<const Index> local_to_global = sub_mesh_->local_to_global;
-    matrix_.attachment = make_attachment(parts.terms, local_to_global.first(at(sub_mesh_->n_vertices)));
+    matrix_.screening = make_screening(parts.terms, local_to_global.first(at(sub_mesh_->n_vertices)));
     if (parts.terms.keeps_stiffness)
         matrix_.laplacian = keep_stiffness(std::move(matrix_.laplacian), matrix_.n_vertices,
                                            rows_of(*parts.terms.first, sub_mesh_->local_to_global));
@@ -151,7 +151,7 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
     for (std::size_t u = 0; u < mass_.size(); ++u)
         mass_[u] = workspace.mass[matrix_.vertex_of[u]];
     time_step_ = time_step;
-    pulls_ = matrix_.attachment.exists();
+    pulls_ = matrix_.screening.exists();
 
     held_.clear();
     for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
@@ -254,10 +254,10 @@ void SymmetricSystem::fill_right_hand_side(const Points& positions, const Points
     set_rows(right, matrix_.n());
     for (Index u = 0; u < matrix_.n(); ++u)
         right.row(u) = mass_[u] * positions.row(matrix_.vertex_of[u]);
-    const Attachment& attachment = matrix_.attachment;
+    const Screening& screening = matrix_.screening;
     for (Index u = 0; pulls_ && u < matrix_.n(); ++u) {
         const Index v = matrix_.vertex_of[u];
-        right.row(u) += mass_[u] * time_step_ * attachment.weight(v) * attachment.first.row(v);
+        right.row(u) += mass_[u] * time_step_ * screening.weight(v) * screening.first.row(v);
     }
     for (const auto* couplings : {&fixed_, &held_})
         for (const Coupling& coupling : *couplings)

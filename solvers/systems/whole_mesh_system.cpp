@@ -179,12 +179,12 @@ IndexLists consecutive_blocks(Index n_rows, Index n_blocks)
 }
 
 /// Of the edges of faces, the part whose ends such blocks part.
-double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Loop& loop)
+double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Executor& exec)
 {
     std::vector<Index> block_of(at(mesh.n_vertices()));
-    for_each(loop, blocks.size(),
+    for_each(exec, blocks.size(),
              [&](Index block) { std::fill_n(block_of.begin() + blocks.offsets[block], blocks[block].size(), block); });
-    const double n_between = sum(loop, mesh.n_faces(), [&](Index f) {
+    const double n_between = sum(exec, mesh.n_faces(), [&](Index f) {
         const std::span<const Index> face = mesh.face(f);
         double n = block_of[face.back()] != block_of[face.front()] ? 1.0 : 0.0;
         for (std::size_t i = 1; i < face.size(); ++i)
@@ -195,25 +195,25 @@ double part_between(const PolygonMesh& mesh, const IndexLists& blocks, const Loo
 }
 
 /// Those of consecutive vertices need no set-up; but most scans have their vertices in an order that parts neighbours.
-IndexLists make_blocks(const PolygonMesh& mesh, const Loop& loop)
+IndexLists make_blocks(const PolygonMesh& mesh, const Executor& exec)
 {
     const Index n = number_of_blocks(mesh.n_vertices());
     IndexLists blocks = consecutive_blocks(mesh.n_vertices(), n);
-    if (part_between(mesh, blocks, loop) <= most_between_blocks)
+    if (part_between(mesh, blocks, exec) <= most_between_blocks)
         return blocks;
-    return divide_into_boxes(mesh.vertices, n, loop);
+    return divide_into_boxes(mesh.vertices, n, exec);
 }
 
-std::vector<Index> make_row_of(const IndexLists& blocks, const Loop& loop)
+std::vector<Index> make_row_of(const IndexLists& blocks, const Executor& exec)
 {
     std::vector<Index> row_of(blocks.values.size());
-    for_each(loop, static_cast<Index>(row_of.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
+    for_each(exec, static_cast<Index>(row_of.size()), [&](Index i) { row_of[blocks.values[i]] = i; });
     return row_of;
 }
 
 /// Vertices that do not move have the row of the identity.
 BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, const IndexLists& vertices,
-                           const std::vector<Index>& row_of, Reach reach, const Loop& loop)
+                           const std::vector<Index>& row_of, Reach reach, const Executor& exec)
 {
     std::vector<Index> begin{0};
     for (Index block = 0; block < vertices.size(); ++block)
@@ -232,42 +232,42 @@ BlockRowMatrix make_matrix(const PolygonMesh& mesh, const Topology& topology, co
                 }
                 return rows;
             },
-            loop};
+            exec};
 }
 
 }  // namespace
 
 WholeMeshSystem::WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
-                                 const FlowTerms& terms, const Loop& loop, bool is_applied_again)
+                                 const FlowTerms& terms, const Executor& exec, bool is_applied_again)
     : mesh_(&mesh)
     , topology_(&topology)
     , laplacian_(laplacian)
-    , blocks_(make_blocks(mesh, loop))
-    , row_of_(make_row_of(blocks_, loop))
-    , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, loop))
+    , blocks_(make_blocks(mesh, exec))
+    , row_of_(make_row_of(blocks_, exec))
+    , matrix_(make_matrix(mesh, topology, blocks_, row_of_, traits_of(laplacian).reach, exec))
     , moves_(at(mesh.n_vertices()))
     , before_(mesh.n_vertices(), 3)
     , masses_(is_applied_again ? at(mesh.n_vertices()) : 0)
 {
-    for_each(loop, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
+    for_each(exec, matrix_.n_rows(), [&](Index i) { moves_[i] = topology.moves(blocks_.values[i]) ? 1 : 0; });
     if (!terms.attaches())
         return;
-    attachments_.resize(moves_.size());
+    screenings_.resize(moves_.size());
     first_.resize(mesh.n_vertices(), 3);
-    for_each(loop, matrix_.n_rows(), [&](Index i) {
-        attachments_[i] = terms.weight(blocks_.values[i]);
+    for_each(exec, matrix_.n_rows(), [&](Index i) {
+        screenings_[i] = terms.weight(blocks_.values[i]);
         first_.row(i) = terms.first->row(blocks_.values[i]);
     });
 }
 
 /// The matrix, and the residual of Vᵏ⁺¹ = Vᵏ.
-WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loop& loop)
+WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Executor& exec)
 {
     const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
     using Sums = Eigen::Array<double, 8, 1>;
     Sums sums;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
-        sums = matrix_.sum_of_rows<Sums>(loop, [&](const BlockRowMatrix::Place& place) -> Sums {
+        sums = matrix_.sum_of_rows<Sums>(exec, [&](const BlockRowMatrix::Place& place) -> Sums {
             const Index i = place.row;
             if (moves_[i] == 0)
                 return Sums::Zero();
@@ -288,9 +288,9 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
             });
             if (!masses_.empty())
                 masses_[i] = units_.mass * mass;
-            diagonal += units_.mass * mass * (1.0 + attachment(i));
-            if (attachment(i) > 0.0) {
-                const Point pull = units_.mass * mass * attachment(i) * (first_.row(i) - here);
+            diagonal += units_.mass * mass * (1.0 + screening(i));
+            if (screening(i) > 0.0) {
+                const Point pull = units_.mass * mass * screening(i) * (first_.row(i) - here);
                 residual += pull;
                 size.head<3>() += pull.array().abs().transpose();
             }
@@ -310,14 +310,14 @@ WholeMeshSystem::Sizes WholeMeshSystem::assemble(const Points& before, const Loo
 /// being those of V.
 /// @param data D, by rows: V, or what else the step is applied to; then nothing pulls to V⁰, but to 0.
 /// @returns the sum of its squares, each over the diagonal.
-double WholeMeshSystem::measure(const Points& before, const Points& data, const Loop& loop)
+double WholeMeshSystem::measure(const Points& before, const Points& data, const Executor& exec)
 {
     const RowGeometry geometry{*mesh_, *topology_, before, before_, blocks_, row_of_, matrix_};
     const bool is_first = &data == &before_;
     using Sum = Eigen::Array<double, 1, 1>;
     Sum squared;
     with_rows(laplacian_, geometry, [&](auto&& visit) {
-        squared = matrix_.sum_of_rows<Sum>(loop, [&](const BlockRowMatrix::Place& place) -> Sum {
+        squared = matrix_.sum_of_rows<Sum>(exec, [&](const BlockRowMatrix::Place& place) -> Sum {
             const Index i = place.row;
             if (moves_[i] == 0)
                 return Sum::Zero();
@@ -326,9 +326,9 @@ double WholeMeshSystem::measure(const Points& before, const Points& data, const 
             const double mass = visit(
                 place, [&](auto&&, Index j, double k) { residual -= units_.stiffness * k * (after_.row(j) - there); });
             residual -= units_.mass * mass * (there - data.row(i));
-            if (attachment(i) > 0.0)
+            if (screening(i) > 0.0)
                 residual +=
-                    units_.mass * mass * attachment(i) * ((is_first ? Point(first_.row(i)) : Point::Zero()) - there);
+                    units_.mass * mass * screening(i) * ((is_first ? Point(first_.row(i)) : Point::Zero()) - there);
             residual *= units_.length;
             matrix_.residual(i) = to_row(residual);
             return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
@@ -338,12 +338,12 @@ double WholeMeshSystem::measure(const Points& before, const Points& data, const 
 }
 
 /// @param squared the sum of the residual's squares, each over the diagonal.
-WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Loop& loop)
+WholeMeshSystem::PassStart WholeMeshSystem::start_pass(double squared, const Executor& exec)
 {
     PassStart start;
     // Makes the residual about 1 at each vertex.
     start.scale = std::exp2(-std::ilogb(std::sqrt(squared / matrix_.n_rows())));
-    start.squared = matrix_.start(static_cast<float>(start.scale), loop);
+    start.squared = matrix_.start(static_cast<float>(start.scale), exec);
     start.norm = std::sqrt(start.squared.sum()) / start.scale;
     return start;
 }
@@ -356,30 +356,30 @@ double WholeMeshSystem::distance_after(const BlockRowMatrix::Result& pass)
 }
 
 WholeMeshSystem::Result WholeMeshSystem::step(const Points& before, double time_step, const IterationStop& stop,
-                                              Points& after, const Loop& loop)
+                                              Points& after, const Executor& exec)
 {
     time_step_ = time_step;
     const double root = std::sqrt(time_step);
     const double mass_unit = traits_of(laplacian_).divisor == Divisor::EdgeLengths ? root : time_step;
     units_ = {.stiffness = time_step / mass_unit, .mass = 1.0 / mass_unit, .length = 1.0 / root};
-    for_each(loop, matrix_.n_rows(), [&](Index i) { before_.row(i) = before.row(blocks_.values[i]); });
-    const Sizes sizes = assemble(before, loop);
+    for_each(exec, matrix_.n_rows(), [&](Index i) { before_.row(i) = before.row(blocks_.values[i]); });
+    const Sizes sizes = assemble(before, exec);
     // There is nothing to smooth.
     if ((sizes.residual <= sizes.rounding).all()) {
-        copy(loop, before, after);
+        copy(exec, before, after);
         return {};
     }
-    matrix_.factorise(loop);
+    matrix_.factorise(exec);
     before_step_ = &before;
-    return solve(sizes.residual.sum(), before_, stop, after, loop);
+    return solve(sizes.residual.sum(), before_, stop, after, exec);
 }
 
 WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const IterationStop& stop, Points& result,
-                                               const Loop& loop)
+                                               const Executor& exec)
 {
     using Sum = Eigen::Array<double, 1, 1>;
     data_.resize(matrix_.n_rows(), 3);
-    const Sum squared = matrix_.sum_of_rows<Sum>(loop, [&](const BlockRowMatrix::Place& place) -> Sum {
+    const Sum squared = matrix_.sum_of_rows<Sum>(exec, [&](const BlockRowMatrix::Place& place) -> Sum {
         const Index i = place.row;
         data_.row(i) = data.row(blocks_.values[i]);
         if (moves_[i] == 0)
@@ -389,19 +389,19 @@ WholeMeshSystem::Result WholeMeshSystem::apply(const Points& data, const Iterati
         return Sum::Constant(residual.squaredNorm() / matrix_.diagonal(i));
     });
     if (!(squared.value() > 0.0)) {
-        for_each(loop, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
+        for_each(exec, matrix_.n_rows(), [&](Index i) { result.row(i).setZero(); });
         return {};
     }
-    return solve(squared.value(), data_, stop, result, loop);
+    return solve(squared.value(), data_, stop, result, exec);
 }
 
 /// Solves for what the step makes of V, or of data, from V or from 0 on.
 /// @param squared of the residual, each over the diagonal. @param data by rows: V, or what is there instead.
 WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& data, const IterationStop& stop,
-                                               Points& after, const Loop& loop)
+                                               Points& after, const Executor& exec)
 {
     const double root = std::sqrt(time_step_);
-    PassStart start = start_pass(squared, loop);
+    PassStart start = start_pass(squared, exec);
     const double first = start.norm;
     StoppingCriterion criterion(stop, most_left, 1.0);
     double left = 1.0;
@@ -410,7 +410,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
     const Points* reached = &before_;
     if (&data != &before_) {
         after_.resize(matrix_.n_rows(), 3);
-        for_each(loop, matrix_.n_rows(), [&](Index i) {
+        for_each(exec, matrix_.n_rows(), [&](Index i) {
             if (moves_[i] == 0)
                 after_.row(i) = data.row(i);
             else
@@ -420,14 +420,14 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
     }
     while (!criterion.is_met()) {
         const BlockRowMatrix::Result pass = matrix_.iterate(
-            start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), loop);
+            start.squared, std::max(stop.tolerance / left, most_reduction_at_once), criterion.iterations_left(), exec);
         const double length = root / start.scale;
         const double before_pass = std::exchange(left, left * pass.residual);
         // What the first pass leaves is known well enough; later ones begin near what rounding leaves.
         const bool is_first = before_pass == 1.0;
         const bool is_last = is_first && left <= stop.tolerance && pass.residual > most_reduction_at_once;
         const auto move = [&](const auto& from, auto&& to) {
-            for_each(loop, matrix_.n_rows(), [&](Index i) {
+            for_each(exec, matrix_.n_rows(), [&](Index i) {
                 to(i) = from.row(i) + length * matrix_.increment(i).head<3>().cast<double>().matrix().transpose();
             });
         };
@@ -438,9 +438,9 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
             after_.resize(matrix_.n_rows(), 3);
             move(*reached, [&](Index i) { return after_.row(i); });
             reached = &after_;
-            const double renewed = measure(*before_step_, data, loop);
+            const double renewed = measure(*before_step_, data, exec);
             if (renewed > 0.0)
-                start = start_pass(renewed, loop);
+                start = start_pass(renewed, exec);
             left = renewed > 0.0 ? start.norm / first : 0.0;
         }
         distance = pass.residual > shortest_pass && distance > 0.0
@@ -449,7 +449,7 @@ WholeMeshSystem::Result WholeMeshSystem::solve(double squared, const Points& dat
         criterion.note(pass.iterations, left, left / before_pass);
     }
     if (reached != nullptr)
-        for_each(loop, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = reached->row(i); });
+        for_each(exec, matrix_.n_rows(), [&](Index i) { after.row(blocks_.values[i]) = reached->row(i); });
     return {criterion.result(left), distance};
 }
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "partition/executor.h"
 #include "partition/index_lists.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 #include "partition/topology.h"
 #include "solvers/krylov/stopping_criterion.h"
@@ -28,7 +28,7 @@ class WholeMeshSystem {
     /// @param is_applied_again whether `apply` will be called.
     /// @throws ComputationError if there are 2³¹ coefficients or more; OptionError for a Laplacian without symmetry.
     WholeMeshSystem(const PolygonMesh& mesh, const Topology& topology, const ScaledLaplacian& laplacian,
-                    const FlowTerms& terms, const Loop& loop, bool is_applied_again = false);
+                    const FlowTerms& terms, const Executor& exec, bool is_applied_again = false);
     WholeMeshSystem(const WholeMeshSystem&) = delete;
     WholeMeshSystem& operator=(const WholeMeshSystem&) = delete;
 
@@ -42,13 +42,13 @@ class WholeMeshSystem {
     /// @param before #V by 3: Vᵏ. @param time_step dt, in length².
     /// @param stop relative to the residual of Vᵏ⁺¹ = Vᵏ, in the norm of the inverse of the diagonal.
     /// @param after #V by 3: receives Vᵏ⁺¹; what does not move stays.
-    Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Loop& loop);
+    Result step(const Points& before, double time_step, const IterationStop& stop, Points& after, const Executor& exec);
 
     /// What the step taken last makes of other data, with the same matrix; nothing pulls to V⁰. Only of systems made
     /// for that, and while what the step was given is there.
     /// @param data #V by 3: D, which is 0 where vertices do not move.
     /// @param stop relative to the residual of 0. @param result #V by 3.
-    Result apply(const Points& data, const IterationStop& stop, Points& result, const Loop& loop);
+    Result apply(const Points& data, const IterationStop& stop, Points& result, const Executor& exec);
 
   private:
     /// Factors that make numbers without dimension, near 1, which single precision can hold: √dt is the unit of length.
@@ -73,12 +73,12 @@ class WholeMeshSystem {
         double norm = 0.0;
     };
 
-    Sizes assemble(const Points& before, const Loop& loop);
-    double measure(const Points& before, const Points& data, const Loop& loop);
-    Result solve(double squared, const Points& data, const IterationStop& stop, Points& after, const Loop& loop);
+    Sizes assemble(const Points& before, const Executor& exec);
+    double measure(const Points& before, const Points& data, const Executor& exec);
+    Result solve(double squared, const Points& data, const IterationStop& stop, Points& after, const Executor& exec);
     /// dt w of a row.
-    [[nodiscard]] double attachment(Index i) const { return attachments_.empty() ? 0.0 : time_step_ * attachments_[i]; }
-    PassStart start_pass(double squared, const Loop& loop);
+    [[nodiscard]] double screening(Index i) const { return screenings_.empty() ? 0.0 : time_step_ * screenings_[i]; }
+    PassStart start_pass(double squared, const Executor& exec);
     static double distance_after(const BlockRowMatrix::Result& pass);
 
     const PolygonMesh* mesh_;
@@ -94,7 +94,7 @@ class WholeMeshSystem {
     /// By rows: whether they move, where they are before the step, and after it so far if the residual is renewed.
     std::vector<std::uint8_t> moves_;
     /// With an attachment, by rows: w, and V⁰.
-    std::vector<double> attachments_;
+    std::vector<double> screenings_;
     Points first_ = Points(0, 3);
     Points before_;
     Points after_;

@@ -70,14 +70,14 @@ if(EXISTS "${seamflow_DIR}/seamflow-distributed-targets.cmake")
     find_package(seamflow REQUIRED COMPONENTS distributed)
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp" [[
 #include <atomic>
-#include <seamflow/engine/distributed/ranks/mpi_communicator.h>
+#include <seamflow/engine/distributed/ranks/mpi_transport.h>
 #include <seamflow/engine/distributed/files/shared_mesh_file.h>
-#include <seamflow/engine/distributed/ranks/thread_communicator.h>
+#include <seamflow/engine/distributed/ranks/thread_transport.h>
 int main(int argc, char**)
 {
     std::atomic<int> n = 0;
-    seamflow::run_on_threads(3, [&](seamflow::Communicator& ranks) { n += ranks.size(); });
-    return argc > 9 ? seamflow::make_mpi_communicator()->rank() : n == 9 ? 0 : 1;
+    seamflow::run_on_threads(3, [&](seamflow::Transport& ranks) { n += ranks.size(); });
+    return argc > 9 ? seamflow::make_mpi_transport()->rank() : n == 9 ? 0 : 1;
 }
 ]])
     add_executable(ranks "${CMAKE_CURRENT_BINARY_DIR}/ranks.cpp")

@@ -10,7 +10,7 @@
 #include <oneapi/tbb/task_scheduler_observer.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "samples/common/meshes.h"
 #include "tests/support/flows.h"
 

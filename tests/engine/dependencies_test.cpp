@@ -39,7 +39,7 @@ Waits ascending(Waits waits)
 std::vector<Task> tasks_of(const SweepPlan& plan, bool predicts)
 {
     std::vector<Task> tasks;
-    for (Index s = 0; s < static_cast<Index>(plan.rank.size()); ++s) {
+    for (Index s = 0; s < static_cast<Index>(plan.stage.size()); ++s) {
         for (const TaskKind phase : {TaskKind::AssembleAndFactorise, TaskKind::Solve, TaskKind::Accept})
             tasks.emplace_back(phase, s);
         if (predicts && !plan.traces[s].empty())
@@ -61,7 +61,7 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
     const auto add = [&](TaskKind before, Index s, TaskKind after, Index t) {
         waits.emplace_back(Task(before, s), Task(after, t));
     };
-    for (Index s = 0; s < static_cast<Index>(plan.rank.size()); ++s) {
+    for (Index s = 0; s < static_cast<Index>(plan.stage.size()); ++s) {
         add(TaskKind::AssembleAndFactorise, s, TaskKind::Solve, s);
         // Everyone around looks at the positions of before until it has solved, and at the solution to be corrected.
         add(TaskKind::Solve, s, TaskKind::Accept, s);
@@ -70,7 +70,7 @@ Waits waits_of(const SweepPlan& plan, const std::vector<std::vector<Index>>& adj
         for (const Transfer& trace : plan.traces[s])
             add(TaskKind::Solve, trace.from, TaskKind::Solve, s);
         for (const Transfer& copies : plan.copies[s])
-            if (plan.rank[copies.from] < plan.rank[s])
+            if (plan.stage[copies.from] < plan.stage[s])
                 add(TaskKind::Solve, copies.from, TaskKind::Solve, s);
         for (const TaskKind phase : {TaskKind::Predict, TaskKind::UsePredictions})
             if (has(phase, s)) {

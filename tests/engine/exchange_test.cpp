@@ -33,7 +33,7 @@ class Machines {
         , decomposition_(decompose(mesh, topology_, cut_.labels, cut_.n_parts))
     {
         const std::vector<double> no_curvature(mesh.n_vertices(), 0.0);
-        const auto rank = rank_sub_meshes(decomposition_, options.interface.colouring, no_curvature);
+        const auto rank = assign_stages(decomposition_, options.interface.colouring, no_curvature);
         if (options.interface.conditions == Conditions::Schwarz)
             grow_sub_meshes(mesh, rank);
         else
@@ -60,9 +60,9 @@ class Machines {
                                        resources);
         if (options_.interface.conditions == Conditions::AdaptedRobin)
             exchange_predictions();
-        for (Index rank = 0; rank < n(); ++rank)
+        for (Index stage = 0; stage < n(); ++stage)
             for (Index s = 0; s < n(); ++s)
-                if (plan_.rank[s] == rank)
+                if (plan_.stage[s] == stage)
                     mutual() ? solve_mutual(states_, s, decomposition_.halo[s], plan_, workspace_)
                              : solve(states_, s, plan_.traces[s], workspace_);
         for (Index s = 0; s < n(); ++s)

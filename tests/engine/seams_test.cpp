@@ -226,7 +226,7 @@ TEST_CASE("sub-meshes that are written as they are keep seams, and what an obser
     }
 }
 
-TEST_CASE("a flow with seams goes on from a state as if it had never ended, but not with seams apart")
+TEST_CASE("a flow with seams continues from a state as if it had never ended, but not with seams apart")
 {
     const PolygonMesh whole = make_triangles(400);
     const PolygonMesh parts = split(whole, halves(whole));

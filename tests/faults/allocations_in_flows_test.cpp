@@ -35,7 +35,7 @@ void fail_every_allocation_of(const FlowOptions& options, const std::vector<test
             mesh, options, [&](const StepState& state) { steps_done = state.step; }, control);
     };
     const auto check = [&] {
-        // That of the state to go on from counts as soon as it is taken over.
+        // That of the state to resume from counts as soon as it is taken over.
         const bool has_taken_over = resume != nullptr && steps_done == 0 && mesh.vertices != input.vertices;
         const int step = has_taken_over ? resume->n_steps() : steps_done;
         CHECK(test::same_bits(mesh.vertices, states[static_cast<std::size_t>(step)]));
@@ -96,7 +96,7 @@ TEST_CASE("explicit steps")
     fail_every_allocation_of(options_of("explicit"), {test::Failing::Once});
 }
 
-TEST_CASE("a flow that goes on from a state")
+TEST_CASE("a flow that continues from a state")
 {
     const FlowOptions options = options_of("alexa-wardetzky converged");
     std::shared_ptr<const FlowState> first;

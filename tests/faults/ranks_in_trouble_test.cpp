@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "engine/mean_curvature_flow.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/faults/every_allocation.h"
@@ -22,8 +22,8 @@ struct SharedFlow {
     FlowOptions options;
     std::vector<MeshPart> before;
     std::vector<MeshPart> parts;
-    /// Of all vertices, which make up the stretch of the first rank.
-    Points stretch;
+    /// Of all vertices, which make up the range of the first rank.
+    Points range;
     bool captures_states = false;
 
     explicit SharedFlow(Approach approach)
@@ -35,7 +35,7 @@ struct SharedFlow {
         options.report.measures = approach == Approach::Converged;
         options.resources.threads = 1;
         const PolygonMesh mesh = test::small_mesh();
-        stretch = mesh.vertices;
+        range = mesh.vertices;
         PolygonMesh cut = mesh;
         options.cut.subdomains = 3;
         const FlowReport report = mean_curvature_flow(cut, options);
@@ -49,13 +49,13 @@ struct SharedFlow {
     {
         for (std::size_t r = 0; r < parts.size(); ++r)
             parts[r].mesh.vertices = before[r].mesh.vertices;
-        run_on_threads(2, [&](Communicator& communicator) {
+        run_on_threads(2, [&](Transport& transport) {
             RankObserver capture;
             if (captures_states)
                 capture = [&](const RankStepState& state) {
-                    state.capture(stretch.topRows(communicator.rank() == 0 ? stretch.rows() : 0));
+                    state.capture(range.topRows(transport.rank() == 0 ? range.rows() : 0));
                 };
-            distributed_mean_curvature_flow(communicator, parts[communicator.rank()], options, capture);
+            distributed_mean_curvature_flow(transport, parts[transport.rank()], options, capture);
         });
     }
 
@@ -65,11 +65,11 @@ struct SharedFlow {
         std::vector<std::string> thrown(2);
         for (std::size_t r = 0; r < parts.size(); ++r)
             parts[r].mesh.vertices = before[r].mesh.vertices;
-        run_on_threads(2, [&](Communicator& communicator) {
+        run_on_threads(2, [&](Transport& transport) {
             try {
-                distributed_mean_curvature_flow(communicator, parts[communicator.rank()], options);
+                distributed_mean_curvature_flow(transport, parts[transport.rank()], options);
             } catch (const ComputationError& error) {
-                thrown[communicator.rank()] = error.what();
+                thrown[transport.rank()] = error.what();
             }
         });
         CHECK(thrown[0] == thrown[1]);

@@ -1,4 +1,4 @@
-// smooth-distributed goes on from checkpoints.
+// smooth-distributed continues from checkpoints.
 
 #include <filesystem>
 #include <fstream>
@@ -18,7 +18,7 @@ using test::Workshop;
 using test::write_soup;
 namespace fs = std::filesystem;
 
-TEST_CASE("a run goes on from its checkpoint on any number of ranks, with the same bytes")
+TEST_CASE("a run continues from its checkpoint on any number of ranks, with the same bytes")
 {
     const Workshop w;
     write_soup(w.directory / "mesh.obj", w.directory / "soup.obj");
@@ -55,7 +55,7 @@ TEST_CASE("a run goes on from its checkpoint on any number of ranks, with the sa
         fs::remove_all(w.directory / "c");
         REQUIRE(on_ranks(w, 3, flow + "2 --checkpoint c") == 0);
         CHECK((test::content_of(w.directory / result) != expected));
-        // On more ranks than before: stretches begin within those that were kept.
+        // On more ranks than before: ranges begin within those that were kept.
         REQUIRE(on_ranks(w, 4, flow + "4 --checkpoint c --checkpoint-every 3") == 0);
         CHECK(w.count_lines("said", "resumed    after step 2, from c/smooth-distributed.checkpoint") == 1);
         REQUIRE(on_ranks(w, 1, flow + "5 --checkpoint c --report r.json --every-step s%d.ply") == 0);

@@ -147,7 +147,8 @@ TEST_CASE("whatever call fails while smooth writes: status 5, the reason, every 
         fail_every_output(w, SMOOTH " mesh.obj out.obj --time-step-edges 2 --html page.html", {"out.obj", "page.html"});
 }
 
-TEST_CASE("the same of a checkpoint: the next run goes on from the one before" * doctest::skip(test::under_sanitizers))
+TEST_CASE("the same of a checkpoint: the next run continues from the one before" *
+          doctest::skip(test::under_sanitizers))
 {
     const Workshop w;
     const std::string command = SMOOTH " mesh.obj out.obj --time-step-edges 2 --checkpoint kept --steps ";

@@ -1,4 +1,4 @@
-// Runs that go on from a checkpoint.
+// Runs that resume from a checkpoint.
 
 #include <random>
 #include <string>

@@ -5,10 +5,10 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/vector_area.h"
-#include "samples/common/flow_run.h"
 #include "samples/common/meshes.h"
+#include "samples/common/smoothing_run.h"
 #include "samples/common/surface_change.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/task_graph.h"
 #include "engine/tasks/workers.h"
 

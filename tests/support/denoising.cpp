@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
@@ -40,7 +40,7 @@ Points face_normals(const PolygonMesh& mesh)
     return normals;
 }
 
-/// The filter on one mesh, whose normals go on from call to call.
+/// The filter on one mesh, whose normals resume from call to call.
 class Bilateral {
   public:
     explicit Bilateral(const PolygonMesh& mesh, double sigma)

@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 /// Runs a flow on a copy of the mesh; what it may throw is noted, other exceptions go through.
-/// @param is_captured whether to keep the states to go on from.
+/// @param is_captured whether to keep the states to resume from.
 Outcome outcome_of(PolygonMesh mesh, const FlowOptions& options, const FlowControl& control = {},
                    bool is_captured = false);
 

@@ -84,7 +84,7 @@ bool is_exact(const FlowReport& report, const FlowOptions& options)
 /// @param tolerance to which the steps are converged.
 void compare_with_undecomposed(Case& c, const Outcome& outcome, double tolerance, const std::string& what)
 {
-    // Far from the origin the states that the flow goes on from have more digits than those it tells.
+    // Far from the origin the states that the flow continues from have more digits than those it tells.
     const bool far = !origin_offset(c.mesh()).isZero(0.0);
     for (std::size_t step = 1; step < (far ? std::min<std::size_t>(2, outcome.states.size()) : outcome.states.size());
          ++step) {

@@ -149,10 +149,10 @@ void bend_and_shake(LooseMesh& mesh, RandomNumbers& random, Log& log)
 void transform(LooseMesh& mesh, RandomNumbers& random, Log& log)
 {
     if (random.unit() < 0.2) {
-        const double stretch = power_of_ten(-1.5, 1.5, random);
-        log.add("stretched ", stretch);
+        const double range = power_of_ten(-1.5, 1.5, random);
+        log.add("stretched ", range);
         for (Point& point : mesh.points)
-            point.x() *= stretch;
+            point.x() *= range;
     }
     if (random.unit() < 0.3) {
         const Point axis(random.symmetric(), random.symmetric(), random.symmetric() + 2.0);

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 
 namespace seamflow {
@@ -81,7 +81,7 @@ struct ArrivedFaces {
     }
 };
 
-/// The faces of a stretch that have a corner among some vertices.
+/// The faces of a range that have a corner among some vertices.
 Bytes pack_faces_at(const RankSlice& slice, Number first_face, const SparseNumbers& vertices,
                     std::vector<std::uint8_t>& is_sent)
 {
@@ -128,7 +128,7 @@ MeshPart part_of(const ArrivedFaces& arrived)
 
 }  // namespace
 
-Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds,
+Band gather_band(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds,
                  const std::vector<std::int64_t>& vertices, int layers)
 {
     ArrivedFaces arrived;
@@ -137,11 +137,11 @@ Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& 
     std::vector<Number> inner;
     std::vector<Number> next = vertices;
     for (int layer = 0; layer < layers; ++layer) {
-        const std::vector<Number> asked = talk.broadcast(next);
-        std::vector<Bytes> to_each(talk.size());
-        to_each.front() = pack_faces_at(slice, bounds.faces[talk.rank()], SparseNumbers(asked), is_sent);
+        const std::vector<Number> asked = comm.broadcast(next);
+        std::vector<Bytes> to_each(comm.size());
+        to_each.front() = pack_faces_at(slice, bounds.faces[comm.rank()], SparseNumbers(asked), is_sent);
         const std::size_t n_before = arrived.corners.size();
-        for (const Bytes& bytes : talk.exchange(std::move(to_each)))
+        for (const Bytes& bytes : comm.exchange(std::move(to_each)))
             if (!bytes.empty())
                 arrived.take(bytes);
         std::vector<Number> known;
@@ -155,7 +155,7 @@ Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& 
     Band band{.part = part_of(arrived), .is_whole = {}};
     for (const Number vertex : band.part.vertex_numbers)
         band.is_whole.push_back(std::ranges::binary_search(inner, vertex) ? 1 : 0);
-    band.part.mesh.vertices = fetch_positions(talk, slice, band.part.vertex_numbers, bounds.vertices);
+    band.part.mesh.vertices = fetch_positions(comm, slice, band.part.vertex_numbers, bounds.vertices);
     return band;
 }
 

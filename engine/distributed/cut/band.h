@@ -5,7 +5,7 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/mesh_part.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 
 namespace seamflow {
 
@@ -14,7 +14,7 @@ struct SlicedCut {
     /// Labelled with the parts.
     RankSlice& slice;
     const SliceBounds& bounds;
-    /// One entry per corner of the stretch: whether its half-edge has one of another face beside it (see Topology).
+    /// One entry per corner of the range: whether its half-edge has one of another face beside it (see Topology).
     const std::vector<std::uint8_t>& has_twin;
 };
 
@@ -29,7 +29,7 @@ struct Band {
 /// around the corners of these. All ranks call this together.
 /// @param slice with labels. @param vertices of rank 0, ascending; others give none.
 /// @returns the band at rank 0, nothing at the others.
-Band gather_band(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds,
+Band gather_band(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds,
                  const std::vector<std::int64_t>& vertices, int layers);
 
 }  // namespace seamflow

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "engine/distributed/cut/cluster_division.h"
-#include "engine/distributed/parts/stretches.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/distributed/parts/element_ranges.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/cut/clusters.h"
 #include "partition/cut/face_graph.h"
-#include "partition/cut/seams.h"
+#include "partition/cut/part_boundaries.h"
 #include "partition/labels.h"
 #include "partition/repair/pinches.h"
 
@@ -27,7 +27,7 @@ struct Clusters {
     ClusterShare share;
 };
 
-Clusters grow_in_chunks(Conversation& talk, const std::vector<Chunk>& chunks, Index weight)
+Clusters grow_in_chunks(Communicator& comm, const std::vector<Chunk>& chunks, Index weight)
 {
     Clusters clusters;
     for (const Chunk& chunk : chunks) {
@@ -42,8 +42,8 @@ Clusters grow_in_chunks(Conversation& talk, const std::vector<Chunk>& chunks, In
         }
         clusters.share.of_chunk.push_back(grown.size());
     }
-    clusters.share.bounds = gather_bounds_of(talk, std::ssize(clusters.share.weights));
-    auto next = static_cast<Index>(clusters.share.bounds[talk.rank()]);
+    clusters.share.bounds = gather_bounds_of(comm, std::ssize(clusters.share.weights));
+    auto next = static_cast<Index>(clusters.share.bounds[comm.rank()]);
     for (const FaceClusters& grown : clusters.of_chunk) {
         clusters.first.push_back(next);
         next += grown.size();
@@ -101,10 +101,10 @@ std::vector<ClusterContact> contacts_within(const std::vector<Chunk>& chunks, co
 }
 
 /// Between clusters of different chunks, at the homes of the lower ends of their edges.
-std::vector<ClusterContact> contacts_across(Conversation& talk, const SliceBounds& bounds,
+std::vector<ClusterContact> contacts_across(Communicator& comm, const SliceBounds& bounds,
                                             const std::vector<Chunk>& chunks, const Clusters& clusters)
 {
-    std::vector<std::vector<SharedEdge>> to_homes(talk.size());
+    std::vector<std::vector<SharedEdge>> to_homes(comm.size());
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         const MeshPart& part = chunks[i].part;
         for (const Index h : chunks[i].crossing) {
@@ -112,14 +112,14 @@ std::vector<ClusterContact> contacts_across(Conversation& talk, const SliceBound
             const Number other = part.vertex_numbers[part.mesh.face_vertices[chunks[i].topology.next(part.mesh, h)]];
             const Index cluster = clusters.of_chunk[i].cluster_of[chunks[i].topology.face_of[h]];
             const SharedEdge edge{std::min(one, other), std::max(one, other), clusters.first[i] + cluster};
-            to_homes[stretch_of(bounds.vertices, edge.low)].push_back(edge);
+            to_homes[range_of(bounds.vertices, edge.low)].push_back(edge);
         }
     }
     std::vector<Bytes> sent;
     for (const auto& edges : to_homes)
         sent.push_back(packed(edges));
     std::vector<SharedEdge> edges;
-    for (const Bytes& bytes : talk.exchange(std::move(sent))) {
+    for (const Bytes& bytes : comm.exchange(std::move(sent))) {
         const auto of_rank = unpacked<SharedEdge>(bytes);
         edges.insert(edges.end(), of_rank.begin(), of_rank.end());
     }
@@ -135,13 +135,13 @@ std::vector<ClusterContact> contacts_across(Conversation& talk, const SliceBound
 std::vector<Index> shorten_within(Chunk& chunk, const std::vector<std::int64_t>& weights)
 {
     const PolygonMesh& mesh = chunk.part.mesh;
-    SeamSurroundings whole{.weights = weights, .held = {}};
+    BoundarySurroundings whole{.weights = weights, .held = {}};
     whole.held.resize(mesh.n_faces());
     for_each(run_in_parallel, mesh.n_faces(), [&](Index f) {
         const bool is_held = std::ranges::any_of(mesh.face(f), [&](Index v) { return chunk.is_shared[v] != 0; });
         whole.held[f] = is_held ? 1 : 0;
     });
-    const SuspectedDefects found = shorten_seams(mesh, chunk.topology, whole, chunk.part.labels, run_in_parallel);
+    const SuspectedDefects found = shorten_boundaries(mesh, chunk.topology, whole, chunk.part.labels, run_in_parallel);
     std::vector<Index> parts;
     for (std::size_t label = 0; label < found.parts.size(); ++label)
         if (found.parts[label])
@@ -151,15 +151,15 @@ std::vector<Index> shorten_within(Chunk& chunk, const std::vector<std::int64_t>&
 
 }  // namespace
 
-ChunkCut cut_chunks(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks, double total_weight,
+ChunkCut cut_chunks(Communicator& comm, const SliceBounds& bounds, std::vector<Chunk>& chunks, double total_weight,
                     Index k, Index chunks_of_block)
 {
     const Index weight = cluster_weight(total_weight, k);
-    Clusters clusters = grow_in_chunks(talk, chunks, weight);
+    Clusters clusters = grow_in_chunks(comm, chunks, weight);
     clusters.share.contacts = contacts_within(chunks, clusters);
-    const auto across = contacts_across(talk, bounds, chunks, clusters);
+    const auto across = contacts_across(comm, bounds, chunks, clusters);
     clusters.share.contacts.insert(clusters.share.contacts.end(), across.begin(), across.end());
-    const DividedClusters divided = divide_together(talk, clusters.share, k, chunks_of_block);
+    const DividedClusters divided = divide_together(comm, clusters.share, k, chunks_of_block);
     ChunkCut cut{.n_parts = static_cast<Index>(divided.weights.size()),
                  .n_components = divided.n_components,
                  .suspects = divided.loose_parts};
@@ -174,12 +174,12 @@ ChunkCut cut_chunks(Conversation& talk, const SliceBounds& bounds, std::vector<C
         const std::vector<Index> divided_parts = shorten_within(chunks[i], divided.weights);
         cut.suspects.insert(cut.suspects.end(), divided_parts.begin(), divided_parts.end());
     }
-    cut.suspects = talk.gather_all(cut.suspects);
+    cut.suspects = comm.gather_all(cut.suspects);
     sort_unique(cut.suspects);
     return cut;
 }
 
-std::vector<std::int64_t> gather_pinch_candidates(Conversation& talk, const SliceBounds& bounds,
+std::vector<std::int64_t> gather_pinch_candidates(Communicator& comm, const SliceBounds& bounds,
                                                   const std::vector<Chunk>& chunks)
 {
     struct LabelAtVertex {
@@ -192,13 +192,13 @@ std::vector<std::int64_t> gather_pinch_candidates(Conversation& talk, const Slic
         bool operator==(const LabelAtVertex&) const = default;
     };
     std::vector<Number> candidates;
-    std::vector<std::vector<LabelAtVertex>> to_homes(talk.size());
+    std::vector<std::vector<LabelAtVertex>> to_homes(comm.size());
     for (const auto& [part, topology, is_shared, crossing] : chunks) {
         for (Index f = 0; f < part.mesh.n_faces(); ++f)
             for (const Index v : part.mesh.face(f))
                 if (is_shared[v] != 0) {
                     const Number vertex = part.vertex_numbers[v];
-                    to_homes[stretch_of(bounds.vertices, vertex)].push_back({vertex, part.labels[f]});
+                    to_homes[range_of(bounds.vertices, vertex)].push_back({vertex, part.labels[f]});
                 }
         for (Index v = 0; v < part.mesh.n_vertices(); ++v)
             if (is_shared[v] == 0 && may_be_pinched(part.mesh, topology, part.labels, v))
@@ -210,7 +210,7 @@ std::vector<std::int64_t> gather_pinch_candidates(Conversation& talk, const Slic
         sent.push_back(packed(labels));
     }
     std::vector<LabelAtVertex> labels;
-    for (const Bytes& bytes : talk.exchange(std::move(sent))) {
+    for (const Bytes& bytes : comm.exchange(std::move(sent))) {
         const auto of_rank = unpacked<LabelAtVertex>(bytes);
         labels.insert(labels.end(), of_rank.begin(), of_rank.end());
     }
@@ -218,7 +218,7 @@ std::vector<std::int64_t> gather_pinch_candidates(Conversation& talk, const Slic
     for (std::size_t i = 1; i < labels.size(); ++i)
         if (labels[i].vertex == labels[i - 1].vertex)
             candidates.push_back(labels[i].vertex);
-    std::vector<Number> all = talk.gather_at_first(candidates);
+    std::vector<Number> all = comm.gather_at_first(candidates);
     sort_unique(all);
     return all;
 }

@@ -5,7 +5,7 @@
 
 #include "engine/distributed/cut/chunks.h"
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 
 namespace seamflow {
 
@@ -25,13 +25,13 @@ struct ChunkCut {
 /// @param total_weight of all faces (see face_weight). @param k the number of parts, at least 2.
 /// @param chunks_of_block at most so many are one, at least 1.
 /// @throws ComputationError if METIS fails.
-ChunkCut cut_chunks(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks, double total_weight,
+ChunkCut cut_chunks(Communicator& comm, const SliceBounds& bounds, std::vector<Chunk>& chunks, double total_weight,
                     Index k, Index chunks_of_block);
 
 /// The vertices of all ranks at which a part may be pinched (see repair), at rank 0, ascending; nothing at the others.
 /// All ranks call this together.
 /// @param chunks labelled by parts.
-std::vector<std::int64_t> gather_pinch_candidates(Conversation& talk, const SliceBounds& bounds,
+std::vector<std::int64_t> gather_pinch_candidates(Communicator& comm, const SliceBounds& bounds,
                                                   const std::vector<Chunk>& chunks);
 
 }  // namespace seamflow

@@ -9,7 +9,7 @@
 #include "engine/distributed/cut/hilbert.h"
 #include "engine/distributed/parts/corner_positions.h"
 #include "engine/distributed/parts/number_set.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 using Number = std::int64_t;
 
-/// #F of the stretch by 3.
+/// #F of the range by 3.
 Points centroids_of(const RankSlice& slice, const CornerPositions& positions)
 {
     Points centroids(slice.n_faces(), 3);
@@ -37,7 +37,7 @@ Points centroids_of(const RankSlice& slice, const CornerPositions& positions)
 }
 
 /// Low and high corner of the box around the points of all ranks; those that are not finite do not count.
-std::array<Point, 2> box_of(Conversation& talk, const Points& points)
+std::array<Point, 2> box_of(Communicator& comm, const Points& points)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<Point, 2> box{Point::Constant(infinity), Point::Constant(-infinity)};
@@ -50,16 +50,16 @@ std::array<Point, 2> box_of(Conversation& talk, const Points& points)
     for (const auto& point : points.rowwise())
         take_in(point);
     const std::vector<double> all =
-        talk.gather_all(std::vector<double>{box[0].x(), box[0].y(), box[0].z(), box[1].x(), box[1].y(), box[1].z()});
+        comm.gather_all(std::vector<double>{box[0].x(), box[0].y(), box[0].z(), box[1].x(), box[1].y(), box[1].z()});
     for (std::size_t i = 0; i < all.size(); i += 3)
         take_in({all[i], all[i + 1], all[i + 2]});
     return box;
 }
 
-/// #F of the stretch.
-std::vector<std::uint64_t> hilbert_codes(Conversation& talk, const Points& centroids)
+/// #F of the range.
+std::vector<std::uint64_t> hilbert_codes(Communicator& comm, const Points& centroids)
 {
-    const auto [low, high] = box_of(talk, centroids);
+    const auto [low, high] = box_of(comm, centroids);
     const double side = (high - low).maxCoeff();
     constexpr double n_cells = std::uint32_t{1} << hilbert_bits;
     const Point origin = low;
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> hilbert_codes(Conversation& talk, const Points& centr
 
 /// For each number of faces the largest code below which no more of them are, of all ranks.
 /// @param sorted the codes of this rank.
-std::vector<std::uint64_t> codes_at(Conversation& talk, const std::vector<std::uint64_t>& sorted,
+std::vector<std::uint64_t> codes_at(Communicator& comm, const std::vector<std::uint64_t>& sorted,
                                     const std::vector<Number>& numbers)
 {
     std::vector<std::uint64_t> codes(numbers.size(), 0);
@@ -85,7 +85,7 @@ std::vector<std::uint64_t> codes_at(Conversation& talk, const std::vector<std::u
         std::vector<Number> counts;
         for (const std::uint64_t code : codes)
             counts.push_back(std::ranges::lower_bound(sorted, code | std::uint64_t{1} << bit) - sorted.begin());
-        const std::vector<Number> of_all = talk.gather_all(counts);
+        const std::vector<Number> of_all = comm.gather_all(counts);
         for (std::size_t i = 0; i < codes.size(); ++i) {
             Number count = 0;
             for (std::size_t k = i; k < of_all.size(); k += codes.size())
@@ -97,14 +97,14 @@ std::vector<std::uint64_t> codes_at(Conversation& talk, const std::vector<std::u
     return codes;
 }
 
-/// Sends numbers to their homes, those whose stretches they lie in, and gets an answer to each.
+/// Sends numbers to their homes, those whose ranges they lie in, and gets an answer to each.
 /// @param numbers #numbers; each with a home. @param home_of the home of a question.
 /// @param answer called at each home with all questions that have come there, and to fill in one answer to each.
 template <class Question, class HomeOf, class Answer>
-std::vector<std::uint8_t> ask_homes(Conversation& talk, const std::vector<Question>& questions, HomeOf&& home_of,
+std::vector<std::uint8_t> ask_homes(Communicator& comm, const std::vector<Question>& questions, HomeOf&& home_of,
                                     Answer&& answer)
 {
-    std::vector<std::vector<Question>> to_homes(talk.size());
+    std::vector<std::vector<Question>> to_homes(comm.size());
     for (const Question& question : questions)
         to_homes[home_of(question)].push_back(question);
     std::vector<Bytes> sent;
@@ -112,7 +112,7 @@ std::vector<std::uint8_t> ask_homes(Conversation& talk, const std::vector<Questi
         sent.push_back(packed(std::exchange(of_home, {})));
     std::vector<Question> asked;
     std::vector<std::size_t> ends;
-    for (const Bytes& bytes : talk.exchange(std::move(sent))) {
+    for (const Bytes& bytes : comm.exchange(std::move(sent))) {
         const auto of_rank = unpacked<Question>(bytes);
         asked.insert(asked.end(), of_rank.begin(), of_rank.end());
         ends.push_back(asked.size());
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> ask_homes(Conversation& talk, const std::vector<Questi
         replies.push_back(packed(std::vector<std::uint8_t>(answers.begin() + static_cast<std::ptrdiff_t>(begin),
                                                            answers.begin() + static_cast<std::ptrdiff_t>(ends[rank]))));
     std::vector<std::vector<std::uint8_t>> from_homes;
-    for (const Bytes& bytes : talk.exchange(std::move(replies)))
+    for (const Bytes& bytes : comm.exchange(std::move(replies)))
         from_homes.push_back(unpacked<std::uint8_t>(bytes));
     std::vector<std::size_t> next(from_homes.size(), 0);
     std::vector<std::uint8_t> result;
@@ -148,14 +148,14 @@ std::vector<std::uint8_t> counts_of(const std::vector<Value>& values)
     return counts;
 }
 
-void find_shared_vertices(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks)
+void find_shared_vertices(Communicator& comm, const SliceBounds& bounds, std::vector<Chunk>& chunks)
 {
     std::vector<Number> vertices;
     for (const Chunk& chunk : chunks)
         vertices.insert(vertices.end(), chunk.part.vertex_numbers.begin(), chunk.part.vertex_numbers.end());
-    const Number first = bounds.vertices[talk.rank()];
+    const Number first = bounds.vertices[comm.rank()];
     const auto counts_at_home = [&](const std::vector<Number>& asked) {
-        std::vector<std::uint8_t> n_chunks(bounds.vertices[talk.rank() + 1] - first, 0);
+        std::vector<std::uint8_t> n_chunks(bounds.vertices[comm.rank() + 1] - first, 0);
         for (const Number vertex : asked)
             n_chunks[vertex - first] = n_chunks[vertex - first] > 0 ? 2 : 1;
         std::vector<std::uint8_t> counts;
@@ -164,7 +164,7 @@ void find_shared_vertices(Conversation& talk, const SliceBounds& bounds, std::ve
         return counts;
     };
     const std::vector<std::uint8_t> counts = ask_homes(
-        talk, vertices, [&](Number vertex) { return stretch_of(bounds.vertices, vertex); }, counts_at_home);
+        comm, vertices, [&](Number vertex) { return range_of(bounds.vertices, vertex); }, counts_at_home);
     auto next = counts.begin();
     for (Chunk& chunk : chunks)
         for (std::size_t v = 0; v < chunk.part.vertex_numbers.size(); ++v)
@@ -197,14 +197,14 @@ EdgeEnds edge_of(const Chunk& chunk, Index h)
 }
 
 /// Finds the edges to other chunks, and leaves no twins at edges that have a third face there.
-void match_edges(Conversation& talk, const SliceBounds& bounds, std::vector<Chunk>& chunks)
+void match_edges(Communicator& comm, const SliceBounds& bounds, std::vector<Chunk>& chunks)
 {
     std::vector<EdgeEnds> edges;
     for (const Chunk& chunk : chunks)
         for (const Index h : halfedges_at_others(chunk))
             edges.push_back(edge_of(chunk, h));
     const std::vector<std::uint8_t> n_faces = ask_homes(
-        talk, edges, [&](const EdgeEnds& edge) { return stretch_of(bounds.vertices, edge.low); }, counts_of<EdgeEnds>);
+        comm, edges, [&](const EdgeEnds& edge) { return range_of(bounds.vertices, edge.low); }, counts_of<EdgeEnds>);
     auto next = n_faces.begin();
     for (Chunk& chunk : chunks)
         for (const Index h : halfedges_at_others(chunk)) {
@@ -220,27 +220,27 @@ void match_edges(Conversation& talk, const SliceBounds& bounds, std::vector<Chun
 
 }  // namespace
 
-void label_chunks(Conversation& talk, RankSlice& slice, const SliceBounds& bounds, Index size)
+void label_chunks(Communicator& comm, RankSlice& slice, const SliceBounds& bounds, Index size)
 {
     const std::vector<std::uint64_t> codes =
-        hilbert_codes(talk, centroids_of(slice, CornerPositions(talk, slice, bounds)));
+        hilbert_codes(comm, centroids_of(slice, CornerPositions(comm, slice, bounds)));
     std::vector<Number> begins;
     for (Number begin = size; begin < bounds.faces.back(); begin += size)
         begins.push_back(begin);
     std::vector<std::uint64_t> sorted = codes;
     std::ranges::sort(sorted);
-    const std::vector<std::uint64_t> first_codes = codes_at(talk, sorted, begins);
+    const std::vector<std::uint64_t> first_codes = codes_at(comm, sorted, begins);
     slice.labels.resize(codes.size());
     for_each(run_in_parallel, slice.n_faces(), [&](Index f) {
         slice.labels[f] = static_cast<Index>(std::ranges::upper_bound(first_codes, codes[f]) - first_codes.begin());
     });
 }
 
-std::vector<Chunk> deal_chunks(Conversation& talk, RankSlice& slice, const SliceBounds& bounds)
+std::vector<Chunk> deal_chunks(Communicator& comm, RankSlice& slice, const SliceBounds& bounds)
 {
     std::vector<Chunk> chunks;
     {
-        const MeshPart part = deal(talk, slice);
+        const MeshPart part = deal(comm, slice);
         slice.labels = {};
         const NumberSet numbers(part.labels);
         const IndexLists faces = make_lists(numbers.size(), [&](auto&& add) {
@@ -253,8 +253,8 @@ std::vector<Chunk> deal_chunks(Conversation& talk, RankSlice& slice, const Slice
             chunks[i].topology = make_topology(chunks[i].part.mesh);
         });
     }
-    find_shared_vertices(talk, bounds, chunks);
-    match_edges(talk, bounds, chunks);
+    find_shared_vertices(comm, bounds, chunks);
+    match_edges(comm, bounds, chunks);
     return chunks;
 }
 

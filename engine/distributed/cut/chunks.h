@@ -5,17 +5,17 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/mesh_part.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/topology.h"
 
 namespace seamflow {
 
-/// Sets the labels of a stretch to the chunks of its faces: stretches of Hilbert's curve through their centroids, with
+/// Sets the labels of a range to the chunks of its faces: ranges of Hilbert's curve through their centroids, with
 /// about `size` faces each, which depend on the mesh alone. All ranks call this together.
 /// @param size at least 1.
-void label_chunks(Conversation& talk, RankSlice& slice, const SliceBounds& bounds, Index size);
+void label_chunks(Communicator& comm, RankSlice& slice, const SliceBounds& bounds, Index size);
 
-/// A stretch of Hilbert's curve through a mesh (see label_chunks), which a rank has as a whole.
+/// A range of Hilbert's curve through a mesh (see label_chunks), which a rank has as a whole.
 struct Chunk {
     /// Its label is the number of the chunk.
     MeshPart part;
@@ -30,6 +30,6 @@ struct Chunk {
 /// Gives every chunk to one rank. All ranks call this together.
 /// @param slice labelled with chunks; left without labels.
 /// @returns those of this rank, ascending.
-std::vector<Chunk> deal_chunks(Conversation& talk, RankSlice& slice, const SliceBounds& bounds);
+std::vector<Chunk> deal_chunks(Communicator& comm, RankSlice& slice, const SliceBounds& bounds);
 
 }  // namespace seamflow

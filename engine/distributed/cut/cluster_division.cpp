@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 #include "partition/connected_components.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/refine.h"
@@ -35,15 +35,15 @@ struct ChunkSize {
 };
 
 /// Of all chunks.
-std::vector<ChunkSize> gather_sizes(Conversation& talk, const ClusterShare& clusters)
+std::vector<ChunkSize> gather_sizes(Communicator& comm, const ClusterShare& clusters)
 {
     std::vector<ChunkSize> own;
     auto weight = clusters.weights.begin();
     for (const Index n : clusters.of_chunk) {
-        own.push_back({std::accumulate(weight, weight + n, std::int64_t{0}), n, talk.rank()});
+        own.push_back({std::accumulate(weight, weight + n, std::int64_t{0}), n, comm.rank()});
         weight += n;
     }
-    return talk.gather_all(own);
+    return comm.gather_all(own);
 }
 
 /// Blocks of about as many chunks each, with parts in proportion to their weight.
@@ -73,13 +73,13 @@ std::vector<Block> make_blocks(const std::vector<ChunkSize>& chunks, Index k, In
 }
 
 /// Gives contacts to the ranks that divide one of both clusters.
-std::vector<ClusterContact> deal_contacts(Conversation& talk, const std::vector<Block>& blocks,
+std::vector<ClusterContact> deal_contacts(Communicator& comm, const std::vector<Block>& blocks,
                                           const std::vector<ClusterContact>& own)
 {
     const auto rank_of = [&](Index cluster) {
         return std::ranges::upper_bound(blocks, cluster, {}, &Block::end)->rank;
     };
-    std::vector<std::vector<ClusterContact>> to_each(talk.size());
+    std::vector<std::vector<ClusterContact>> to_each(comm.size());
     for (const ClusterContact& one : own) {
         const int rank = rank_of(one.low);
         to_each[rank].push_back(one);
@@ -90,7 +90,7 @@ std::vector<ClusterContact> deal_contacts(Conversation& talk, const std::vector<
     for (const auto& contacts : to_each)
         sent.push_back(packed(contacts));
     std::vector<ClusterContact> contacts;
-    for (const Bytes& bytes : talk.exchange(std::move(sent)))
+    for (const Bytes& bytes : comm.exchange(std::move(sent)))
         Unpacker(bytes).append_all(contacts);
     return contacts;
 }
@@ -166,29 +166,29 @@ void divide_block(const BlockGraph& block, Index k, DividedClusters& divided)
 
 }  // namespace
 
-DividedClusters divide_together(Conversation& talk, const ClusterShare& clusters, Index k, Index chunks_of_block)
+DividedClusters divide_together(Communicator& comm, const ClusterShare& clusters, Index k, Index chunks_of_block)
 {
-    const std::vector<Block> blocks = make_blocks(gather_sizes(talk, clusters), k, chunks_of_block);
-    const auto contacts = deal_contacts(talk, blocks, clusters.contacts);
+    const std::vector<Block> blocks = make_blocks(gather_sizes(comm, clusters), k, chunks_of_block);
+    const auto contacts = deal_contacts(comm, blocks, clusters.contacts);
     // The clusters that each rank divides.
     std::vector<std::int64_t> bounds(clusters.bounds.size(), 0);
     for (const Block& block : blocks)
         std::fill(bounds.begin() + block.rank + 1, bounds.end(), block.end);
-    const std::vector<std::int64_t> weights = move_values(talk, clusters.weights, clusters.bounds, bounds);
+    const std::vector<std::int64_t> weights = move_values(comm, clusters.weights, clusters.bounds, bounds);
     DividedClusters divided;
     for (const Block& block : blocks)
-        if (block.rank == talk.rank()) {
+        if (block.rank == comm.rank()) {
             const auto of_block = std::span(weights).subspan(
                 at(block.begin) - static_cast<std::size_t>(bounds[block.rank]), at(block.end - block.begin));
             divide_block(graph_of(block, of_block, contacts), block.n_parts, divided);
         }
-    const auto first = static_cast<Index>(gather_bounds_of(talk, std::ssize(divided.weights))[talk.rank()]);
+    const auto first = static_cast<Index>(gather_bounds_of(comm, std::ssize(divided.weights))[comm.rank()]);
     for (std::vector<Index>* const parts : {&divided.labels, &divided.loose_parts})
         for (Index& part : *parts)
             part += first;
-    divided.labels = move_values(talk, divided.labels, bounds, clusters.bounds);
-    divided.weights = talk.gather_all(divided.weights);
-    divided.n_components = static_cast<Index>(gather_bounds_of(talk, divided.n_components).back());
+    divided.labels = move_values(comm, divided.labels, bounds, clusters.bounds);
+    divided.weights = comm.gather_all(divided.weights);
+    divided.n_components = static_cast<Index>(gather_bounds_of(comm, divided.n_components).back());
     return divided;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/cut/face_graph.h"
 
 namespace seamflow {
@@ -38,6 +38,6 @@ struct DividedClusters {
 /// @param k at least 2; about so many parts, more where there are more components.
 /// @param chunks_of_block at most so many chunks are a block, at least 1.
 /// @throws ComputationError if METIS fails.
-DividedClusters divide_together(Conversation& talk, const ClusterShare& clusters, Index k, Index chunks_of_block);
+DividedClusters divide_together(Communicator& comm, const ClusterShare& clusters, Index k, Index chunks_of_block);
 
 }  // namespace seamflow

@@ -14,7 +14,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/automatic_choices.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/workers.h"
 #include "partition/cut/cut.h"
 #include "partition/index_lists.h"
@@ -37,7 +37,7 @@ std::string get_text(Unpacker& unpacker)
 }
 
 /// Tells all ranks what one of them found.
-DistributedCut broadcast(Conversation& talk, const DistributedCut& found, bool is_own)
+DistributedCut broadcast(Communicator& comm, const DistributedCut& found, bool is_own)
 {
     Packer packer;
     if (is_own) {
@@ -48,7 +48,7 @@ DistributedCut broadcast(Conversation& talk, const DistributedCut& found, bool i
             put(packer, remark);
     }
     DistributedCut cut;
-    for (const Bytes& bytes : talk.allgather(packer.take())) {
+    for (const Bytes& bytes : comm.allgather(packer.take())) {
         if (bytes.empty())
             continue;
         Unpacker unpacker(bytes);
@@ -62,10 +62,10 @@ DistributedCut broadcast(Conversation& talk, const DistributedCut& found, bool i
 }
 
 /// One number of each rank, added up.
-Number sum_of(Conversation& talk, Number own)
+Number sum_of(Communicator& comm, Number own)
 {
     Number sum = 0;
-    for (const Number of_rank : talk.gather_all(std::vector<Number>{own}))
+    for (const Number of_rank : comm.gather_all(std::vector<Number>{own}))
         sum += of_rank;
     return sum;
 }
@@ -85,18 +85,18 @@ void add_boundary(const MeshPart& part, const Topology& topology, std::span<cons
 /// A cut on its way through all ranks.
 class TogetherCut {
   public:
-    /// @param given the labels of the stretch; empty: the options say how to cut.
-    TogetherCut(Conversation& talk, RankSlice& slice, const FlowOptions& options, const CutUnits& units,
+    /// @param given the labels of the range; empty: the options say how to cut.
+    TogetherCut(Communicator& comm, RankSlice& slice, const FlowOptions& options, const CutUnits& units,
                 std::optional<std::vector<Index>> given)
-        : talk_(talk)
+        : comm_(comm)
         , slice_(slice)
-        , bounds_(gather_bounds(talk, slice))
+        , bounds_(gather_bounds(comm, slice))
         , options_(options)
         , units_(units)
         , given_(std::move(given))
         , may_join_(options.motion.weld.has_value())
     {
-        require_corners(slice, bounds_, talk.rank());
+        require_corners(slice, bounds_, comm.rank());
     }
 
     DistributedCut run()
@@ -109,7 +109,7 @@ class TogetherCut {
             cut.emplace();
         if (!seams_.remark.empty())
             cut->remarks.push_back(seams_.remark);
-        if (const Number n = sum_of(talk_, std::ssize(left_out_.faces)); n > 0)
+        if (const Number n = sum_of(comm_, std::ssize(left_out_.faces)); n > 0)
             cut->remarks.push_back(remark_on_repeated_faces(n));
         cut->seams = std::move(seams_);
         cut->left_out = std::move(left_out_);
@@ -137,7 +137,7 @@ class TogetherCut {
     /// @param boundary see join_seams. @returns whether seams were joined.
     bool join(const std::vector<Number>& boundary)
     {
-        seams_ = join_seams(talk_, slice_, bounds_, boundary, *options_.motion.weld);
+        seams_ = join_seams(comm_, slice_, bounds_, boundary, *options_.motion.weld);
         return !seams_.vertices.empty();
     }
 
@@ -145,7 +145,7 @@ class TogetherCut {
     std::optional<DistributedCut> by_one_rank()
     {
         slice_.labels.assign(at(slice_.n_faces()), 0);
-        MeshPart part = deal(talk_, slice_);
+        MeshPart part = deal(comm_, slice_);
         const bool is_own = part.mesh.n_faces() > 0;
         const Topology topology = make_topology(part.mesh, run_in_parallel);
         if (std::vector<Number> boundary; std::exchange(may_join_, false)) {
@@ -156,13 +156,13 @@ class TogetherCut {
         if (std::vector<Repetition> repeated; may_repeat_) {
             find_repetitions(part, topology, repeated);
             may_repeat_ = false;
-            if (leave_out_repeated(talk_, repeated, slice_, given_, left_out_)) {
-                bounds_ = gather_bounds(talk_, slice_);
+            if (leave_out_repeated(comm_, repeated, slice_, given_, left_out_)) {
+                bounds_ = gather_bounds(comm_, slice_);
                 return {};
             }
         }
         const std::vector<Index> given =
-            given_ ? fetch_labels(talk_, *given_, bounds_, part.face_numbers) : std::vector<Index>{};
+            given_ ? fetch_labels(comm_, *given_, bounds_, part.face_numbers) : std::vector<Index>{};
         DistributedCut found;
         if (is_own) {
             Cut cut = given_ ? cut_by_labels(part.mesh, topology, given, run_in_parallel)
@@ -176,15 +176,15 @@ class TogetherCut {
         const MeshPart* const own[] = {&part};
         std::vector<std::uint8_t> twins;
         send_home(
-            talk_, bounds_, own, [](std::size_t, Index) { return false; }, slice_, twins);
-        return broadcast(talk_, found, is_own);
+            comm_, bounds_, own, [](std::size_t, Index) { return false; }, slice_, twins);
+        return broadcast(comm_, found, is_own);
     }
 
     /// @returns nothing where seams were joined, or faces had to be left out.
     std::optional<DistributedCut> by_all_ranks()
     {
-        label_chunks(talk_, slice_, bounds_, units_.faces_of_chunk);
-        std::vector<Chunk> chunks = deal_chunks(talk_, slice_, bounds_);
+        label_chunks(comm_, slice_, bounds_, units_.faces_of_chunk);
+        std::vector<Chunk> chunks = deal_chunks(comm_, slice_, bounds_);
         if (std::vector<Number> boundary; std::exchange(may_join_, false)) {
             for (const Chunk& chunk : chunks)
                 add_boundary(chunk.part, chunk.topology, chunk.crossing, boundary);
@@ -196,8 +196,8 @@ class TogetherCut {
             for (const Chunk& chunk : chunks)
                 find_repetitions(chunk.part, chunk.topology, repeated);
             may_repeat_ = false;
-            if (leave_out_repeated(talk_, repeated, slice_, given_, left_out_)) {
-                bounds_ = gather_bounds(talk_, slice_);
+            if (leave_out_repeated(comm_, repeated, slice_, given_, left_out_)) {
+                bounds_ = gather_bounds(comm_, slice_);
                 return {};
             }
         }
@@ -210,23 +210,23 @@ class TogetherCut {
             k = number_of_parts(area_of(chunks), found.choice);
             if (k == 1)
                 return uncut(std::move(found));
-            const double weight = static_cast<double>(sum_of(talk_, std::ssize(slice_.corners))) -
+            const double weight = static_cast<double>(sum_of(comm_, std::ssize(slice_.corners))) -
                                   2.0 * static_cast<double>(bounds_.faces.back());
-            ChunkCut cut = cut_chunks(talk_, bounds_, chunks, weight, sensible_parts(bounds_.faces.back(), k),
+            ChunkCut cut = cut_chunks(comm_, bounds_, chunks, weight, sensible_parts(bounds_.faces.back(), k),
                                       units_.chunks_of_block);
             n_parts = cut.n_parts;
             n_components = cut.n_components;
             defects.parts = std::move(cut.suspects);
         } else {
             std::vector<Index> closed = *given_;
-            n_parts = compact_labels_together(talk_, closed);
+            n_parts = compact_labels_together(comm_, closed);
             if (n_parts == 1)
                 return uncut(std::move(found));
             label_by(closed, chunks);
             defects.parts.resize(n_parts);
             std::iota(defects.parts.begin(), defects.parts.end(), 0);
         }
-        defects.vertices = gather_pinch_candidates(talk_, bounds_, chunks);
+        defects.vertices = gather_pinch_candidates(comm_, bounds_, chunks);
         mend(std::move(chunks), std::move(defects), n_parts, found);
         if (given_)
             found.remarks = remarks_on_labels(n_parts, largest_given(), found.repaired_faces, found.n_parts);
@@ -243,7 +243,7 @@ class TogetherCut {
         for (const Chunk& chunk : chunks)
             areas.push_back(total_area(chunk.part.mesh));
         double area = 0.0;
-        for (const double of_chunk : talk_.gather_all(areas))
+        for (const double of_chunk : comm_.gather_all(areas))
             area += of_chunk;
         return area;
     }
@@ -261,13 +261,13 @@ class TogetherCut {
         for (const Chunk& chunk : chunks)
             faces.insert(faces.end(), chunk.part.face_numbers.begin(), chunk.part.face_numbers.end());
         sort_unique(faces);
-        const std::vector<Index> found = fetch_labels(talk_, labels, bounds_, faces);
+        const std::vector<Index> found = fetch_labels(comm_, labels, bounds_, faces);
         for (Chunk& chunk : chunks)
             for (std::size_t f = 0; f < chunk.part.face_numbers.size(); ++f)
                 chunk.part.labels[f] = found[place_in(faces, chunk.part.face_numbers[f])];
     }
 
-    /// @param chunks with their labels, which come into the stretches.
+    /// @param chunks with their labels, which come into the ranges.
     void mend(std::vector<Chunk> chunks, SlicedDefects defects, Index n_parts, DistributedCut& found)
     {
         std::vector<const MeshPart*> parts;
@@ -277,25 +277,25 @@ class TogetherCut {
         const auto has_twin = [&](std::size_t i, Index h) {
             return chunks[i].topology.twin[h] >= 0 || std::ranges::binary_search(chunks[i].crossing, h);
         };
-        send_home(talk_, bounds_, parts, has_twin, slice_, twins);
+        send_home(comm_, bounds_, parts, has_twin, slice_, twins);
         chunks = {};
         const std::vector<Index> before = slice_.labels;
-        mend_together(talk_, {slice_, bounds_, twins}, std::move(defects), n_parts);
+        mend_together(comm_, {slice_, bounds_, twins}, std::move(defects), n_parts);
         Number moved = 0;
         for (std::size_t f = 0; f < before.size(); ++f)
             moved += before[f] != slice_.labels[f] ? 1 : 0;
-        found.repaired_faces = sum_of(talk_, moved);
-        found.n_parts = compact_labels_together(talk_, slice_.labels);
+        found.repaired_faces = sum_of(comm_, moved);
+        found.n_parts = compact_labels_together(comm_, slice_.labels);
     }
 
     [[nodiscard]] Index largest_given()
     {
         const auto largest = std::ranges::max_element(*given_);
-        const auto of_all = talk_.gather_all(std::vector<Index>{largest != given_->end() ? *largest : Index{0}});
+        const auto of_all = comm_.gather_all(std::vector<Index>{largest != given_->end() ? *largest : Index{0}});
         return *std::ranges::max_element(of_all);
     }
 
-    Conversation& talk_;
+    Communicator& comm_;
     RankSlice& slice_;
     SliceBounds bounds_;
     const FlowOptions& options_;
@@ -307,26 +307,26 @@ class TogetherCut {
     RepeatedFaces left_out_;
 };
 
-DistributedCut run(Conversation& talk, RankSlice& slice, const FlowOptions& options, const CutUnits& units,
+DistributedCut run(Communicator& comm, RankSlice& slice, const FlowOptions& options, const CutUnits& units,
                    std::optional<std::vector<Index>> given)
 {
     DistributedCut cut;
     Workers workers(options.resources.threads);
-    workers.execute([&] { cut = TogetherCut(talk, slice, options, units, std::move(given)).run(); });
+    workers.execute([&] { cut = TogetherCut(comm, slice, options, units, std::move(given)).run(); });
     return cut;
 }
 
 }  // namespace
 
-DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options, const CutUnits& units)
+DistributedCut cut_together(Communicator& comm, RankSlice& slice, const FlowOptions& options, const CutUnits& units)
 {
-    return run(talk, slice, options, units, {});
+    return run(comm, slice, options, units, {});
 }
 
-DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options,
+DistributedCut cut_together_by_labels(Communicator& comm, RankSlice& slice, const FlowOptions& options,
                                       const CutUnits& units)
 {
-    return run(talk, slice, options, units, std::exchange(slice.labels, {}));
+    return run(comm, slice, options, units, std::exchange(slice.labels, {}));
 }
 
 }  // namespace seamflow

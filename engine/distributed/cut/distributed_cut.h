@@ -7,7 +7,7 @@
 #include "engine/distributed/cut/joined_seams.h"
 #include "engine/distributed/cut/repeated_faces.h"
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "engine/options/flow_options.h"
 
 namespace seamflow {
@@ -30,7 +30,7 @@ struct DistributedCut {
     std::string choice = {};
     /// What the user should know about the cut, one sentence each.
     std::vector<std::string> remarks = {};
-    /// What the stretch does not have any more.
+    /// What the range does not have any more.
     RepeatedFaces left_out = {};
     /// Which of the vertices along seams have no faces any more, as others move for them.
     JoinedSeams seams = {};
@@ -44,15 +44,15 @@ struct DistributedCut {
 /// @param slice its seams are joined (see MotionOptions::weld), it loses the faces that repeat others (see
 /// FlowingMesh),
 ///        and gets labels, from 0 to n_parts - 1.
-/// @returns the same at all ranks, but what their stretches have lost.
+/// @returns the same at all ranks, but what their ranges have lost.
 /// @throws InputError naming a face with a corner that is none of the mesh's vertices; OptionError;
 ///         ComputationError if METIS fails.
-DistributedCut cut_together(Conversation& talk, RankSlice& slice, const FlowOptions& options,
+DistributedCut cut_together(Communicator& comm, RankSlice& slice, const FlowOptions& options,
                             const CutUnits& units = {});
 
 /// Cuts a mesh as given (see cut_by_labels).
 /// @param slice its labels, at least 0, are closed up and mended.
-DistributedCut cut_together_by_labels(Conversation& talk, RankSlice& slice, const FlowOptions& options,
+DistributedCut cut_together_by_labels(Communicator& comm, RankSlice& slice, const FlowOptions& options,
                                       const CutUnits& units = {});
 
 }  // namespace seamflow

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/distributed/cut/band.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "partition/weld.h"
 
@@ -57,30 +57,30 @@ const SeamVertex* find(const std::vector<SeamVertex>& seam, std::int64_t vertex)
 
 }  // namespace
 
-JoinedSeams join_seams(Conversation& talk, RankSlice& slice, const SliceBounds& bounds,
+JoinedSeams join_seams(Communicator& comm, RankSlice& slice, const SliceBounds& bounds,
                        const std::vector<std::int64_t>& boundary, double distance)
 {
-    std::vector<std::int64_t> vertices = talk.gather_at_first(boundary);
+    std::vector<std::int64_t> vertices = comm.gather_at_first(boundary);
     sort_unique(vertices);
     JoinedSeams seams;
-    if (talk.broadcast(std::vector<std::int64_t>{std::ssize(vertices)}).front() == 0)
+    if (comm.broadcast(std::vector<std::int64_t>{std::ssize(vertices)}).front() == 0)
         return seams;
     slice.labels.assign(at(slice.n_faces()), 0);
     Found found;
     {
-        const Band band = gather_band(talk, slice, bounds, vertices, 1);
-        if (talk.rank() == 0)
+        const Band band = gather_band(comm, slice, bounds, vertices, 1);
+        if (comm.rank() == 0)
             found = weld_band(band, distance);
     }
-    seams.vertices = talk.broadcast(found.vertices);
+    seams.vertices = comm.broadcast(found.vertices);
     if (seams.vertices.empty())
         return seams;
-    const auto counts = talk.broadcast(std::vector<Index>{found.n_vertices, found.n_edges});
+    const auto counts = comm.broadcast(std::vector<Index>{found.n_vertices, found.n_edges});
     seams.remark = remark_on_seams(counts[0], counts[1]);
-    const std::int64_t begin = bounds.vertices[talk.rank()];
+    const std::int64_t begin = bounds.vertices[comm.rank()];
     for (const SeamVertex& one : seams.vertices) {
         seams.n_copies += one.first != one.vertex ? 1 : 0;
-        if (one.first == one.vertex && one.vertex >= begin && one.vertex < bounds.vertices[talk.rank() + 1])
+        if (one.first == one.vertex && one.vertex >= begin && one.vertex < bounds.vertices[comm.rank() + 1])
             slice.vertices.row(one.vertex - begin) = Eigen::Map<const Point>(one.joined);
     }
     for_each(run_in_parallel, static_cast<Index>(slice.corners.size()), [&](Index c) {
@@ -90,13 +90,13 @@ JoinedSeams join_seams(Conversation& talk, RankSlice& slice, const SliceBounds& 
     return seams;
 }
 
-void bring_back(Conversation& talk, const JoinedSeams& seams, RankSlice& slice)
+void bring_back(Communicator& comm, const JoinedSeams& seams, RankSlice& slice)
 {
     if (seams.vertices.empty())
         return;
-    const SliceBounds bounds = gather_bounds(talk, slice);
-    const std::int64_t begin = bounds.vertices[talk.rank()];
-    const std::int64_t end = bounds.vertices[talk.rank() + 1];
+    const SliceBounds bounds = gather_bounds(comm, slice);
+    const std::int64_t begin = bounds.vertices[comm.rank()];
+    const std::int64_t end = bounds.vertices[comm.rank() + 1];
     const auto first = std::ranges::lower_bound(seams.vertices, begin, {}, &SeamVertex::vertex);
     const auto last = std::ranges::lower_bound(seams.vertices, end, {}, &SeamVertex::vertex);
     const std::span<const SeamVertex> own(first, last);
@@ -104,7 +104,7 @@ void bring_back(Conversation& talk, const JoinedSeams& seams, RankSlice& slice)
     for (const SeamVertex& one : own)
         firsts.push_back(one.first);
     sort_unique(firsts);
-    const Points moved = fetch_positions(talk, slice, firsts, bounds.vertices);
+    const Points moved = fetch_positions(comm, slice, firsts, bounds.vertices);
     for (const SeamVertex& one : own) {
         const Point now = moved.row(std::ranges::lower_bound(firsts, one.first) - firsts.begin());
         const Eigen::Map<const Point> joined(one.joined);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
@@ -33,12 +33,12 @@ struct JoinedSeams {
 /// Joins the seams of a mesh, as weld does: the faces along the boundary come to rank 0. All ranks call this together.
 /// @param slice gets corners at the first vertices alone, and those in the middle of what they were.
 /// @param boundary of this rank: vertices on edges of one face. Those of all ranks are all there are.
-JoinedSeams join_seams(Conversation& talk, RankSlice& slice, const SliceBounds& bounds,
+JoinedSeams join_seams(Communicator& comm, RankSlice& slice, const SliceBounds& bounds,
                        const std::vector<std::int64_t>& boundary, double distance);
 
 /// Puts what has moved as one where it belongs. All ranks call this together.
 /// @param slice with the vertices after the flow, or after some steps of it; gets the others, too. What has not moved
 ///        is where it was.
-void bring_back(Conversation& talk, const JoinedSeams& seams, RankSlice& slice);
+void bring_back(Communicator& comm, const JoinedSeams& seams, RankSlice& slice);
 
 }  // namespace seamflow

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/connected_components.h"
 #include "partition/index_lists.h"
 
@@ -21,18 +21,18 @@ struct WholeParts {
 };
 
 /// Gives each of these parts to one rank.
-WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vector<Index>& parts)
+WholeParts deal_parts(Communicator& comm, const SlicedCut& cut, const std::vector<Index>& parts)
 {
     const RankSlice& slice = cut.slice;
     const auto place_of = [&](Index label) { return position_in(parts, label); };
     const auto wanted =
         select(run_in_parallel, slice.n_faces(), [&](Index f) { return place_of(slice.labels[f]) >= 0; });
-    std::vector<Packer> to_each(talk.size());
+    std::vector<Packer> to_each(comm.size());
     for (const Index f : wanted) {
         const auto owner = static_cast<std::size_t>(place_of(slice.labels[f])) * to_each.size() / parts.size();
         const std::size_t begin = at(slice.face_offsets[f]);
         const std::size_t size = at(slice.face_offsets[f + 1]) - begin;
-        to_each[owner].put(cut.bounds.faces[talk.rank()] + f);
+        to_each[owner].put(cut.bounds.faces[comm.rank()] + f);
         to_each[owner].put(slice.labels[f]);
         to_each[owner].put_all(std::span<const std::int64_t>(slice.corners).subspan(begin, size));
         to_each[owner].put_all(std::span<const std::uint8_t>(cut.has_twin).subspan(begin, size));
@@ -42,7 +42,7 @@ WholeParts deal_parts(Conversation& talk, const SlicedCut& cut, const std::vecto
         sent.push_back(packer.take());
     WholeParts whole;
     std::vector<std::int64_t> corners;
-    for (const Bytes& bytes : talk.exchange(std::move(sent)))
+    for (const Bytes& bytes : comm.exchange(std::move(sent)))
         for (Unpacker unpacker(bytes); !unpacker.is_at_end();) {
             whole.part.face_numbers.push_back(unpacker.get<std::int64_t>());
             whole.part.labels.push_back(unpacker.get<Index>());
@@ -96,12 +96,12 @@ LooseFaces find_loose(const WholeParts& whole)
 
 }  // namespace
 
-LooseFaces gather_loose(Conversation& talk, const SlicedCut& cut, const std::vector<Index>& parts)
+LooseFaces gather_loose(Communicator& comm, const SlicedCut& cut, const std::vector<Index>& parts)
 {
-    const LooseFaces own = find_loose(deal_parts(talk, cut, parts));
-    return {.faces = talk.gather_at_first(own.faces),
-            .component_sizes = talk.gather_at_first(own.component_sizes),
-            .corners = talk.gather_at_first(own.corners)};
+    const LooseFaces own = find_loose(deal_parts(comm, cut, parts));
+    return {.faces = comm.gather_at_first(own.faces),
+            .component_sizes = comm.gather_at_first(own.component_sizes),
+            .corners = comm.gather_at_first(own.corners)};
 }
 
 IndexLists components_in(const Band& band, const LooseFaces& loose)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/distributed/cut/band.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/index_lists.h"
 
 namespace seamflow {
@@ -20,7 +20,7 @@ struct LooseFaces {
 /// The components of some parts, all but the largest of each (of equals the one with the lowest face). All ranks call
 /// this together: each looks at some parts, which it gets as a whole.
 /// @param parts ascending, the same at all ranks. @returns those of all ranks, at rank 0; nothing at the others.
-LooseFaces gather_loose(Conversation& talk, const SlicedCut& cut, const std::vector<Index>& parts);
+LooseFaces gather_loose(Communicator& comm, const SlicedCut& cut, const std::vector<Index>& parts);
 
 /// The components as faces of a band, in the order of their lowest faces.
 IndexLists components_in(const Band& band, const LooseFaces& loose);

@@ -6,7 +6,7 @@
 
 #include "engine/distributed/cut/band.h"
 #include "engine/distributed/cut/loose_parts.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/index_lists.h"
 #include "partition/labels.h"
 #include "partition/repair/pinches.h"
@@ -32,8 +32,8 @@ struct Moved {
 /// others.
 class Mender {
   public:
-    Mender(Conversation& talk, const SlicedCut& cut, SlicedDefects defects, Index n_parts)
-        : talk_(talk)
+    Mender(Communicator& comm, const SlicedCut& cut, SlicedDefects defects, Index n_parts)
+        : comm_(comm)
         , cut_(cut)
         , parts_(std::move(defects.parts))
         , queue_(std::move(defects.vertices))
@@ -60,12 +60,12 @@ class Mender {
   private:
     [[nodiscard]] bool anywhere(bool at_first)
     {
-        return talk_.broadcast(std::vector<std::uint8_t>{at_first ? std::uint8_t{1} : std::uint8_t{0}}).front() != 0;
+        return comm_.broadcast(std::vector<std::uint8_t>{at_first ? std::uint8_t{1} : std::uint8_t{0}}).front() != 0;
     }
 
     [[nodiscard]] Band band_around(const std::vector<Number>& vertices, int layers)
     {
-        return gather_band(talk_, cut_.slice, cut_.bounds, vertices, layers);
+        return gather_band(comm_, cut_.slice, cut_.bounds, vertices, layers);
     }
 
     /// Looks at the parts that may not be connected.
@@ -73,7 +73,7 @@ class Mender {
     {
         if (parts_.empty())
             return;
-        const LooseFaces all = gather_loose(talk_, cut_, parts_);
+        const LooseFaces all = gather_loose(comm_, cut_, parts_);
         parts_.clear();
         if (!anywhere(!all.faces.empty()))
             return;
@@ -81,14 +81,14 @@ class Mender {
         sort_unique(corners);
         const Band band = band_around(corners, 1);
         std::vector<Moved> moved;
-        if (talk_.rank() == 0) {
+        if (comm_.rank() == 0) {
             const IndexLists components = components_in(band, all);
             const std::vector<Index> joined = join_to_neighbours(band, components, n_parts_);
             for (Index component = 0; component < components.size(); ++component)
                 for (const Index f : components[component])
                     moved.push_back({band.part.face_numbers[f], joined[component]});
         }
-        n_parts_ = talk_.broadcast(std::vector<Index>{n_parts_}).front();
+        n_parts_ = comm_.broadcast(std::vector<Index>{n_parts_}).front();
         apply(moved);
         queue_.insert(queue_.end(), corners.begin(), corners.end());
         sort_unique(queue_);
@@ -117,9 +117,9 @@ class Mender {
         const Band band = band_around(pinched, layers_around_pinches);
         std::vector<Moved> moved;
         std::vector<Index> touched;
-        if (talk_.rank() == 0)
+        if (comm_.rank() == 0)
             mend_within(band, pinched, moved, touched);
-        parts_ = talk_.broadcast(touched);
+        parts_ = comm_.broadcast(touched);
         apply(moved);
     }
 
@@ -132,17 +132,17 @@ class Mender {
     void apply(const std::vector<Moved>& moved)
     {
         const auto& faces = cut_.bounds.faces;
-        std::vector<std::vector<Moved>> to_homes(talk_.size());
+        std::vector<std::vector<Moved>> to_homes(comm_.size());
         for (const Moved& face : moved)
-            to_homes[stretch_of(faces, face.face)].push_back(face);
+            to_homes[range_of(faces, face.face)].push_back(face);
         std::vector<Bytes> sent;
         for (const auto& of_home : to_homes)
             sent.push_back(packed(of_home));
-        for (const auto& [face, label] : unpacked<Moved>(talk_.exchange(std::move(sent)).front()))
-            cut_.slice.labels[face - faces[talk_.rank()]] = label;
+        for (const auto& [face, label] : unpacked<Moved>(comm_.exchange(std::move(sent)).front()))
+            cut_.slice.labels[face - faces[comm_.rank()]] = label;
     }
 
-    Conversation& talk_;
+    Communicator& comm_;
     SlicedCut cut_;
     /// Those that may not be connected, at all ranks.
     std::vector<Index> parts_;
@@ -202,7 +202,7 @@ void Mender::merge_pinched_at(const std::vector<Number>& pinched)
     const Band band = band_around(pinched, 1);
     // Pairs of labels, one after the other: the second becomes the first.
     std::vector<Index> pairs;
-    if (talk_.rank() == 0) {
+    if (comm_.rank() == 0) {
         const Topology topology = make_topology(band.part.mesh, run_in_parallel);
         std::vector<Index> values = band.part.labels;
         sort_unique(values);
@@ -227,7 +227,7 @@ void Mender::merge_pinched_at(const std::vector<Number>& pinched)
             pairs.push_back(from);
         }
     }
-    pairs = talk_.broadcast(pairs);
+    pairs = comm_.broadcast(pairs);
     std::map<Index, Index> name;
     for (std::size_t i = 0; i < pairs.size(); i += 2)
         name[pairs[i + 1]] = pairs[i];
@@ -238,16 +238,16 @@ void Mender::merge_pinched_at(const std::vector<Number>& pinched)
 
 }  // namespace
 
-void mend_together(Conversation& talk, SlicedCut cut, SlicedDefects defects, Index n_parts)
+void mend_together(Communicator& comm, SlicedCut cut, SlicedDefects defects, Index n_parts)
 {
-    Mender(talk, cut, std::move(defects), n_parts).run();
+    Mender(comm, cut, std::move(defects), n_parts).run();
 }
 
-Index compact_labels_together(Conversation& talk, std::vector<Index>& labels)
+Index compact_labels_together(Communicator& comm, std::vector<Index>& labels)
 {
     std::vector<Index> names = labels;
     sort_unique(names);
-    names = talk.gather_all(names);
+    names = comm.gather_all(names);
     sort_unique(names);
     for_each(run_in_parallel, static_cast<Index>(labels.size()),
              [&](Index f) { labels[f] = place_in(names, labels[f]); });

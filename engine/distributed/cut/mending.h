@@ -5,7 +5,7 @@
 
 #include "engine/distributed/cut/band.h"
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 
 namespace seamflow {
 
@@ -22,10 +22,10 @@ struct SlicedDefects {
 /// @param n_parts all labels are below it. Labels of parts that are used up do not occur any more, and parts that had
 /// to
 ///        be divided get new ones after the largest.
-void mend_together(Conversation& talk, SlicedCut cut, SlicedDefects defects, Index n_parts);
+void mend_together(Communicator& comm, SlicedCut cut, SlicedDefects defects, Index n_parts);
 
 /// Renumbers the labels of all ranks to 0, 1, 2 … without gaps, keeping their order. All ranks call this together.
 /// @returns the number of different labels.
-Index compact_labels_together(Conversation& talk, std::vector<Index>& labels);
+Index compact_labels_together(Communicator& comm, std::vector<Index>& labels);
 
 }  // namespace seamflow

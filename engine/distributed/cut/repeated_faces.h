@@ -6,7 +6,7 @@
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/parts/mesh_part.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/topology.h"
 
 namespace seamflow {
@@ -21,24 +21,24 @@ struct Repetition {
 /// @param part has each face together with all that repeat it.
 void find_repetitions(const MeshPart& part, const Topology& topology, std::vector<Repetition>& found);
 
-/// Faces of a stretch that repeat others of the mesh, and take no part in a flow.
+/// Faces of a range that repeat others of the mesh, and take no part in a flow.
 struct RepeatedFaces {
-    /// Ascending, in the stretch as it was.
+    /// Ascending, in the range as it was.
     std::vector<Index> faces;
     /// One entry per face: the first face with these corners, as numbered in the whole mesh as it was.
     std::vector<std::int64_t> firsts;
 };
 
-/// Takes the faces that repeat others out of the stretches of all ranks. All ranks call this together.
-/// @param own what this rank has found. @param labels of the stretch, if there are any, lose the same.
-/// @param left_out gets what the stretch of this rank has lost.
+/// Takes the faces that repeat others out of the ranges of all ranks. All ranks call this together.
+/// @param own what this rank has found. @param labels of the range, if there are any, lose the same.
+/// @param left_out gets what the range of this rank has lost.
 /// @returns whether there were any, at any rank.
-bool leave_out_repeated(Conversation& talk, const std::vector<Repetition>& own, RankSlice& slice,
+bool leave_out_repeated(Communicator& comm, const std::vector<Repetition>& own, RankSlice& slice,
                         std::optional<std::vector<Index>>& labels, RepeatedFaces& left_out);
 
-/// The labels of all faces of a stretch as it was: those that were left out have that of the face that they repeat. All
+/// The labels of all faces of a range as it was: those that were left out have that of the face that they repeat. All
 /// ranks call this together.
 /// @param slice as cut_together has left it.
-std::vector<Index> labels_of_all_faces(Conversation& talk, const RankSlice& slice, const RepeatedFaces& left_out);
+std::vector<Index> labels_of_all_faces(Communicator& comm, const RankSlice& slice, const RepeatedFaces& left_out);
 
 }  // namespace seamflow

@@ -27,18 +27,18 @@ namespace {
 /// A file that rank 0 reads and writes alone.
 class WholeMeshFile final : public SharedMeshFile {
   public:
-    WholeMeshFile(std::filesystem::path path, const FileSharing& sharing, Loop loop)
+    WholeMeshFile(std::filesystem::path path, const FileSharing& sharing, Executor exec)
         : path_(std::move(path))
         , sharing_(sharing)
-        , loop_(std::move(loop))
+        , exec_(std::move(exec))
     {
     }
 
-    RankSlice read(Conversation& talk) override
+    RankSlice read(Communicator& comm) override
     {
-        talk.at_first_rank([&] { file_ = read_faulty_mesh(path_, faults_, loop_); });
-        is_read_ = talk.rank() == 0;
-        return hand_out(talk, file_.mesh, sharing_.block);
+        comm.at_first_rank([&] { file_ = read_faulty_mesh(path_, faults_, exec_); });
+        is_read_ = comm.rank() == 0;
+        return hand_out(comm, file_.mesh, sharing_.block);
     }
 
     void require_writable_as(const std::filesystem::path& path) const override
@@ -47,42 +47,42 @@ class WholeMeshFile final : public SharedMeshFile {
             static_cast<void>(kind_for_writing(path, file_.kind));
     }
 
-    std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
+    std::vector<std::string> write(Communicator& comm, const std::filesystem::path& path,
                                    const Points& vertices) override
     {
-        take_positions(talk, vertices);
+        take_positions(comm, vertices);
         std::vector<std::string> remarks;
-        talk.at_first_rank([&] {
+        comm.at_first_rank([&] {
             const FileKind kind = kind_for_writing(path, file_.kind);
             if (kind.format == file_.kind.format)
-                remarks = write_mesh_like(*file_.source, path, file_.mesh, loop_);
+                remarks = write_mesh_like(*file_.source, path, file_.mesh, exec_);
             else
-                remarks = write_mesh(path, file_.mesh, kind, loop_);
+                remarks = write_mesh(path, file_.mesh, kind, exec_);
         });
         return remarks;
     }
 
-    void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+    void write_labelled(Communicator& comm, const std::filesystem::path& path, const Points& vertices,
                         const std::vector<Index>& labels) override
     {
-        take_positions(talk, vertices);
-        const std::vector<Index> all = talk.gather_at_first(labels);
-        talk.at_first_rank([&] { write_labelled_ply(path, file_.mesh, all, loop_); });
+        take_positions(comm, vertices);
+        const std::vector<Index> all = comm.gather_at_first(labels);
+        comm.at_first_rank([&] { write_labelled_ply(path, file_.mesh, all, exec_); });
     }
 
     [[nodiscard]] const MeshFile* whole() const override { return is_read_ ? &file_ : nullptr; }
 
   private:
-    void take_positions(Conversation& talk, const Points& vertices)
+    void take_positions(Communicator& comm, const Points& vertices)
     {
-        Points all = gather_positions(talk, vertices);
-        if (talk.rank() == 0)
+        Points all = gather_positions(comm, vertices);
+        if (comm.rank() == 0)
             file_.mesh.vertices = std::move(all);
     }
 
     std::filesystem::path path_;
     FileSharing sharing_;
-    Loop loop_;
+    Executor exec_;
     /// Of rank 0.
     MeshFile file_;
     bool is_read_ = false;
@@ -130,39 +130,39 @@ bool is_text(const std::filesystem::path& path, FileFormat format)
 }
 
 std::unique_ptr<SharedMeshFile> open_sliced(const std::filesystem::path& path, FileFormat format, bool is_text,
-                                            const FileSharing& sharing, const Loop& loop)
+                                            const FileSharing& sharing, const Executor& exec)
 {
     if (format == FileFormat::Stl)
-        return open_sliced_stl(path, is_text ? Encoding::Ascii : Encoding::BinaryLittleEndian, sharing, loop);
+        return open_sliced_stl(path, is_text ? Encoding::Ascii : Encoding::BinaryLittleEndian, sharing, exec);
     if (!is_text)
         return open_sliced_ply(path, format, sharing);
     const TextSlicer slicer = format == FileFormat::Obj   ? slice_obj_text
                               : format == FileFormat::Off ? slice_off_text
                                                           : slice_ply_text;
-    return open_sliced_text(path, slicer, sharing, loop);
+    return open_sliced_text(path, slicer, sharing, exec);
 }
 
 }  // namespace
 
-std::unique_ptr<SharedMeshFile> open_together(Conversation& talk, const std::filesystem::path& path,
-                                              const FileSharing& sharing, const Loop& loop)
+std::unique_ptr<SharedMeshFile> open_together(Communicator& comm, const std::filesystem::path& path,
+                                              const FileSharing& sharing, const Executor& exec)
 {
     std::uint64_t size = 0;
-    talk.at_first_rank([&] { size = bytes_in(path); });
-    size = talk.broadcast(std::vector<std::uint64_t>{size}).front();
+    comm.at_first_rank([&] { size = bytes_in(path); });
+    size = comm.broadcast(std::vector<std::uint64_t>{size}).front();
     const auto format = format_of(path);
     if (size <= sharing.whole_up_to || !format)
-        return std::make_unique<WholeMeshFile>(path, sharing, loop);
+        return std::make_unique<WholeMeshFile>(path, sharing, exec);
     bool text = false;
-    talk.at_first_rank([&] {
+    comm.at_first_rank([&] {
         if (is_packed(path))
             throw InputError(fmt::format("{}: the file has {} bytes, more than the {} that one rank reads for all; "
                                          "unpack it, so that every rank can read a slice",
                                          path.string(), size, sharing.whole_up_to));
         text = is_text(path, *format);
     });
-    text = talk.broadcast(std::vector<char>{static_cast<char>(text ? 1 : 0)}).front() != 0;
-    return open_sliced(path, *format, text, sharing, loop);
+    text = comm.broadcast(std::vector<char>{static_cast<char>(text ? 1 : 0)}).front() != 0;
+    return open_sliced(path, *format, text, sharing, exec);
 }
 
 }  // namespace seamflow

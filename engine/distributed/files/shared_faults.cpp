@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 
 namespace seamflow {
 
@@ -20,24 +20,24 @@ struct LogCounts {
 
 }  // namespace
 
-FaultLog join_faults(Conversation& talk, const FaultLog& own, Index n_faces)
+FaultLog join_faults(Communicator& comm, const FaultLog& own, Index n_faces)
 {
     FaultLog joined{.of_faces_alone = own.of_faces_alone};
-    const auto faces = gather_bounds_of(talk, n_faces);
-    std::vector<LogCounts> counts = talk.gather_all(std::vector<LogCounts>{{own.count, own.n_harmless}});
+    const auto faces = gather_bounds_of(comm, n_faces);
+    std::vector<LogCounts> counts = comm.gather_all(std::vector<LogCounts>{{own.count, own.n_harmless}});
     std::vector<Index> left_out = own.faces_left_out;
     for (Index& face : left_out)
-        face += static_cast<Index>(faces[talk.rank()]);
-    left_out = talk.gather_at_first(left_out);
+        face += static_cast<Index>(faces[comm.rank()]);
+    left_out = comm.gather_at_first(left_out);
     std::vector<char> text;
     std::vector<std::size_t> lengths;
     for (const std::string& message : own.messages) {
         text.insert(text.end(), message.begin(), message.end());
         lengths.push_back(message.size());
     }
-    text = talk.gather_at_first(text);
-    lengths = talk.gather_at_first(lengths);
-    if (talk.rank() > 0)
+    text = comm.gather_at_first(text);
+    lengths = comm.gather_at_first(lengths);
+    if (comm.rank() > 0)
         return joined;
     std::size_t begin = 0;
     for (const std::size_t length : lengths) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/index.h"
 #include "partition/io/fault_log.h"
 
@@ -10,6 +10,6 @@ namespace seamflow {
 /// @param own of this rank, with faces numbered from 0 in its slice. @param n_faces of its slice, those included that
 /// are left out.
 /// @returns at rank 0 what a reader of the whole file notes; elsewhere nothing.
-FaultLog join_faults(Conversation& talk, const FaultLog& own, Index n_faces);
+FaultLog join_faults(Communicator& comm, const FaultLog& own, Index n_faces);
 
 }  // namespace seamflow

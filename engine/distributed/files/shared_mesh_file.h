@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
+#include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
-#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -18,7 +18,7 @@ namespace seamflow {
 struct FileSharing {
     /// Rank 0 alone reads and writes files of up to so many bytes, in any format.
     std::uint64_t whole_up_to = std::uint64_t{16} << 20;
-    /// The stretches of ranks begin at multiples of so many vertices and faces.
+    /// The ranges of ranks begin at multiples of so many vertices and faces.
     Index block = block_size;
 };
 
@@ -30,9 +30,9 @@ class SharedMeshFile {
     SharedMeshFile& operator=(const SharedMeshFile&) = delete;
     virtual ~SharedMeshFile() = default;
 
-    /// This rank's stretch, without labels.
+    /// This rank's range, without labels.
     /// @throws InputError as read_mesh, but for faces that read_faulty_mesh leaves out.
-    virtual RankSlice read(Conversation& talk) = 0;
+    virtual RankSlice read(Communicator& comm) = 0;
 
     /// Checks, before the long work begins, that `write` can write such a file.
     /// @throws OptionError
@@ -40,15 +40,15 @@ class SharedMeshFile {
 
     /// Writes the mesh: in the form of the file (see write_mesh_like) where the format of `path` is the same, else as a
     /// plain mesh. It appears whole or not at all.
-    /// @param vertices where the vertices of this rank's stretch are now.
+    /// @param vertices where the vertices of this rank's range are now.
     /// @returns remarks for the user, on rank 0.
     /// @throws OutputError, InputError (see write_mesh_like).
-    virtual std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
+    virtual std::vector<std::string> write(Communicator& comm, const std::filesystem::path& path,
                                            const Points& vertices) = 0;
 
     /// As write_labelled_ply, with the vertices as `write` takes them.
-    /// @param labels of the faces of this rank's stretch.
-    virtual void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+    /// @param labels of the faces of this rank's range.
+    virtual void write_labelled(Communicator& comm, const std::filesystem::path& path, const Points& vertices,
                                 const std::vector<Index>& labels) = 0;
 
     /// On rank 0, if it has read all of the file: the mesh, with the positions read or written last. Else null.

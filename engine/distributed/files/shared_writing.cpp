@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 #include "partition/errors.h"
-#include "partition/formats/ply_stretches.h"
+#include "partition/formats/ply_ranges.h"
 #include "partition/io/gzip.h"
 #include "partition/io/input_file.h"
 
@@ -21,8 +21,8 @@ namespace seamflow {
 namespace {
 
 /// @param first_vertex, first_face_byte where what this rank writes begins, the latter behind the vertices.
-void write_labelled_stretch(const SharedOutput& output, const PolygonMesh& mesh, const std::vector<Index>& labels,
-                            const PlyCounts& counts, std::size_t first_vertex, std::size_t first_face_byte)
+void write_labelled_range(const SharedOutput& output, const PolygonMesh& mesh, const std::vector<Index>& labels,
+                          const PlyCounts& counts, std::size_t first_vertex, std::size_t first_face_byte)
 {
     constexpr Index at_once = 1 << 14;
     constexpr std::size_t bytes_of_vertex = 3 * sizeof(double);
@@ -54,23 +54,23 @@ void require_slices_of(FileFormat format, const std::filesystem::path& path)
                                       path.string(), extension_of(format)));
 }
 
-void write_together(Conversation& talk, const std::filesystem::path& path,
+void write_together(Communicator& comm, const std::filesystem::path& path,
                     const std::function<void(const SharedOutput&)>& write_own)
 {
     std::optional<SharedOutput> output;
-    talk.at_first_rank([&] { output.emplace(path); });
+    comm.at_first_rank([&] { output.emplace(path); });
     const std::string temporary = output ? output->temporary().string() : std::string();
-    const auto name = talk.gather_all(std::vector<char>(temporary.begin(), temporary.end()));
+    const auto name = comm.gather_all(std::vector<char>(temporary.begin(), temporary.end()));
     if (!output)
         output.emplace(path, std::string(name.begin(), name.end()));
     write_own(*output);
     output->finish();
     // All of them have written.
-    static_cast<void>(talk.gather_all(std::vector<char>{}));
-    talk.at_first_rank([&] { output->commit(); });
+    static_cast<void>(comm.gather_all(std::vector<char>{}));
+    comm.at_first_rank([&] { output->commit(); });
 }
 
-void check_together(Conversation& talk, const std::function<void()>& check)
+void check_together(Communicator& comm, const std::function<void()>& check)
 {
     std::string fault;
     try {
@@ -78,26 +78,26 @@ void check_together(Conversation& talk, const std::function<void()>& check)
     } catch (const OutputError& error) {
         fault = error.what() + std::string("\n");
     }
-    const auto faults = talk.gather_all(std::vector<char>(fault.begin(), fault.end()));
-    talk.at_first_rank([&] {
+    const auto faults = comm.gather_all(std::vector<char>(fault.begin(), fault.end()));
+    comm.at_first_rank([&] {
         if (!faults.empty())
             throw OutputError(std::string(faults.begin(), std::ranges::find(faults, '\n')));
     });
 }
 
-std::array<bool, 3> fit_all(Conversation& talk, const std::array<bool, 3>& own)
+std::array<bool, 3> fit_all(Communicator& comm, const std::array<bool, 3>& own)
 {
     std::array<bool, 3> fits = {true, true, true};
-    for (const auto& of_rank : talk.gather_all(std::vector<std::array<bool, 3>>{own}))
+    for (const auto& of_rank : comm.gather_all(std::vector<std::array<bool, 3>>{own}))
         for (std::size_t k = 0; k < fits.size(); ++k)
             fits[k] = fits[k] && of_rank[k];
     return fits;
 }
 
-FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Loop& loop)
+FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Executor& exec)
 {
     FilePieces pieces{std::vector<std::size_t>(at(n)), std::move(make)};
-    for_each(loop, n, [&](Index i) {
+    for_each(exec, n, [&](Index i) {
         OutputBuffer piece;
         pieces.make(i, piece);
         pieces.sizes[i] = piece.content().size();
@@ -105,19 +105,19 @@ FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& f
     return pieces;
 }
 
-void write_pieces_together(Conversation& talk, const std::filesystem::path& path, std::string_view begin,
-                           const FilePieces& own, std::string_view end, const Loop& loop)
+void write_pieces_together(Communicator& comm, const std::filesystem::path& path, std::string_view begin,
+                           const FilePieces& own, std::string_view end, const Executor& exec)
 {
     std::vector<std::size_t> offsets{0};
     std::partial_sum(own.sizes.begin(), own.sizes.end(), std::back_inserter(offsets));
-    const auto bounds = gather_bounds_of(talk, static_cast<std::int64_t>(offsets.back()));
-    const std::size_t first = begin.size() + static_cast<std::size_t>(bounds[talk.rank()]);
-    write_together(talk, path, [&](const SharedOutput& output) {
-        if (talk.rank() == 0) {
+    const auto bounds = gather_bounds_of(comm, static_cast<std::int64_t>(offsets.back()));
+    const std::size_t first = begin.size() + static_cast<std::size_t>(bounds[comm.rank()]);
+    write_together(comm, path, [&](const SharedOutput& output) {
+        if (comm.rank() == 0) {
             output.write(begin, 0);
             output.write(end, begin.size() + static_cast<std::size_t>(bounds.back()));
         }
-        for_each(loop, static_cast<Index>(own.sizes.size()), [&](Index i) {
+        for_each(exec, static_cast<Index>(own.sizes.size()), [&](Index i) {
             OutputBuffer piece;
             own.make(i, piece);
             output.write(piece.content(), first + offsets[i]);
@@ -125,21 +125,21 @@ void write_pieces_together(Conversation& talk, const std::filesystem::path& path
     });
 }
 
-void write_labelled_together(Conversation& talk, const std::filesystem::path& path, const PolygonMesh& mesh,
+void write_labelled_together(Communicator& comm, const std::filesystem::path& path, const PolygonMesh& mesh,
                              const std::vector<Index>& labels)
 {
-    const auto vertices = gather_bounds_of(talk, mesh.n_vertices());
-    const auto faces = gather_bounds_of(talk, mesh.n_faces());
-    const auto long_faces = talk.gather_all(std::vector<char>{static_cast<char>(has_long_face(mesh) ? 1 : 0)});
+    const auto vertices = gather_bounds_of(comm, mesh.n_vertices());
+    const auto faces = gather_bounds_of(comm, mesh.n_faces());
+    const auto long_faces = comm.gather_all(std::vector<char>{static_cast<char>(has_long_face(mesh) ? 1 : 0)});
     const PlyCounts counts{static_cast<Index>(vertices.back()), static_cast<Index>(faces.back()),
                            std::ranges::find(long_faces, 1) != long_faces.end()};
     constexpr std::size_t bytes_of_label = 3 + sizeof(std::int32_t);
     const std::size_t bytes = at(mesh.n_faces()) * ((counts.has_long_face ? 4 : 1) + bytes_of_label) +
                               at(mesh.n_corners()) * sizeof(std::int32_t);
-    const auto face_bytes = gather_bounds_of(talk, static_cast<std::int64_t>(bytes));
-    write_together(talk, path, [&](const SharedOutput& output) {
-        write_labelled_stretch(output, mesh, labels, counts, static_cast<std::size_t>(vertices[talk.rank()]),
-                               static_cast<std::size_t>(face_bytes[talk.rank()]));
+    const auto face_bytes = gather_bounds_of(comm, static_cast<std::int64_t>(bytes));
+    write_together(comm, path, [&](const SharedOutput& output) {
+        write_labelled_range(output, mesh, labels, counts, static_cast<std::size_t>(vertices[comm.rank()]),
+                             static_cast<std::size_t>(face_bytes[comm.rank()]));
     });
 }
 

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
+#include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/byte_writer.h"
 #include "partition/io/shared_output.h"
-#include "partition/loop.h"
 #include "partition/polygon_mesh.h"
 
 /// Files that ranks write together. All of them call these functions together.
@@ -23,14 +23,14 @@ void require_slices_of(FileFormat format, const std::filesystem::path& path);
 
 /// Rank 0 makes the file, all write their slices, and rank 0 gives it its name.
 /// @throws OutputError
-void write_together(Conversation& talk, const std::filesystem::path& path,
+void write_together(Communicator& comm, const std::filesystem::path& path,
                     const std::function<void(const SharedOutput&)>& write_own);
 
 /// Throws on all ranks what is wrong with a result: the OutputError of the lowest rank that has any.
-void check_together(Conversation& talk, const std::function<void()>& check);
+void check_together(Communicator& comm, const std::function<void()>& check);
 
 /// Whether the types of a file can hold the coordinates x, y and z of all ranks. @param own those of this rank.
-std::array<bool, 3> fit_all(Conversation& talk, const std::array<bool, 3>& own);
+std::array<bool, 3> fit_all(Communicator& comm, const std::array<bool, 3>& own);
 
 /// What this rank writes of a file: pieces that follow each other, and those of the ranks before it.
 struct FilePieces {
@@ -41,15 +41,15 @@ struct FilePieces {
 };
 
 /// Makes each of n pieces once to see how long it is, so that none has to be kept until all are known.
-FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Loop& loop);
+FilePieces measure_pieces(Index n, std::function<void(Index piece, ByteWriter& file)> make, const Executor& exec);
 
 /// As write_together, with `begin` before the pieces of all ranks and `end` behind them, which rank 0 writes.
-void write_pieces_together(Conversation& talk, const std::filesystem::path& path, std::string_view begin,
-                           const FilePieces& own, std::string_view end, const Loop& loop);
+void write_pieces_together(Communicator& comm, const std::filesystem::path& path, std::string_view begin,
+                           const FilePieces& own, std::string_view end, const Executor& exec);
 
-/// As write_labelled_ply, of a mesh of which every rank has a stretch.
-/// @param mesh of this rank's stretch, with corners numbered in the whole mesh. @param labels of its faces.
-void write_labelled_together(Conversation& talk, const std::filesystem::path& path, const PolygonMesh& mesh,
+/// As write_labelled_ply, of a mesh of which every rank has a range.
+/// @param mesh of this rank's range, with corners numbered in the whole mesh. @param labels of its faces.
+void write_labelled_together(Communicator& comm, const std::filesystem::path& path, const PolygonMesh& mesh,
                              const std::vector<Index>& labels);
 
 }  // namespace seamflow

@@ -13,12 +13,12 @@
 
 #include "engine/distributed/files/shared_faults.h"
 #include "engine/distributed/files/shared_writing.h"
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/formats/off.h"
 #include "partition/formats/ply_header.h"
-#include "partition/formats/ply_stretches.h"
+#include "partition/formats/ply_ranges.h"
 #include "partition/formats/splicing.h"
 #include "partition/io/input_file.h"
 #include "partition/io/shared_output.h"
@@ -42,19 +42,19 @@ struct ByteRange {
 };
 
 /// What a rank has of n elements.
-struct Stretch {
+struct ElementRange {
     Index begin = 0;
     Index end = 0;
 
-    Stretch(Index n, const Conversation& talk, Index block)
-        : begin(static_cast<Index>(begin_of_stretch(n, talk.rank(), talk.size(), block)))
-        , end(static_cast<Index>(begin_of_stretch(n, talk.rank() + 1, talk.size(), block)))
+    ElementRange(Index n, const Communicator& comm, Index block)
+        : begin(static_cast<Index>(begin_of_range(n, comm.rank(), comm.size(), block)))
+        , end(static_cast<Index>(begin_of_range(n, comm.rank() + 1, comm.size(), block)))
     {
     }
 };
 
 /// @returns nowhere if they are not all there.
-std::size_t end_of_faces(const PlyStretches& ply, std::size_t byte, const Stretch& faces)
+std::size_t end_of_faces(const PlyRanges& ply, std::size_t byte, const ElementRange& faces)
 {
     try {
         return ply.end_of_faces(byte, faces.begin, faces.end);
@@ -66,23 +66,23 @@ std::size_t end_of_faces(const PlyStretches& ply, std::size_t byte, const Stretc
 /// Where the faces of this rank stand. If every rank's end where the next rank's begin, all of them do where they seem
 /// to: it is so if all are triangles. If not, one rank after another goes past its faces.
 /// @returns an end that is nowhere if that is not in the file, and the same for the begin on all ranks behind.
-ByteRange find_faces(Conversation& talk, const PlyStretches& ply, const Stretch& faces)
+ByteRange find_faces(Communicator& comm, const PlyRanges& ply, const ElementRange& faces)
 {
     ByteRange own{ply.likely_begin(faces.begin), 0};
     own.end = end_of_faces(ply, own.begin, faces);
-    const auto likely = talk.gather_all(std::vector<ByteRange>{own});
+    const auto likely = comm.gather_all(std::vector<ByteRange>{own});
     const auto gap = std::ranges::adjacent_find(
         likely, [](const ByteRange& range, const ByteRange& next) { return range.end != next.begin; });
     if (gap == likely.end() && likely.back().end != nowhere)
         return own;
     std::size_t next = ply.likely_begin(0);
-    for (int r = 0; r < talk.size(); ++r) {
+    for (int r = 0; r < comm.size(); ++r) {
         std::vector<std::size_t> end;
-        if (r == talk.rank()) {
+        if (r == comm.rank()) {
             own = {next, next == nowhere ? nowhere : end_of_faces(ply, next, faces)};
             end.push_back(own.end);
         }
-        next = talk.gather_all(end).front();
+        next = comm.gather_all(end).front();
     }
     return own;
 }
@@ -96,159 +96,159 @@ class SlicedPlyFile final : public SharedMeshFile {
     {
     }
 
-    RankSlice read(Conversation& talk) override
+    RankSlice read(Communicator& comm) override
     {
         const InputFile input(file_);
         if (format_ == FileFormat::Off)
-            find_layout(talk, input.content());
-        std::unique_ptr<PlyStretches> opened;
-        talk.look_together([&] { opened = stretches_of(input.content()); });
-        const PlyStretches& ply = *opened;
-        const Stretch vertices(ply.n_vertices(), talk, sharing_.block);
-        const Stretch faces(ply.n_faces(), talk, sharing_.block);
+            find_layout(comm, input.content());
+        std::unique_ptr<PlyRanges> opened;
+        comm.look_together([&] { opened = ranges_of(input.content()); });
+        const PlyRanges& ply = *opened;
+        const ElementRange vertices(ply.n_vertices(), comm, sharing_.block);
+        const ElementRange faces(ply.n_faces(), comm, sharing_.block);
         RankSlice slice;
-        talk.look_together([&] { slice.vertices = ply.vertices(vertices.begin, vertices.end); });
-        others_ = find_faces(talk, ply, faces);
+        comm.look_together([&] { slice.vertices = ply.vertices(vertices.begin, vertices.end); });
+        others_ = find_faces(comm, ply, faces);
         faces_begin_ = others_.begin;
-        read_faces(talk, ply, faces, slice, faults_);
-        talk.look_together([&] {
+        read_faces(comm, ply, faces, slice, faults_);
+        comm.look_together([&] {
             if (ply.n_vertices() == 0)
                 throw InputError(fmt::format("{}: byte {}: the file has no vertices; export the mesh again",
                                              file_.path().string(), ply.header_bytes().size()));
-            if (talk.rank() == talk.size() - 1)
+            if (comm.rank() == comm.size() - 1)
                 ply.require_end(others_.end);
         });
-        if (talk.rank() == 0)
+        if (comm.rank() == 0)
             others_.begin = static_cast<std::size_t>(end_of_vertices(ply) - ply.content().data());
-        if (talk.rank() == talk.size() - 1)
+        if (comm.rank() == comm.size() - 1)
             others_.end = ply.content().size();
         checksum_ = checksum(ply, vertices);
-        return move_to_stretches(talk, std::move(slice), sharing_.block);
+        return move_to_ranges(comm, std::move(slice), sharing_.block);
     }
 
     void require_writable_as(const std::filesystem::path& path) const override { require_slices_of(format_, path); }
 
-    std::vector<std::string> write(Conversation& talk, const std::filesystem::path& path,
+    std::vector<std::string> write(Communicator& comm, const std::filesystem::path& path,
                                    const Points& vertices) override
     {
         const InputFile input(file_);
-        const auto opened = unchanged(talk, input.content());
-        const PlyStretches& ply = *opened;
-        const Stretch own(ply.n_vertices(), talk, sharing_.block);
+        const auto opened = unchanged(comm, input.content());
+        const PlyRanges& ply = *opened;
+        const ElementRange own(ply.n_vertices(), comm, sharing_.block);
         if (format_ == FileFormat::Off)
-            check_together(talk, [&] { require_fits_binary_off(path, vertices, own.begin, run_serially); });
+            check_together(comm, [&] { require_fits_binary_off(path, vertices, own.begin, run_serially); });
         const std::vector<PlyChange> changes =
-            changes_of_positions(ply.vertex_element(), fit_all(talk, coordinates_fit(ply.vertex_element(), vertices)));
+            changes_of_positions(ply.vertex_element(), fit_all(comm, coordinates_fit(ply.vertex_element(), vertices)));
         std::vector<std::string> remarks;
         bool rounded = false;
-        write_together(talk, path, [&](const SharedOutput& output) {
-            std::tie(remarks, rounded) = write_slice(talk, output, ply, own, vertices, changes);
+        write_together(comm, path, [&](const SharedOutput& output) {
+            std::tie(remarks, rounded) = write_slice(comm, output, ply, own, vertices, changes);
         });
-        const auto all_rounded = talk.gather_all(std::vector<char>{static_cast<char>(rounded ? 1 : 0)});
+        const auto all_rounded = comm.gather_all(std::vector<char>{static_cast<char>(rounded ? 1 : 0)});
         if (std::ranges::find(all_rounded, 1) != all_rounded.end())
             remarks.push_back(rounding_remark(file_.path()));
         return remarks;
     }
 
-    void write_labelled(Conversation& talk, const std::filesystem::path& path, const Points& vertices,
+    void write_labelled(Communicator& comm, const std::filesystem::path& path, const Points& vertices,
                         const std::vector<Index>& labels) override
     {
         const InputFile input(file_);
-        const auto opened = unchanged(talk, input.content());
-        const PlyStretches& ply = *opened;
-        const Stretch faces(ply.n_faces(), talk, sharing_.block);
+        const auto opened = unchanged(comm, input.content());
+        const PlyRanges& ply = *opened;
+        const ElementRange faces(ply.n_faces(), comm, sharing_.block);
         RankSlice slice;
         slice.vertices = vertices;
         FaultLog known_faults;
-        read_faces(talk, ply, faces, slice, known_faults);
-        const PolygonMesh mesh = mesh_of(move_to_stretches(talk, std::move(slice), sharing_.block));
-        write_labelled_together(talk, path, mesh, labels);
+        read_faces(comm, ply, faces, slice, known_faults);
+        const PolygonMesh mesh = mesh_of(move_to_ranges(comm, std::move(slice), sharing_.block));
+        write_labelled_together(comm, path, mesh, labels);
     }
 
   private:
     /// So many elements are made at once, and written.
     static constexpr Index at_once = 1 << 14;
 
-    [[nodiscard]] std::unique_ptr<PlyStretches> stretches_of(std::string_view content) const
+    [[nodiscard]] std::unique_ptr<PlyRanges> ranges_of(std::string_view content) const
     {
         if (format_ == FileFormat::Ply)
-            return std::make_unique<PlyStretches>(file_.path(), content);
-        return std::make_unique<PlyStretches>(file_.path(), content, layout_, elements_begin_);
+            return std::make_unique<PlyRanges>(file_.path(), content);
+        return std::make_unique<PlyRanges>(file_.path(), content, layout_, elements_begin_);
     }
 
-    std::unique_ptr<PlyStretches> unchanged(Conversation& talk, std::string_view content) const
+    std::unique_ptr<PlyRanges> unchanged(Communicator& comm, std::string_view content) const
     {
-        std::unique_ptr<PlyStretches> ply;
-        talk.look_together([&] {
+        std::unique_ptr<PlyRanges> ply;
+        comm.look_together([&] {
             try {
-                ply = stretches_of(content);
+                ply = ranges_of(content);
             } catch (const InputError&) {
                 throw InputError(changed_since_read(file_.path()));
             }
-            if (checksum(*ply, Stretch(ply->n_vertices(), talk, sharing_.block)) != checksum_)
+            if (checksum(*ply, ElementRange(ply->n_vertices(), comm, sharing_.block)) != checksum_)
                 throw InputError(changed_since_read(file_.path()));
         });
         return ply;
     }
 
     /// Finds the first layout of binary OFF that fits.
-    void find_layout(Conversation& talk, std::string_view content)
+    void find_layout(Communicator& comm, std::string_view content)
     {
         const std::size_t offset = start_of_binary_off(content).value_or(0);
         elements_begin_ = offset + binary_off_counts_bytes;
         for (const PlyHeader& header : layouts_of_binary_off(content, offset)) {
             layout_ = header;
-            if (fits(talk, content))
+            if (fits(comm, content))
                 return;
         }
-        talk.look_together([&] { refuse_binary_off(file_.path(), content, offset); });
+        comm.look_together([&] { refuse_binary_off(file_.path(), content, offset); });
     }
 
     /// Whether the data end where the counts say.
-    bool fits(Conversation& talk, std::string_view content) const
+    bool fits(Communicator& comm, std::string_view content) const
     {
-        std::unique_ptr<PlyStretches> off;
+        std::unique_ptr<PlyRanges> off;
         try {
-            off = stretches_of(content);
+            off = ranges_of(content);
         } catch (const InputError&) {
             return false;
         }
         std::uint8_t is_there = 1;
-        const ByteRange own = find_faces(talk, *off, Stretch(off->n_faces(), talk, sharing_.block));
+        const ByteRange own = find_faces(comm, *off, ElementRange(off->n_faces(), comm, sharing_.block));
         try {
             if (own.end == nowhere)
                 is_there = 0;
-            else if (talk.rank() == talk.size() - 1)
+            else if (comm.rank() == comm.size() - 1)
                 off->require_end(own.end);
         } catch (const InputError&) {
             is_there = 0;
         }
-        const auto all = talk.gather_all(std::vector<std::uint8_t>{is_there});
+        const auto all = comm.gather_all(std::vector<std::uint8_t>{is_there});
         return std::ranges::find(all, 0) == all.end();
     }
 
     /// @param faces of this rank in the file. @param faults receives what is left out, at rank 0.
-    void read_faces(Conversation& talk, const PlyStretches& ply, const Stretch& faces, RankSlice& slice,
+    void read_faces(Communicator& comm, const PlyRanges& ply, const ElementRange& faces, RankSlice& slice,
                     FaultLog& faults) const
     {
         FaultLog own{.of_faces_alone = true};
-        talk.look_together([&] {
+        comm.look_together([&] {
             if (faces_begin_ == nowhere)
                 return;
             PolygonMesh mesh = ply.faces(faces_begin_, faces.begin, faces.end, own);
             slice.face_offsets = std::move(mesh.face_offsets);
             slice.corners.assign(mesh.face_vertices.begin(), mesh.face_vertices.end());
         });
-        faults = join_faults(talk, own, faces.end - faces.begin);
+        faults = join_faults(comm, own, faces.end - faces.begin);
     }
 
-    static const char* end_of_vertices(const PlyStretches& ply)
+    static const char* end_of_vertices(const PlyRanges& ply)
     {
         const std::string_view all = ply.bytes_of_vertices(0, ply.n_vertices());
         return all.data() + all.size();
     }
 
-    [[nodiscard]] XXH64_hash_t checksum(const PlyStretches& ply, const Stretch& vertices) const
+    [[nodiscard]] XXH64_hash_t checksum(const PlyRanges& ply, const ElementRange& vertices) const
     {
         const std::string_view positions = ply.bytes_of_vertices(vertices.begin, vertices.end);
         const std::string_view others = others_.of(ply.content());
@@ -256,8 +256,8 @@ class SlicedPlyFile final : public SharedMeshFile {
                XXH3_64bits_withSeed(others.data(), others.size(), ply.content().size());
     }
 
-    std::pair<std::vector<std::string>, bool> write_slice(Conversation& talk, const SharedOutput& output,
-                                                          const PlyStretches& ply, const Stretch& own,
+    std::pair<std::vector<std::string>, bool> write_slice(Communicator& comm, const SharedOutput& output,
+                                                          const PlyRanges& ply, const ElementRange& own,
                                                           const Points& vertices,
                                                           const std::vector<PlyChange>& changes) const
     {
@@ -268,7 +268,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         else
             remarks = rewrite_ply_header(header, ply.path(), ply.header_bytes(), ply.vertex_element(), changes);
         header.text(ply.bytes_before_vertices());
-        if (talk.rank() == 0)
+        if (comm.rank() == 0)
             output.write(header.content(), 0);
         const std::size_t vertex_bytes = bytes_of_vertex(ply, changes);
         bool rounded = false;
@@ -286,7 +286,7 @@ class SlicedPlyFile final : public SharedMeshFile {
         return {std::move(remarks), rounded};
     }
 
-    static std::size_t bytes_of_vertex(const PlyStretches& ply, const std::vector<PlyChange>& changes)
+    static std::size_t bytes_of_vertex(const PlyRanges& ply, const std::vector<PlyChange>& changes)
     {
         std::size_t n = 0;
         for (std::size_t p = 0; p < changes.size(); ++p)

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "engine/distributed/files/shared_mesh_file.h"
+#include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
-#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -14,6 +14,6 @@ namespace seamflow {
 /// @param encoding of the file. @param loop runs what is done piece by piece.
 /// @throws InputError naming the file.
 std::unique_ptr<SharedMeshFile> open_sliced_stl(const std::filesystem::path& path, Encoding encoding,
-                                                const FileSharing& sharing, const Loop& loop);
+                                                const FileSharing& sharing, const Executor& exec);
 
 }  // namespace seamflow

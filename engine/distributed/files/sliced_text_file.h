@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "engine/distributed/files/shared_mesh_file.h"
+#include "partition/executor.h"
 #include "partition/formats/text_slices.h"
-#include "partition/loop.h"
 
 namespace seamflow {
 
@@ -18,6 +18,6 @@ using TextSlicer = std::unique_ptr<SlicedText> (*)(const std::filesystem::path& 
 /// @param loop runs what is done piece by piece.
 /// @throws InputError naming the file.
 std::unique_ptr<SharedMeshFile> open_sliced_text(const std::filesystem::path& path, TextSlicer slicer,
-                                                 const FileSharing& sharing, const Loop& loop);
+                                                 const FileSharing& sharing, const Executor& exec);
 
 }  // namespace seamflow

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 #include "engine/distributed/parts/whole_mesh.h"
 #include "partition/errors.h"
 #include "partition/formats/stl.h"
@@ -18,65 +18,65 @@ namespace {
 
 class BinaryStlShare final : public StlShare {
   public:
-    BinaryStlShare(Conversation& talk, const std::filesystem::path& path, std::string_view content)
+    BinaryStlShare(Communicator& comm, const std::filesystem::path& path, std::string_view content)
     {
-        talk.look_together([&] { stl_.emplace(path, content); });
-        begin_ = static_cast<Index>(begin_of_stretch(stl_->n_facets(), talk.rank(), talk.size(), 1));
-        end_ = static_cast<Index>(begin_of_stretch(stl_->n_facets(), talk.rank() + 1, talk.size(), 1));
+        comm.look_together([&] { stl_.emplace(path, content); });
+        begin_ = static_cast<Index>(begin_of_range(stl_->n_facets(), comm.rank(), comm.size(), 1));
+        end_ = static_cast<Index>(begin_of_range(stl_->n_facets(), comm.rank() + 1, comm.size(), 1));
     }
 
     [[nodiscard]] std::string_view bytes() const override { return stl_->bytes(begin_, end_); }
 
-    PointNumbers read(Conversation& talk, PolygonMesh& faces, FaultLog& faults) const override
+    PointNumbers read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const override
     {
         PointNumbers points;
-        talk.look_together([&] { points = stl_->facets(begin_, end_, faces, faults); });
-        talk.look_together([&] { stl_->require_end(); });
+        comm.look_together([&] { points = stl_->facets(begin_, end_, faces, faults); });
+        comm.look_together([&] { stl_->require_end(); });
         return points;
     }
 
-    void refuse_empty(Conversation& talk) const override
+    void refuse_empty(Communicator& comm) const override
     {
-        talk.look_together([&] { stl_->refuse_empty(); });
+        comm.look_together([&] { stl_->refuse_empty(); });
     }
 
   private:
-    std::optional<StlStretches> stl_;
+    std::optional<StlRanges> stl_;
     Index begin_ = 0;
     Index end_ = 0;
 };
 
 class TextStlShare final : public StlShare {
   public:
-    TextStlShare(const Conversation& talk, const std::filesystem::path& path, std::string_view content, Loop loop)
+    TextStlShare(const Communicator& comm, const std::filesystem::path& path, std::string_view content, Executor exec)
         : text_(path, content)
-        , loop_(std::move(loop))
+        , exec_(std::move(exec))
         , own_(text_.all().substr(text_.all().size()))
     {
-        const std::vector<std::string_view> shares = text_.shares(static_cast<std::size_t>(talk.size()));
-        if (static_cast<std::size_t>(talk.rank()) < shares.size())
-            own_ = shares[static_cast<std::size_t>(talk.rank())];
+        const std::vector<std::string_view> shares = text_.shares(static_cast<std::size_t>(comm.size()));
+        if (static_cast<std::size_t>(comm.rank()) < shares.size())
+            own_ = shares[static_cast<std::size_t>(comm.rank())];
     }
 
     [[nodiscard]] std::string_view bytes() const override { return own_; }
 
-    PointNumbers read(Conversation& talk, PolygonMesh& faces, FaultLog& faults) const override
+    PointNumbers read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const override
     {
         PointNumbers points;
         std::uint8_t is_faultless = 1;
         try {
-            points = text_.facets(own_, faces, {loop_});
+            points = text_.facets(own_, faces, {exec_});
         } catch (const InputError&) {
             is_faultless = 0;
         }
-        const auto all = talk.gather_all(std::vector<std::uint8_t>{is_faultless});
-        return std::ranges::find(all, 0) == all.end() ? std::move(points) : check(talk, faces, faults);
+        const auto all = comm.gather_all(std::vector<std::uint8_t>{is_faultless});
+        return std::ranges::find(all, 0) == all.end() ? std::move(points) : check(comm, faces, faults);
     }
 
-    void refuse_empty(Conversation& talk) const override
+    void refuse_empty(Communicator& comm) const override
     {
-        const auto lines = gather_bounds_of(talk, static_cast<std::int64_t>(text_.lines_of(own_)));
-        talk.look_together([&] {
+        const auto lines = gather_bounds_of(comm, static_cast<std::int64_t>(text_.lines_of(own_)));
+        comm.look_together([&] {
             throw InputError(text_.position_of(static_cast<std::size_t>(lines.back())) +
                              ": the file has no vertices; export the mesh again");
         });
@@ -85,11 +85,11 @@ class TextStlShare final : public StlShare {
   private:
     /// Reads as if each share began within a solid, but the first. Where that is not so in the end, after a share
     /// without fault, the next one begins with a fault.
-    PointNumbers check(Conversation& talk, PolygonMesh& faces, FaultLog& faults) const
+    PointNumbers check(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const
     {
-        const auto lines = gather_bounds_of(talk, static_cast<std::int64_t>(text_.lines_of(own_)));
-        const auto lines_before = static_cast<std::size_t>(lines[talk.rank()]);
-        const bool begins_in_solid = talk.rank() > 0;
+        const auto lines = gather_bounds_of(comm, static_cast<std::int64_t>(text_.lines_of(own_)));
+        const auto lines_before = static_cast<std::size_t>(lines[comm.rank()]);
+        const bool begins_in_solid = comm.rank() > 0;
         bool in_solid = begins_in_solid;
         PointNumbers points;
         std::string fault;
@@ -100,9 +100,9 @@ class TextStlShare final : public StlShare {
         } catch (const InputError& error) {
             fault = error.what();
         }
-        const auto ends = talk.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(in_solid ? 1 : 0)});
-        const bool is_in_solid = talk.rank() > 0 && ends[static_cast<std::size_t>(talk.rank()) - 1] != 0;
-        talk.look_together([&] {
+        const auto ends = comm.gather_all(std::vector<std::uint8_t>{static_cast<std::uint8_t>(in_solid ? 1 : 0)});
+        const bool is_in_solid = comm.rank() > 0 && ends[static_cast<std::size_t>(comm.rank()) - 1] != 0;
+        comm.look_together([&] {
             if (is_in_solid != begins_in_solid && !own_.empty()) {
                 bool before = is_in_solid;
                 PolygonMesh unused;
@@ -116,19 +116,19 @@ class TextStlShare final : public StlShare {
     }
 
     StlText text_;
-    Loop loop_;
+    Executor exec_;
     /// Perhaps empty.
     std::string_view own_;
 };
 
 }  // namespace
 
-std::unique_ptr<StlShare> share_stl(Conversation& talk, const std::filesystem::path& path, std::string_view content,
-                                    Encoding encoding, const Loop& loop)
+std::unique_ptr<StlShare> share_stl(Communicator& comm, const std::filesystem::path& path, std::string_view content,
+                                    Encoding encoding, const Executor& exec)
 {
     if (encoding == Encoding::Ascii)
-        return std::make_unique<TextStlShare>(talk, path, content, loop);
-    return std::make_unique<BinaryStlShare>(talk, path, content);
+        return std::make_unique<TextStlShare>(comm, path, content, exec);
+    return std::make_unique<BinaryStlShare>(comm, path, content);
 }
 
 }  // namespace seamflow

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string_view>
 
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
+#include "partition/executor.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/fault_log.h"
-#include "partition/loop.h"
 #include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 
@@ -29,17 +29,17 @@ class StlShare {
     /// @param faces without vertices; receives them, with numbers of the points that are returned as corners.
     /// @param faults receives what is left out, numbered from 0 in this share.
     /// @throws InputError as read_stl.
-    virtual PointNumbers read(Conversation& talk, PolygonMesh& faces, FaultLog& faults) const = 0;
+    virtual PointNumbers read(Communicator& comm, PolygonMesh& faces, FaultLog& faults) const = 0;
 
     /// Says that all facets together have no vertices. All ranks call this together.
     /// @throws InputError
-    virtual void refuse_empty(Conversation& talk) const = 0;
+    virtual void refuse_empty(Communicator& comm) const = 0;
 };
 
 /// All ranks call this together.
 /// @param content has to outlive the result.
 /// @throws InputError as read_stl.
-std::unique_ptr<StlShare> share_stl(Conversation& talk, const std::filesystem::path& path, std::string_view content,
-                                    Encoding encoding, const Loop& loop);
+std::unique_ptr<StlShare> share_stl(Communicator& comm, const std::filesystem::path& path, std::string_view content,
+                                    Encoding encoding, const Executor& exec);
 
 }  // namespace seamflow

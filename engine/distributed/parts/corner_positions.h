@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/index_lists.h"
 #include "partition/vector_area.h"
 
 namespace seamflow {
 
-/// The positions of the corners of a stretch of faces.
+/// The positions of the corners of a range of faces.
 class CornerPositions {
   public:
     /// All ranks call this together.
     /// @param slice must outlive this.
-    CornerPositions(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds);
+    CornerPositions(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds);
 
-    /// @param corner of the stretch, as numbered in the whole mesh.
+    /// @param corner of the range, as numbered in the whole mesh.
     [[nodiscard]] Point operator[](std::int64_t corner) const
     {
         if (is_own(corner))
@@ -32,7 +32,7 @@ class CornerPositions {
     const RankSlice& slice_;
     std::int64_t first_;
     std::int64_t end_;
-    /// Ascending, those of other stretches.
+    /// Ascending, those of other ranges.
     std::vector<std::int64_t> others_;
     Points positions_;
 };

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/distributed/parts/number_set.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
 
@@ -16,7 +16,7 @@ namespace seamflow {
 
 namespace {
 
-/// So many corners have the faces of a sub-mesh in some stretch.
+/// So many corners have the faces of a sub-mesh in some range.
 struct SubMeshCost {
     Index label;
     std::int64_t corners;
@@ -46,7 +46,7 @@ std::vector<SubMeshCost> summed(std::vector<SubMeshCost> costs)
 /// Whose the sub-meshes are: the first label of each rank, ascending.
 class Owners {
   public:
-    Owners(Conversation& talk, const RankSlice& slice)
+    Owners(Communicator& comm, const RankSlice& slice)
     {
         std::vector<SubMeshCost> own;
         for (Index f = 0; f < slice.n_faces(); ++f) {
@@ -54,7 +54,7 @@ class Owners {
                 own.push_back({slice.labels[f], 0});
             own.back().corners += slice.face_offsets[f + 1] - slice.face_offsets[f];
         }
-        const std::vector<SubMeshCost> all = summed(talk.gather_all(summed(std::move(own))));
+        const std::vector<SubMeshCost> all = summed(comm.gather_all(summed(std::move(own))));
         std::int64_t total = 0;
         for (const SubMeshCost& cost : all)
             total += cost.corners;
@@ -63,7 +63,7 @@ class Owners {
         for (const SubMeshCost& cost : all) {
             const std::int64_t middle = before + cost.corners / 2;
             labels_.push_back(cost.label);
-            ranks_.push_back(static_cast<int>(static_cast<double>(middle) / static_cast<double>(total) * talk.size()));
+            ranks_.push_back(static_cast<int>(static_cast<double>(middle) / static_cast<double>(total) * comm.size()));
             before += cost.corners;
         }
     }
@@ -75,7 +75,7 @@ class Owners {
     std::vector<int> ranks_;
 };
 
-/// Gives the faces of a stretch to their ranks.
+/// Gives the faces of a range to their ranks.
 /// @tparam Number holds all numbers of the whole mesh.
 template <class Number>
 std::vector<Bytes> pack_faces(const RankSlice& slice, const Owners& owners, std::int64_t first_face, int n_ranks)
@@ -151,12 +151,12 @@ void number_corners(std::vector<Index>& corners, const NumberSet<Index>& vertice
 
 /// @returns without positions.
 template <class Number>
-MeshPart deal_faces(Conversation& talk, const RankSlice& slice, const SliceBounds& bounds)
+MeshPart deal_faces(Communicator& comm, const RankSlice& slice, const SliceBounds& bounds)
 {
-    const Owners owners(talk, slice);
+    const Owners owners(comm, slice);
     MeshPart part;
     auto corners = unpack_faces<Number>(
-        talk.exchange(pack_faces<Number>(slice, owners, bounds.faces[talk.rank()], talk.size())), part);
+        comm.exchange(pack_faces<Number>(slice, owners, bounds.faces[comm.rank()], comm.size())), part);
     const NumberSet<Number> vertices(corners);
     const std::vector<Number> numbers = vertices.numbers();
     part.vertex_numbers.assign(numbers.begin(), numbers.end());
@@ -178,15 +178,15 @@ void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank
                                  bounds.vertices.back()));
 }
 
-int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number)
+int range_of(std::span<const std::int64_t> bounds, std::int64_t number)
 {
     return static_cast<int>(std::ranges::upper_bound(bounds, number) - bounds.begin()) - 1;
 }
 
-Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
+Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<const std::int64_t> numbers,
                        std::span<const std::int64_t> bounds)
 {
-    const std::int64_t first = bounds[talk.rank()];
+    const std::int64_t first = bounds[comm.rank()];
     Points positions(static_cast<Eigen::Index>(numbers.size()), 3);
     std::vector<Bytes> questions;
     // Where the answer of each rank belongs.
@@ -194,7 +194,7 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
     for (auto begin = numbers.begin(); const std::int64_t bound : bounds.subspan(1)) {
         const auto end = std::lower_bound(begin, numbers.end(), bound);
         const auto row = begin - numbers.begin();
-        const bool is_own = static_cast<int>(places.size()) == talk.rank();
+        const bool is_own = static_cast<int>(places.size()) == comm.rank();
         places.push_back(positions.data() + 3 * row);
         questions.push_back(is_own ? Bytes() : packed(std::span(begin, end)));
         if (is_own)
@@ -203,7 +203,7 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
         begin = end;
     }
     std::vector<Bytes> answers;
-    for (const Bytes& question : talk.exchange(std::move(questions))) {
+    for (const Bytes& question : comm.exchange(std::move(questions))) {
         Packer packer;
         if (!question.empty()) {
             const auto asked = unpacked<std::int64_t>(question);
@@ -213,7 +213,7 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
         }
         answers.push_back(packer.take());
     }
-    for (auto place = places.begin(); const Bytes& answer : talk.exchange(std::move(answers))) {
+    for (auto place = places.begin(); const Bytes& answer : comm.exchange(std::move(answers))) {
         if (!answer.empty())
             std::memcpy(*place, answer.data(), answer.size());
         ++place;
@@ -221,39 +221,39 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
     return positions;
 }
 
-SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice)
+SliceBounds gather_bounds(Communicator& comm, const RankSlice& slice)
 {
     SliceBounds bounds{{0}, {0}};
-    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{slice.vertices.rows()}))
+    for (const std::int64_t n : comm.gather_all(std::vector<std::int64_t>{slice.vertices.rows()}))
         bounds.vertices.push_back(bounds.vertices.back() + n);
-    for (const std::int64_t n : talk.gather_all(std::vector<std::int64_t>{slice.n_faces()}))
+    for (const std::int64_t n : comm.gather_all(std::vector<std::int64_t>{slice.n_faces()}))
         bounds.faces.push_back(bounds.faces.back() + n);
     return bounds;
 }
 
-MeshPart deal(Conversation& talk, const RankSlice& slice, std::int64_t short_up_to)
+MeshPart deal(Communicator& comm, const RankSlice& slice, std::int64_t short_up_to)
 {
-    const SliceBounds bounds = gather_bounds(talk, slice);
-    require_corners(slice, bounds, talk.rank());
-    require_labels(slice, bounds.faces[talk.rank()]);
+    const SliceBounds bounds = gather_bounds(comm, slice);
+    require_corners(slice, bounds, comm.rank());
+    require_labels(slice, bounds.faces[comm.rank()]);
     // Numbers are most of what a rank holds and sends meanwhile.
     MeshPart part = std::max(bounds.vertices.back(), bounds.faces.back()) <= short_up_to
-                        ? deal_faces<Index>(talk, slice, bounds)
-                        : deal_faces<std::int64_t>(talk, slice, bounds);
-    part.mesh.vertices = fetch_positions(talk, slice, part.vertex_numbers, bounds.vertices);
+                        ? deal_faces<Index>(comm, slice, bounds)
+                        : deal_faces<std::int64_t>(comm, slice, bounds);
+    part.mesh.vertices = fetch_positions(comm, slice, part.vertex_numbers, bounds.vertices);
     return part;
 }
 
-void collect_positions(Conversation& talk, std::span<const std::int64_t> numbers, const Points& positions,
+void collect_positions(Communicator& comm, std::span<const std::int64_t> numbers, const Points& positions,
                        RankSlice& slice)
 {
-    const SliceBounds bounds = gather_bounds(talk, slice);
-    const std::int64_t first = bounds.vertices[talk.rank()];
-    std::vector<Packer> to_each(talk.size());
+    const SliceBounds bounds = gather_bounds(comm, slice);
+    const std::int64_t first = bounds.vertices[comm.rank()];
+    std::vector<Packer> to_each(comm.size());
     for (std::size_t v = 0; v < numbers.size(); ++v) {
         const auto row = positions.row(static_cast<Eigen::Index>(v));
-        const int rank = stretch_of(bounds.vertices, numbers[v]);
-        if (rank == talk.rank()) {
+        const int rank = range_of(bounds.vertices, numbers[v]);
+        if (rank == comm.rank()) {
             slice.vertices.row(numbers[v] - first) = row;
             continue;
         }
@@ -263,7 +263,7 @@ void collect_positions(Conversation& talk, std::span<const std::int64_t> numbers
     std::vector<Bytes> bytes;
     for (Packer& packer : to_each)
         bytes.push_back(packer.take());
-    for (const Bytes& received : talk.exchange(std::move(bytes)))
+    for (const Bytes& received : comm.exchange(std::move(bytes)))
         for (Unpacker unpacker(received); !unpacker.is_at_end();) {
             const auto vertex = unpacker.get<std::int64_t>() - first;
             for (int c = 0; c < 3; ++c)

@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "engine/distributed/parts/mesh_part.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
 
-/// A stretch of a mesh's vertices and one of its faces, as a rank reads them from a file or writes them to it. Those of
+/// A range of a mesh's vertices and one of its faces, as a rank reads them from a file or writes them to it. Those of
 /// all ranks, in their order, make up the mesh.
 struct RankSlice {
-    /// Positions, #V of the stretch by 3.
+    /// Positions, #V of the range by 3.
     Points vertices = Points(0, 3);
-    /// #F of the stretch + 1, as in PolygonMesh; and the corners, numbered in the whole mesh.
+    /// #F of the range + 1, as in PolygonMesh; and the corners, numbered in the whole mesh.
     std::vector<Index> face_offsets{0};
     std::vector<std::int64_t> corners;
     /// #F: the sub-mesh of every face, at least 0.
@@ -25,27 +25,27 @@ struct RankSlice {
     [[nodiscard]] Index n_faces() const { return static_cast<Index>(face_offsets.size()) - 1; }
 };
 
-/// Where the stretches of all ranks begin: #ranks + 1.
+/// Where the ranges of all ranks begin: #ranks + 1.
 struct SliceBounds {
     std::vector<std::int64_t> vertices;
     std::vector<std::int64_t> faces;
 };
 
-/// The stretches in order. All ranks call this together.
-SliceBounds gather_bounds(Conversation& talk, const RankSlice& slice);
+/// The ranges in order. All ranks call this together.
+SliceBounds gather_bounds(Communicator& comm, const RankSlice& slice);
 
-/// Checks that the corners of a stretch are vertices of the mesh.
+/// Checks that the corners of a range are vertices of the mesh.
 /// @throws InputError naming the first face of this rank that has another.
 void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank);
 
-/// The stretch in which a number lies.
+/// The range in which a number lies.
 /// @param bounds of vertices or faces (see SliceBounds), the number within them.
-int stretch_of(std::span<const std::int64_t> bounds, std::int64_t number);
+int range_of(std::span<const std::int64_t> bounds, std::int64_t number);
 
 /// Asks the ranks that have them for the positions of vertices. All ranks call this together.
 /// @param numbers ascending, in the whole mesh. @param bounds those of vertices.
 /// @returns #numbers by 3.
-Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<const std::int64_t> numbers,
+Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<const std::int64_t> numbers,
                        std::span<const std::int64_t> bounds);
 
 /// Gives every face to the rank that has its sub-mesh, with the positions of its corners. Sub-meshes are dealt in
@@ -54,14 +54,14 @@ Points fetch_positions(Conversation& talk, const RankSlice& slice, std::span<con
 /// @param short_up_to where there are no more vertices and faces than that, their numbers are told in 32 bits, which
 ///        they must fit.
 /// @throws InputError naming the face with a corner that is none of the mesh's vertices, or with a negative label.
-MeshPart deal(Conversation& talk, const RankSlice& slice, std::int64_t short_up_to = std::numeric_limits<Index>::max());
+MeshPart deal(Communicator& comm, const RankSlice& slice, std::int64_t short_up_to = std::numeric_limits<Index>::max());
 
-/// Puts the positions of all parts into the stretches of vertices to which they belong. All ranks call this together.
+/// Puts the positions of all parts into the ranges of vertices to which they belong. All ranks call this together.
 /// @param numbers of the vertices of a part, as it was dealt. @param positions correspond; those of a vertex that
 /// several
 ///        ranks have are the same.
 /// @param slice as it was dealt out: vertices without faces keep their positions.
-void collect_positions(Conversation& talk, std::span<const std::int64_t> numbers, const Points& positions,
+void collect_positions(Communicator& comm, std::span<const std::int64_t> numbers, const Points& positions,
                        RankSlice& slice);
 
 }  // namespace seamflow

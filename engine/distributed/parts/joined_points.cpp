@@ -5,7 +5,7 @@
 
 #include <xxhash.h>
 
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 
 namespace seamflow {
 
@@ -30,7 +30,7 @@ std::size_t home_of_point(PointNumbers::Place point, int n_ranks)
 
 /// The answers to questions: those to a rank in the order in which it has asked.
 template <class Question, class Answer, class Find>
-std::vector<std::vector<Answer>> ask(Conversation& talk, const std::vector<std::vector<Question>>& questions,
+std::vector<std::vector<Answer>> ask(Communicator& comm, const std::vector<std::vector<Question>>& questions,
                                      Find&& find)
 {
     std::vector<Bytes> to_each;
@@ -38,7 +38,7 @@ std::vector<std::vector<Answer>> ask(Conversation& talk, const std::vector<std::
         to_each.push_back(packed(list));
     std::vector<Bytes> replies;
     int from = 0;
-    for (const Bytes& bytes : talk.exchange(std::move(to_each))) {
+    for (const Bytes& bytes : comm.exchange(std::move(to_each))) {
         std::vector<Answer> answers;
         for (const Question& question : unpacked<Question>(bytes))
             answers.push_back(find(from, static_cast<Index>(answers.size()), question));
@@ -46,7 +46,7 @@ std::vector<std::vector<Answer>> ask(Conversation& talk, const std::vector<std::
         ++from;
     }
     std::vector<std::vector<Answer>> answers;
-    for (const Bytes& bytes : talk.exchange(std::move(replies)))
+    for (const Bytes& bytes : comm.exchange(std::move(replies)))
         answers.push_back(unpacked<Answer>(bytes));
     return answers;
 }
@@ -70,36 +70,36 @@ struct PointsByHome {
 };
 
 /// Of each point, by its home, the first question for it, which the lowest rank that has it has asked.
-std::vector<std::vector<FirstQuestion>> find_firsts(Conversation& talk, const PointsByHome& own)
+std::vector<std::vector<FirstQuestion>> find_firsts(Communicator& comm, const PointsByHome& own)
 {
     PointNumbers known;
     std::vector<FirstQuestion> firsts;
-    return ask<PointNumbers::Place, FirstQuestion>(talk, own.points,
+    return ask<PointNumbers::Place, FirstQuestion>(comm, own.points,
                                                    [&](int from, Index i, const PointNumbers::Place& point) {
                                                        const auto number = static_cast<std::size_t>(known(point));
                                                        if (number == firsts.size())
-                                                           firsts.push_back({from, talk.rank(), i});
+                                                           firsts.push_back({from, comm.rank(), i});
                                                        return firsts[number];
                                                    });
 }
 
 }  // namespace
 
-JoinedPoints join_points(Conversation& talk, const std::vector<PointNumbers::Place>& own)
+JoinedPoints join_points(Communicator& comm, const std::vector<PointNumbers::Place>& own)
 {
-    const PointsByHome by_home(own, talk.size());
+    const PointsByHome by_home(own, comm.size());
     std::vector<FirstQuestion> first_of(own.size());
-    const auto found = find_firsts(talk, by_home);
+    const auto found = find_firsts(comm, by_home);
     for (std::size_t home = 0; home < found.size(); ++home)
         for (std::size_t k = 0; k < found[home].size(); ++k)
             first_of[by_home.numbers[home][k]] = found[home][k];
 
     JoinedPoints joined;
     joined.numbers.resize(own.size());
-    std::vector<std::vector<FirstQuestion>> of_others(static_cast<std::size_t>(talk.size()));
+    std::vector<std::vector<FirstQuestion>> of_others(static_cast<std::size_t>(comm.size()));
     std::vector<double> firsts;
     for (std::size_t i = 0; i < own.size(); ++i) {
-        if (first_of[i].rank != talk.rank()) {
+        if (first_of[i].rank != comm.rank()) {
             of_others[first_of[i].rank].push_back(first_of[i]);
             continue;
         }
@@ -108,15 +108,15 @@ JoinedPoints join_points(Conversation& talk, const std::vector<PointNumbers::Pla
     }
     const auto n_firsts = static_cast<Index>(firsts.size() / 3);
     joined.firsts = Eigen::Map<const Points>(firsts.data(), n_firsts, 3);
-    const std::int64_t before = gather_bounds_of(talk, n_firsts)[talk.rank()];
+    const std::int64_t before = gather_bounds_of(comm, n_firsts)[comm.rank()];
     const auto numbers =
-        ask<FirstQuestion, std::int64_t>(talk, of_others, [&](int, Index, const FirstQuestion& question) {
+        ask<FirstQuestion, std::int64_t>(comm, of_others, [&](int, Index, const FirstQuestion& question) {
             return before + joined.numbers[by_home.numbers[question.home][question.number]];
         });
     std::vector<std::size_t> next(numbers.size(), 0);
     for (std::size_t i = 0; i < own.size(); ++i) {
         const auto rank = static_cast<std::size_t>(first_of[i].rank);
-        if (first_of[i].rank == talk.rank())
+        if (first_of[i].rank == comm.rank())
             joined.numbers[i] += before;
         else
             joined.numbers[i] = numbers[rank][next[rank]++];

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/point_numbers.h"
 #include "partition/polygon_mesh.h"
 
@@ -21,6 +21,6 @@ struct JoinedPoints {
 /// Finds equal points (see PointNumbers) of several ranks. Each point is looked for on one rank, which its hash tells,
 /// so that none has all of them. All ranks call this together.
 /// @param own of this rank, all different.
-JoinedPoints join_points(Conversation& talk, const std::vector<PointNumbers::Place>& own);
+JoinedPoints join_points(Communicator& comm, const std::vector<PointNumbers::Place>& own);
 
 }  // namespace seamflow

@@ -32,13 +32,13 @@ int home_of(Number vertex, int n_ranks)
 }
 
 template <class Value>
-std::vector<std::vector<Value>> exchange_lists(Conversation& talk, const std::vector<std::vector<Value>>& to_each)
+std::vector<std::vector<Value>> exchange_lists(Communicator& comm, const std::vector<std::vector<Value>>& to_each)
 {
     std::vector<Bytes> bytes;
     for (const auto& values : to_each)
         bytes.push_back(packed(values));
     std::vector<std::vector<Value>> from_each;
-    for (const Bytes& received : talk.exchange(std::move(bytes)))
+    for (const Bytes& received : comm.exchange(std::move(bytes)))
         from_each.push_back(unpacked<Value>(received));
     return from_each;
 }
@@ -54,24 +54,24 @@ struct MetVertex {
 class VertexDirectory {
   public:
     /// @param own ascending.
-    VertexDirectory(Conversation& talk, std::span<const Number> own)
-        : talk_(&talk)
+    VertexDirectory(Communicator& comm, std::span<const Number> own)
+        : comm_(&comm)
     {
-        std::vector<std::vector<Number>> to_homes(talk.size());
+        std::vector<std::vector<Number>> to_homes(comm.size());
         for (const Number vertex : own)
-            to_homes[home_of(vertex, talk.size())].push_back(vertex);
-        const auto from_each = exchange_lists(talk, to_homes);
+            to_homes[home_of(vertex, comm.size())].push_back(vertex);
+        const auto from_each = exchange_lists(comm, to_homes);
         // The vertices that are at home here are numbered as multiples of the number of ranks are.
         std::vector<std::uint8_t> n_owners;
         for (const std::vector<Number>& vertices : from_each)
             for (const Number vertex : vertices) {
-                const auto place = static_cast<std::size_t>(vertex / talk.size());
+                const auto place = static_cast<std::size_t>(vertex / comm.size());
                 n_owners.resize(std::max(n_owners.size(), place + 1), 0);
                 n_owners[place] = n_owners[place] > 0 ? 2 : 1;
             }
-        for (int rank = 0; rank < talk.size(); ++rank)
+        for (int rank = 0; rank < comm.size(); ++rank)
             for (const Number vertex : from_each[rank])
-                if (n_owners[static_cast<std::size_t>(vertex / talk.size())] > 1)
+                if (n_owners[static_cast<std::size_t>(vertex / comm.size())] > 1)
                     owners_.push_back({vertex, rank});
         std::ranges::sort(owners_);
     }
@@ -79,7 +79,7 @@ class VertexDirectory {
     /// For each rank, the vertices that it has in common with this one, ascending.
     std::vector<std::vector<Number>> shared_with_each()
     {
-        std::vector<std::vector<VertexAtRank>> to_owners(talk_->size());
+        std::vector<std::vector<VertexAtRank>> to_owners(comm_->size());
         for (const auto& [vertex, rank] : owners_)
             for (const VertexAtRank& other : owners_of(vertex))
                 if (other.rank != rank)
@@ -91,12 +91,12 @@ class VertexDirectory {
     /// @param met what this rank has met: none of its own.
     std::vector<std::vector<Number>> met_by_each(std::span<const MetVertex> met)
     {
-        std::vector<std::vector<MetVertex>> to_homes(talk_->size());
+        std::vector<std::vector<MetVertex>> to_homes(comm_->size());
         for (const MetVertex& one : met)
-            to_homes[home_of(one.vertex, talk_->size())].push_back(one);
-        std::vector<std::vector<VertexAtRank>> to_owners(talk_->size());
-        const auto from_each = exchange_lists(*talk_, to_homes);
-        for (int asking = 0; asking < talk_->size(); ++asking)
+            to_homes[home_of(one.vertex, comm_->size())].push_back(one);
+        std::vector<std::vector<VertexAtRank>> to_owners(comm_->size());
+        const auto from_each = exchange_lists(*comm_, to_homes);
+        for (int asking = 0; asking < comm_->size(); ++asking)
             for (const auto& [vertex, rank] : from_each[asking]) {
                 const auto owners = owners_of(vertex);
                 for (const VertexAtRank& owner : owners)
@@ -118,8 +118,8 @@ class VertexDirectory {
     /// Sends vertices to ranks that have them. @returns those of this rank, sorted by the ranks that they came with.
     std::vector<std::vector<Number>> by_rank(const std::vector<std::vector<VertexAtRank>>& to_owners)
     {
-        std::vector<std::vector<Number>> of_ranks(talk_->size());
-        for (const auto& vertices : exchange_lists(*talk_, to_owners))
+        std::vector<std::vector<Number>> of_ranks(comm_->size());
+        for (const auto& vertices : exchange_lists(*comm_, to_owners))
             for (const auto& [vertex, rank] : vertices)
                 of_ranks[rank].push_back(vertex);
         for (auto& vertices : of_ranks)
@@ -127,7 +127,7 @@ class VertexDirectory {
         return of_ranks;
     }
 
-    Conversation* talk_;
+    Communicator* comm_;
     /// Of those vertices at home here that several ranks have, ascending.
     std::vector<VertexAtRank> owners_;
 };
@@ -325,9 +325,9 @@ MeshPart some_faces(const MeshPart& part, std::span<const Index> faces)
     return some;
 }
 
-MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers)
+MeshPart grown_by_layers(Communicator& comm, const MeshPart& own, int layers)
 {
-    if (talk.size() == 1) {
+    if (comm.size() == 1) {
         MeshPart all = own;
         all.fixed.resize(all.vertex_numbers.size(), 0);
         return all;
@@ -337,7 +337,7 @@ MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers)
             for (const Index v : own.mesh.face(f))
                 add(v, f);
     });
-    VertexDirectory directory(talk, own.vertex_numbers);
+    VertexDirectory directory(comm, own.vertex_numbers);
     std::vector<MeshPart> parts;
     std::vector<Number> known;
     std::vector<std::vector<Number>> asked = directory.shared_with_each();
@@ -346,8 +346,8 @@ MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers)
         for (const auto& vertices : asked)
             answers.push_back(packed_part(some_faces(own, faces_around(own, faces_at, vertices))));
         std::vector<MetVertex> met;
-        const std::vector<Bytes> of_ranks = talk.exchange(std::move(answers));
-        for (int rank = 0; rank < talk.size(); ++rank) {
+        const std::vector<Bytes> of_ranks = comm.exchange(std::move(answers));
+        for (int rank = 0; rank < comm.size(); ++rank) {
             const MeshPart& part = parts.emplace_back(unpacked_part(of_ranks[rank]));
             for (const Number vertex : part.vertex_numbers)
                 if (!std::ranges::binary_search(own.vertex_numbers, vertex) &&

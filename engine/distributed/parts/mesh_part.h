@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/polygon_mesh.h"
 
 namespace seamflow {
@@ -36,6 +36,6 @@ MeshPart some_faces(const MeshPart& part, std::span<const Index> faces);
 /// The part with faces that other ranks have around it, as many layers of them: a layer is all faces around the
 /// vertices of those that are there. All ranks call this together.
 /// @param own the faces that are the rank's own: every face of the mesh is that of one rank.
-MeshPart grown_by_layers(Conversation& talk, const MeshPart& own, int layers);
+MeshPart grown_by_layers(Communicator& comm, const MeshPart& own, int layers);
 
 }  // namespace seamflow

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/distributed/parts/corner_positions.h"
-#include "engine/tasks/parallel_loop.h"
-#include "partition/loop.h"
+#include "engine/tasks/parallel_executor.h"
+#include "partition/executor.h"
 #include "solvers/laplacian/geometry.h"
 
 namespace seamflow {
@@ -29,7 +29,7 @@ double length_around(const Points& corners)
     return around;
 }
 
-/// Blocks of the faces of a stretch.
+/// Blocks of the faces of a range.
 std::vector<BlockSums> sum_blocks(const RankSlice& slice, const CornerPositions& positions)
 {
     std::vector<BlockSums> blocks(at(slice.n_faces() / block_size) + (slice.n_faces() % block_size > 0 ? 1 : 0));
@@ -51,7 +51,7 @@ std::vector<BlockSums> sum_blocks(const RankSlice& slice, const CornerPositions&
     return blocks;
 }
 
-double extent_together(Conversation& talk, const Points& own)
+double extent_together(Communicator& comm, const Points& own)
 {
     std::vector<std::array<double, 3>> corners;
     if (own.rows() > 0) {
@@ -59,7 +59,7 @@ double extent_together(Conversation& talk, const Points& own)
         const Point high = own.colwise().maxCoeff();
         corners = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     }
-    corners = talk.gather_all(corners);
+    corners = comm.gather_all(corners);
     if (corners.empty())
         return 0.0;
     const auto point = [](const std::array<double, 3>& corner) { return Point(corner[0], corner[1], corner[2]); };
@@ -74,25 +74,25 @@ double extent_together(Conversation& talk, const Points& own)
 
 }  // namespace
 
-SharedMeshSize measure(Conversation& talk, const RankSlice& slice)
+SharedMeshSize measure(Communicator& comm, const RankSlice& slice)
 {
-    const SliceBounds bounds = gather_bounds(talk, slice);
-    talk.look_together([&] { require_corners(slice, bounds, talk.rank()); });
+    const SliceBounds bounds = gather_bounds(comm, slice);
+    comm.look_together([&] { require_corners(slice, bounds, comm.rank()); });
     SharedMeshSize size{.vertices = bounds.vertices.back(), .faces = bounds.faces.back()};
     double edges = 0.0;
-    for (const BlockSums& sums : talk.gather_all(sum_blocks(slice, CornerPositions(talk, slice, bounds)))) {
+    for (const BlockSums& sums : comm.gather_all(sum_blocks(slice, CornerPositions(comm, slice, bounds)))) {
         size.area += sums.area;
         edges += sums.edges;
     }
     std::int64_t n_corners = 0;
-    for (const std::size_t n : talk.gather_all(std::vector<std::size_t>{slice.corners.size()}))
+    for (const std::size_t n : comm.gather_all(std::vector<std::size_t>{slice.corners.size()}))
         n_corners += static_cast<std::int64_t>(n);
     size.mean_edge = n_corners > 0 ? edges / static_cast<double>(n_corners) : 0.0;
-    size.diagonal = extent_together(talk, slice.vertices);
+    size.diagonal = extent_together(comm, slice.vertices);
     return size;
 }
 
-LengthStatistics measure_moves(Conversation& talk, const Points& before, const Points& after)
+LengthStatistics measure_moves(Communicator& comm, const Points& before, const Points& after)
 {
     std::vector<LengthSums> own;
     for_each_block(run_serially, static_cast<Index>(before.rows()), [&](Index, Index begin, Index end) {
@@ -101,7 +101,7 @@ LengthStatistics measure_moves(Conversation& talk, const Points& before, const P
             sums.add((after.row(v) - before.row(v)).norm());
     });
     LengthSums moved;
-    for (const LengthSums& sums : talk.gather_all(own))
+    for (const LengthSums& sums : comm.gather_all(own))
         moved.add(sums);
     return moved.statistics();
 }

@@ -3,11 +3,11 @@
 #include <cstdint>
 
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/metrics/length_statistics.h"
 
 /// What is measured of a mesh that no rank has as a whole. The bits are those of one machine, for any number of ranks
-/// whose stretches begin at multiples of block_size. All ranks call these functions together.
+/// whose ranges begin at multiples of block_size. All ranks call these functions together.
 namespace seamflow {
 
 /// The sizes of a mesh by which sub-meshes and time steps are measured, as MeshSize and extent_of have them.
@@ -23,10 +23,10 @@ struct SharedMeshSize {
 };
 
 /// @throws InputError naming the face with a corner that is none of the mesh's vertices.
-SharedMeshSize measure(Conversation& talk, const RankSlice& slice);
+SharedMeshSize measure(Communicator& comm, const RankSlice& slice);
 
 /// How far vertices have moved.
-/// @param before, after of this rank's stretch.
-LengthStatistics measure_moves(Conversation& talk, const Points& before, const Points& after);
+/// @param before, after of this rank's range.
+LengthStatistics measure_moves(Communicator& comm, const Points& before, const Points& after);
 
 }  // namespace seamflow

@@ -21,10 +21,10 @@ Points points_of(const std::vector<double>& coordinates)
     return points;
 }
 
-/// The vertices and faces of a rank's stretch.
-Bytes packed_stretch(const PolygonMesh& mesh, int rank, int n_ranks, Index block)
+/// The vertices and faces of a rank's range.
+Bytes packed_range(const PolygonMesh& mesh, int rank, int n_ranks, Index block)
 {
-    const auto bound = [&](Index n, int r) { return static_cast<Index>(begin_of_stretch(n, r, n_ranks, block)); };
+    const auto bound = [&](Index n, int r) { return static_cast<Index>(begin_of_range(n, r, n_ranks, block)); };
     const Index vertex = bound(mesh.n_vertices(), rank);
     const Index n_vertices = bound(mesh.n_vertices(), rank + 1) - vertex;
     const Index face = bound(mesh.n_faces(), rank);
@@ -42,19 +42,19 @@ Bytes packed_stretch(const PolygonMesh& mesh, int rank, int n_ranks, Index block
 
 }  // namespace
 
-std::int64_t begin_of_stretch(std::int64_t n, int rank, int n_ranks, std::int64_t block)
+std::int64_t begin_of_range(std::int64_t n, int rank, int n_ranks, std::int64_t block)
 {
     const std::int64_t n_blocks = n / block + (n % block > 0 ? 1 : 0);
     return std::min(n, n_blocks * rank / n_ranks * block);
 }
 
-RankSlice hand_out(Conversation& talk, const PolygonMesh& mesh, Index block)
+RankSlice hand_out(Communicator& comm, const PolygonMesh& mesh, Index block)
 {
-    std::vector<Bytes> to_each(talk.size());
-    if (talk.rank() == 0)
-        for (int r = 0; r < talk.size(); ++r)
-            to_each[r] = packed_stretch(mesh, r, talk.size(), block);
-    const Bytes received = std::move(talk.exchange(std::move(to_each)).front());
+    std::vector<Bytes> to_each(comm.size());
+    if (comm.rank() == 0)
+        for (int r = 0; r < comm.size(); ++r)
+            to_each[r] = packed_range(mesh, r, comm.size(), block);
+    const Bytes received = std::move(comm.exchange(std::move(to_each)).front());
     Unpacker unpacker(received);
     RankSlice slice;
     slice.vertices = points_of(unpacker.get_all<double>());
@@ -64,35 +64,35 @@ RankSlice hand_out(Conversation& talk, const PolygonMesh& mesh, Index block)
     return slice;
 }
 
-std::vector<Index> hand_out(Conversation& talk, const std::vector<Index>& numbers, const RankSlice& slice)
+std::vector<Index> hand_out(Communicator& comm, const std::vector<Index>& numbers, const RankSlice& slice)
 {
-    const auto sizes = talk.gather_all(std::vector<Index>{slice.n_faces()});
-    std::vector<Bytes> to_each(talk.size());
-    if (talk.rank() == 0) {
+    const auto sizes = comm.gather_all(std::vector<Index>{slice.n_faces()});
+    std::vector<Bytes> to_each(comm.size());
+    if (comm.rank() == 0) {
         auto next = numbers.begin();
-        for (int r = 0; r < talk.size(); ++r) {
+        for (int r = 0; r < comm.size(); ++r) {
             to_each[r] = packed(std::vector<Index>(next, next + sizes[r]));
             next += sizes[r];
         }
     }
-    return unpacked<Index>(talk.exchange(std::move(to_each)).front());
+    return unpacked<Index>(comm.exchange(std::move(to_each)).front());
 }
 
-Points gather_positions(Conversation& talk, const Points& own)
+Points gather_positions(Communicator& comm, const Points& own)
 {
-    return points_of(talk.gather_at_first(coordinates_of(own)));
+    return points_of(comm.gather_at_first(coordinates_of(own)));
 }
 
-PolygonMesh gather_mesh(Conversation& talk, const RankSlice& slice)
+PolygonMesh gather_mesh(Communicator& comm, const RankSlice& slice)
 {
     PolygonMesh mesh;
-    mesh.vertices = gather_positions(talk, slice.vertices);
+    mesh.vertices = gather_positions(comm, slice.vertices);
     std::vector<Index> sizes;
     for (Index f = 0; f < slice.n_faces(); ++f)
         sizes.push_back(slice.face_offsets[f + 1] - slice.face_offsets[f]);
-    for (const Index size : talk.gather_at_first(sizes))
+    for (const Index size : comm.gather_at_first(sizes))
         mesh.face_offsets.push_back(mesh.face_offsets.back() + size);
-    mesh.face_vertices = talk.gather_at_first(std::vector<Index>(slice.corners.begin(), slice.corners.end()));
+    mesh.face_vertices = comm.gather_at_first(std::vector<Index>(slice.corners.begin(), slice.corners.end()));
     return mesh;
 }
 

@@ -1,70 +1,175 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
-#include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <exception>
+#include <functional>
+#include <new>
 #include <optional>
+#include <span>
 #include <string>
-#include <utility>
+#include <thread>
 #include <vector>
+
+#include "engine/distributed/ranks/packing.h"
+#include "engine/distributed/ranks/transport.h"
 
 namespace seamflow {
 
-using Bytes = std::vector<std::byte>;
-
-/// What one rank sends to another.
-struct Message {
-    /// The rank that has sent it.
-    int from = -1;
-    /// What it is about: 0 to 255.
-    int tag = 0;
-    Bytes bytes;
+/// How the work of a rank has ended.
+struct WorkOutcome {
+    enum class Kind : std::uint8_t {
+        Done,
+        /// Another rank has failed.
+        Interrupted,
+        /// What it has thrown, all of errors.h.
+        InputError,
+        OptionError,
+        ComputationError,
+        OutputError,
+        Cancelled,
+        OutOfMemory,
+        /// Anything else.
+        Failure,
+    };
+    Kind kind = Kind::Done;
+    std::string message = {};
+    /// The machine.
+    std::string host = {};
+    /// Whether all ranks have agreed on it: then it is about none of them.
+    bool is_agreed = false;
 };
 
-/// One of the ranks that work on a mesh together, each with memory of its own: processes of MPI, or threads of one
-/// process. What is said here is all that a rank learns of the others.
+/// Does what other ranks wait for, again and again where memory lacks for it: what a rank that fails has had is free by
+/// then.
+/// @throws what the action throws, std::bad_alloc after some seconds.
+template <class Action>
+void retry(Action&& action)
+{
+    constexpr int most_attempts = 500;
+    constexpr std::chrono::milliseconds pause{10};
+    for (int attempt = 1;; ++attempt) {
+        try {
+            return action();
+        } catch (const std::bad_alloc&) {
+            if (attempt == most_attempts)
+                throw;
+            std::this_thread::sleep_for(pause);
+        }
+    }
+}
+
+/// What the ranks say to each other while they work together (see run_together): each rank calls the collective
+/// functions in the same order as the others. All of them, and next_arrival, throw if another rank fails in the
+/// meantime.
 class Communicator {
   public:
-    Communicator() = default;
-    Communicator(const Communicator&) = delete;
-    Communicator& operator=(const Communicator&) = delete;
-    virtual ~Communicator() = default;
+    /// @param transport must outlive this.
+    explicit Communicator(Transport& transport);
 
-    /// The number of this rank, from 0 to size() - 1.
-    [[nodiscard]] virtual int rank() const = 0;
-    [[nodiscard]] virtual int size() const = 0;
+    [[nodiscard]] int rank() const { return transport_->rank(); }
+    [[nodiscard]] int size() const { return transport_->size(); }
 
-    /// The name of the machine.
-    [[nodiscard]] virtual std::string host() const = 0;
+    /// What every rank gives, in the order of ranks.
+    std::vector<Bytes> allgather(Bytes own);
 
-    /// Hands bytes over and does not wait until they arrive. May be called by any thread. What one rank sends to
-    /// another arrives in the order in which it was sent.
+    /// The same for a list of values each, joined.
+    template <class Value>
+    std::vector<Value> gather_all(const std::vector<Value>& own)
+    {
+        std::vector<Value> all;
+        for (const Bytes& bytes : allgather(packed(own)))
+            Unpacker(bytes).append_all(all);
+        return all;
+    }
+
+    /// What every rank gives, joined in the order of ranks, at rank 0; the others get nothing.
+    template <class Value>
+    std::vector<Value> gather_at_first(const std::vector<Value>& own)
+    {
+        std::vector<Value> all;
+        for (const Bytes& bytes : bytes_at_first(packed(own)))
+            Unpacker(bytes).append_all(all);
+        return all;
+    }
+
+    /// What rank 0 gives; what the others give is passed over.
+    template <class Value>
+    std::vector<Value> broadcast(const std::vector<Value>& of_first)
+    {
+        return gather_all(rank() == 0 ? of_first : std::vector<Value>{});
+    }
+
+    /// Gives bytes to each rank, and takes what each has for this one.
+    /// @param to_each #ranks. @returns #ranks, in their order.
+    std::vector<Bytes> exchange(std::vector<Bytes> to_each);
+
+    /// Does on rank 0 what is for all ranks, which wait for it; what it throws all throw alike.
+    void at_first_rank(const std::function<void()>& action);
+
+    /// The same among some of the ranks.
+    /// @param others which others, ascending; each of them names this rank. @param to_each corresponds. @returns the
+    /// same.
+    std::vector<Bytes> exchange_with(std::span<const int> others, std::vector<Bytes> to_each);
+
+    /// Every rank does its part in looking at an input. If any finds fault with that all throw the same, the InputError
+    /// or OptionError of the lowest of those ranks.
+    void look_together(const std::function<void()>& look);
+
+    /// Sends something that no collective function waits for. Any thread may do so, at any time.
     /// @param to another rank.
-    virtual void send(int to, int tag, Bytes bytes) = 0;
+    void send(int to, Bytes bytes);
 
-    /// The next message, from whoever it is; nothing if none arrives in time. One thread at a time may call it.
-    [[nodiscard]] std::optional<Message> receive(std::chrono::microseconds patience)
-    {
-        if (put_back_.empty())
-            return fetch(patience);
-        Message message = std::move(put_back_.front());
-        put_back_.pop_front();
-        return message;
-    }
+    /// The next of these to arrive; nothing if none does in time.
+    std::optional<Message> next_arrival(std::chrono::microseconds patience);
 
-    /// Puts messages that came too early before all that come from now on; all, or none where it throws.
-    void put_back(const std::vector<Message>& messages)
-    {
-        std::deque<Message> all(messages.begin(), messages.end());
-        all.insert(all.end(), put_back_.begin(), put_back_.end());
-        put_back_.swap(all);
-    }
+    /// What has been sent so far, collective functions included.
+    [[nodiscard]] std::uint64_t n_messages() const { return n_messages_; }
+    [[nodiscard]] std::uint64_t n_bytes() const { return n_bytes_; }
 
   private:
-    /// As receive, of what has not been received yet.
-    [[nodiscard]] virtual std::optional<Message> fetch(std::chrono::microseconds patience) = 0;
+    friend void run_work_together(Transport& transport, const std::function<void(Communicator&)>& work);
 
-    std::deque<Message> put_back_;
+    /// Tells all ranks how the work has ended here, and waits until all have said so.
+    std::vector<WorkOutcome> part(const WorkOutcome& own);
+    bool take_in(std::chrono::microseconds patience);
+    void sort_in(Message message);
+    void require_all_well() const;
+    void agree_on(const WorkOutcome& own);
+    void send(int to, int tag, Bytes bytes);
+    Bytes next_collective(int from);
+    /// What every rank gives, in the order of ranks, at rank 0; nothing at the others.
+    std::vector<Bytes> bytes_at_first(Bytes own);
+
+    Transport* transport_;
+    /// Per rank, what has arrived for collective functions, in order.
+    std::vector<std::deque<Bytes>> collective_;
+    std::deque<Message> arrivals_;
+    /// Per rank; empty: still at work.
+    std::vector<std::optional<WorkOutcome>> ended_;
+    /// See WorkOutcome.
+    bool has_agreed_ = false;
+    std::atomic<std::uint64_t> n_messages_ = 0;
+    std::atomic<std::uint64_t> n_bytes_ = 0;
 };
+
+/// See run_together.
+void run_work_together(Transport& transport, const std::function<void(Communicator&)>& work);
+
+/// Runs `work` on this rank, as every rank does, and waits until all ranks are at its end. If it throws on one rank, it
+/// ends on all of them, as soon as each waits for another: then all throw the same, what the lowest rank has thrown of
+/// those that have failed by themselves, with the number and the machine of this rank before it, but where all have
+/// failed alike, or have agreed on it (see Communicator::at_first_rank). What may fail on one rank alone belongs into
+/// `work`.
+/// @throws the errors of errors.h as what they are; std::bad_alloc and all others as ComputationError.
+/// @param work called with the Communicator of this rank.
+template <class Work>
+void run_together(Transport& transport, Work&& work)
+{
+    // By reference, which takes no memory: where that lacked others would wait for this rank.
+    run_work_together(transport, std::ref(work));
+}
 
 }  // namespace seamflow

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/distributed/ranks/communicator.h"
+#include "engine/distributed/ranks/transport.h"
 
 /// Values as bytes and back. All ranks have the same byte order: those of one run are of one kind of machine.
 namespace seamflow {

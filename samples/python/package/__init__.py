@@ -32,7 +32,7 @@ class Progress(NamedTuple):
 
 def smooth(V, F=None, *, fixed=None, labels=None, edges=None, attach_weights=None, progress=None, **options):
     """Smooths a mesh by mean curvature flow; with the same options the result has the same bits as that of the program
-    `smooth`. Without any it removes the noise that the mesh is found to have.
+    `smooth`. Without an amount it removes the measured noise.
 
     V: positions, (#V, 3), of which a copy is smoothed; or, without F, a mesh that has .vertices and .faces (trimesh) or
         .points and .cells (meshio).

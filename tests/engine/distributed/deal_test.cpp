@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "partition/errors.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
@@ -28,11 +28,11 @@ TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as 
         std::mutex mutex;
         std::vector<int> seen(mesh.n_faces(), 0);
         std::map<Index, int> rank_of;
-        run_on_threads(n, [&](Communicator& communicator) {
-            run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
+        run_on_threads(n, [&](Transport& transport) {
+            run_together(transport, [&](Communicator& comm) {
+                RankSlice slice = test::slice_of(mesh, labels, comm.rank(), n);
                 // In short numbers and in long ones.
-                MeshPart part = n % 2 == 0 ? deal(talk, slice) : deal(talk, slice, 0);
+                MeshPart part = n % 2 == 0 ? deal(comm, slice) : deal(comm, slice, 0);
                 require_valid(part);
                 const std::scoped_lock lock(mutex);
                 CHECK(part.mesh.n_corners() < 1.6 * mesh.n_corners() / n);
@@ -41,7 +41,7 @@ TEST_CASE("every face comes to the rank of its sub-mesh, and ranks get about as 
                     const auto number = static_cast<Index>(part.face_numbers[f]);
                     ++seen[number];
                     CHECK(part.labels[f] == labels[number]);
-                    CHECK(rank_of.emplace(labels[number], talk.rank()).first->second == talk.rank());
+                    CHECK(rank_of.emplace(labels[number], comm.rank()).first->second == comm.rank());
                     const auto expected = mesh.face(number);
                     const auto corners = part.mesh.face(f);
                     REQUIRE(corners.size() == expected.size());
@@ -64,15 +64,15 @@ TEST_CASE("positions come back to where they were read")
     mesh.vertices.bottomRows(1).setConstant(7.0);
     const std::vector<Index> labels = test::random_labels(mesh.n_faces(), 20, 5);
     for (const int n : {1, 3, 5})
-        run_on_threads(n, [&](Communicator& communicator) {
-            run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
-                MeshPart part = deal(talk, slice);
+        run_on_threads(n, [&](Transport& transport) {
+            run_together(transport, [&](Communicator& comm) {
+                RankSlice slice = test::slice_of(mesh, labels, comm.rank(), n);
+                MeshPart part = deal(comm, slice);
                 part.mesh.vertices *= 2.0;
-                collect_positions(talk, part.vertex_numbers, part.mesh.vertices, slice);
+                collect_positions(comm, part.vertex_numbers, part.mesh.vertices, slice);
                 PolygonMesh moved = mesh;
                 moved.vertices.topRows(mesh.n_vertices() - 1) *= 2.0;
-                CHECK(test::same_bits(slice.vertices, test::slice_of(moved, labels, talk.rank(), n).vertices));
+                CHECK(test::same_bits(slice.vertices, test::slice_of(moved, labels, comm.rank(), n).vertices));
             });
         });
 }
@@ -81,14 +81,14 @@ TEST_CASE("a corner that is none of the mesh's vertices is named on all ranks")
 {
     const PolygonMesh mesh = make_triangles(300);
     const std::vector<Index> labels(mesh.n_faces(), 0);
-    run_on_threads(3, [&](Communicator& communicator) {
+    run_on_threads(3, [&](Transport& transport) {
         std::string message;
         try {
-            run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = test::slice_of(mesh, labels, talk.rank(), 3);
-                if (talk.rank() == 1)
+            run_together(transport, [&](Communicator& comm) {
+                RankSlice slice = test::slice_of(mesh, labels, comm.rank(), 3);
+                if (comm.rank() == 1)
                     slice.corners[4] = mesh.n_vertices();
-                deal(talk, slice);
+                deal(comm, slice);
             });
         } catch (const InputError& error) {
             message = error.what();
@@ -112,14 +112,14 @@ TEST_CASE("a part grows by whole layers of faces, whoever has them")
             for (const Index n_together : {1, 30}) {
                 CAPTURE(n);
                 CAPTURE(n_together);
-                run_on_threads(n, [&](Communicator& communicator) {
+                run_on_threads(n, [&](Transport& transport) {
                     std::vector<Index> faces;
                     for (Index f = 0; f < mesh.n_faces(); ++f)
-                        if (f / n_together % n == communicator.rank())
+                        if (f / n_together % n == transport.rank())
                             faces.push_back(f);
                     const MeshPart own = some_faces(whole, faces);
                     MeshPart grown;
-                    run_together(communicator, [&](Conversation& talk) { grown = grown_by_layers(talk, own, 2); });
+                    run_together(transport, [&](Communicator& comm) { grown = grown_by_layers(comm, own, 2); });
                     for (int layer = 0; layer < 2; ++layer) {
                         std::set<Index> vertices;
                         for (const Index f : faces)

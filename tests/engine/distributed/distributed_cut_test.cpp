@@ -11,7 +11,7 @@
 
 #include "engine/distributed/cut/distributed_cut.h"
 #include "engine/distributed/cut/hilbert.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "partition/cut/cut.h"
 #include "partition/repair/repair.h"
 #include "partition/vector_area.h"
@@ -41,14 +41,14 @@ FoundCut cut_by_ranks(const PolygonMesh& mesh, Index k, const CutUnits& units, i
     options.cut.subdomains = k;
     options.resources.threads = 1;
     std::mutex mutex;
-    run_on_threads(n, [&](Communicator& communicator) {
-        run_together(communicator, [&](Conversation& talk) {
-            RankSlice slice = test::slice_of(mesh, first, talk.rank(), n);
-            const DistributedCut cut = given.empty() ? cut_together(talk, slice, options, units)
-                                                     : cut_together_by_labels(talk, slice, options, units);
-            const std::vector<Index> labels = labels_of_all_faces(talk, slice, cut.left_out);
+    run_on_threads(n, [&](Transport& transport) {
+        run_together(transport, [&](Communicator& comm) {
+            RankSlice slice = test::slice_of(mesh, first, comm.rank(), n);
+            const DistributedCut cut = given.empty() ? cut_together(comm, slice, options, units)
+                                                     : cut_together_by_labels(comm, slice, options, units);
+            const std::vector<Index> labels = labels_of_all_faces(comm, slice, cut.left_out);
             const std::scoped_lock lock(mutex);
-            const auto begin = static_cast<Index>(std::int64_t{mesh.n_faces()} * talk.rank() / n);
+            const auto begin = static_cast<Index>(std::int64_t{mesh.n_faces()} * comm.rank() / n);
             std::ranges::copy(labels, found.labels.begin() + begin);
             found.cut = cut;
         });
@@ -306,24 +306,24 @@ TEST_CASE("seams are joined as on one machine, and what was joined comes back to
             options.cut.subdomains = 6;
             options.motion.weld = distance;
             options.resources.threads = 1;
-            run_on_threads(n, [&](Communicator& communicator) {
-                run_together(communicator, [&](Conversation& talk) {
+            run_on_threads(n, [&](Transport& transport) {
+                run_together(transport, [&](Communicator& comm) {
                     const std::vector<Index> labels(mesh.n_faces(), 0);
-                    RankSlice slice = test::slice_of(mesh, labels, talk.rank(), n);
+                    RankSlice slice = test::slice_of(mesh, labels, comm.rank(), n);
                     const Points before = slice.vertices;
-                    const DistributedCut cut = cut_together(talk, slice, options, {.faces_of_chunk = chunk});
+                    const DistributedCut cut = cut_together(comm, slice, options, {.faces_of_chunk = chunk});
                     REQUIRE(cut.remarks.size() == 1);
                     CHECK(cut.remarks.front() == remark_on_seams(expected->n_vertices, expected->n_edges));
-                    const RankSlice joined = test::slice_of(expected->mesh, labels, talk.rank(), n);
+                    const RankSlice joined = test::slice_of(expected->mesh, labels, comm.rank(), n);
                     CHECK(slice.corners == joined.corners);
-                    bring_back(talk, cut.seams, slice);
+                    bring_back(comm, cut.seams, slice);
                     CHECK(test::same_bits(slice.vertices, before));
                     // As if the flow had moved what has faces, by as much everywhere.
                     Points moved = joined.vertices;
                     moved.rowwise() += Point(1.0, 2.0, 4.0);
                     slice.vertices = moved;
-                    bring_back(talk, cut.seams, slice);
-                    const Index begin = static_cast<Index>(std::int64_t{mesh.n_vertices()} * talk.rank() / n);
+                    bring_back(comm, cut.seams, slice);
+                    const Index begin = static_cast<Index>(std::int64_t{mesh.n_vertices()} * comm.rank() / n);
                     for (Index v = 0; v < static_cast<Index>(moved.rows()); ++v) {
                         const Point expected_place =
                             expected->mesh.vertices.row(expected->first[begin + v]) + Point(1.0, 2.0, 4.0);

@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
@@ -39,13 +39,13 @@ bool same(const RankMeasures& a, const RankMeasures& b)
 
 /// What every rank throws.
 template <class Error>
-void check_refusal(const std::function<void(Communicator&)>& body, int n, const std::string& expected)
+void check_refusal(const std::function<void(Transport&)>& body, int n, const std::string& expected)
 {
     CAPTURE(expected);
-    run_on_threads(n, [&](Communicator& communicator) {
+    run_on_threads(n, [&](Transport& transport) {
         std::string message;
         try {
-            body(communicator);
+            body(transport);
         } catch (const Error& error) {
             message = error.what();
         }
@@ -180,9 +180,9 @@ TEST_CASE("ranks find the bits of one machine in sweeps with a free boundary, wh
     PolygonMesh mesh = example.mesh;
     CHECK_THROWS_AS(mean_curvature_flow(mesh, options), OptionError);
     check_refusal<OptionError>(
-        [&](Communicator& communicator) {
-            MeshPart part = test::part_of(example.mesh, example.labels, 9, communicator.rank(), 3);
-            distributed_mean_curvature_flow(communicator, part, example.options);
+        [&](Transport& transport) {
+            MeshPart part = test::part_of(example.mesh, example.labels, 9, transport.rank(), 3);
+            distributed_mean_curvature_flow(transport, part, example.options);
         },
         3, "boundary is free and shared by several sub-meshes, which need converged steps");
 }
@@ -308,27 +308,27 @@ TEST_CASE("observers see each step on all ranks, and can work together")
     options.cut.subdomains = 0;
     const Index n_sub_meshes = report.cut.n_sub_meshes();
     const auto part_at = [&](int rank) { return test::part_of(mesh, report.cut.labels, n_sub_meshes, rank, 3); };
-    run_on_threads(3, [&](Communicator& communicator) {
-        MeshPart part = part_at(communicator.rank());
+    run_on_threads(3, [&](Transport& transport) {
+        MeshPart part = part_at(transport.rank());
         int steps = 0;
-        distributed_mean_curvature_flow(communicator, part, options, [&](const RankStepState& state) {
+        distributed_mean_curvature_flow(transport, part, options, [&](const RankStepState& state) {
             CHECK(state.step == ++steps);
             CHECK(state.part.labels == part.labels);
             const std::vector<Index> numbers(part.vertex_numbers.begin(), part.vertex_numbers.end());
             CHECK(test::same_bits(state.part.mesh.vertices, expected[steps - 1](numbers, Eigen::all)));
-            CHECK(state.talk.gather_all(std::vector<int>{steps}) == std::vector<int>(3, steps));
+            CHECK(state.comm.gather_all(std::vector<int>{steps}) == std::vector<int>(3, steps));
         });
         CHECK(steps == options.steps);
     });
     check_refusal<OutputError>(
-        [&](Communicator& communicator) {
-            MeshPart part = part_at(communicator.rank());
+        [&](Transport& transport) {
+            MeshPart part = part_at(transport.rank());
             const Points before = part.mesh.vertices;
             try {
-                distributed_mean_curvature_flow(communicator, part, options, [&](const RankStepState& state) {
-                    if (state.step == 2 && communicator.rank() == 1)
+                distributed_mean_curvature_flow(transport, part, options, [&](const RankStepState& state) {
+                    if (state.step == 2 && transport.rank() == 1)
                         throw OutputError("the disk is full");
-                    state.talk.gather_all(std::vector<int>{state.step});
+                    state.comm.gather_all(std::vector<int>{state.step});
                 });
             } catch (const OutputError&) {
                 CHECK(test::same_bits(part.mesh.vertices, before));
@@ -348,14 +348,14 @@ TEST_CASE("a failure on one rank ends all with one message")
     options.cut.subdomains = 0;
     const auto flow = [&](const FlowOptions& with, const std::vector<Index>& from,
                           const std::function<void(MeshPart&, int)>& change = {}) {
-        return [&mesh, with, from, change](Communicator& communicator) {
-            MeshPart part = test::part_of(mesh, from, 6, communicator.rank(), 3);
+        return [&mesh, with, from, change](Transport& transport) {
+            MeshPart part = test::part_of(mesh, from, 6, transport.rank(), 3);
             if (change)
-                change(part, communicator.rank());
+                change(part, transport.rank());
             const Points before = part.mesh.vertices;
             const auto check_unmoved = [&] { CHECK(test::same_bits(part.mesh.vertices, before)); };
             try {
-                distributed_mean_curvature_flow(communicator, part, with);
+                distributed_mean_curvature_flow(transport, part, with);
             } catch (...) {
                 check_unmoved();
                 throw;

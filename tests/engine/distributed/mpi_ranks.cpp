@@ -6,23 +6,23 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/ranks/mpi_communicator.h"
+#include "engine/distributed/ranks/mpi_transport.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/engine/distributed/rank_checks.h"
 #include "tests/support/flows.h"
 
 namespace {
 
-seamflow::Communicator* communicator = nullptr;
+seamflow::Transport* transport = nullptr;
 
 }  // namespace
 
 TEST_CASE("ranks of MPI hear each other")
 {
-    seamflow::test::check_collectives(*communicator);
-    seamflow::test::check_arrivals(*communicator);
-    seamflow::test::check_failures(*communicator);
-    seamflow::test::check_agreement(*communicator);
+    seamflow::test::check_collectives(*transport);
+    seamflow::test::check_arrivals(*transport);
+    seamflow::test::check_failures(*transport);
+    seamflow::test::check_agreement(*transport);
 }
 
 TEST_CASE("ranks of MPI find the bits of one machine")
@@ -42,12 +42,12 @@ TEST_CASE("ranks of MPI find the bits of one machine")
         PolygonMesh expected = mesh;
         const FlowReport report = mean_curvature_flow(expected, options);
         options.cut.subdomains = 0;
-        MeshPart part = test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), communicator->rank(),
-                                      communicator->size());
-        const RankReport own = distributed_mean_curvature_flow(*communicator, part, options);
+        MeshPart part =
+            test::part_of(mesh, report.cut.labels, report.cut.n_sub_meshes(), transport->rank(), transport->size());
+        const RankReport own = distributed_mean_curvature_flow(*transport, part, options);
         CHECK(own.colours == report.cut.n_colours());
         for (const RankStepReport& step : own.steps)
-            CHECK((step.messages > 0) == (communicator->size() > 1));
+            CHECK((step.messages > 0) == (transport->size() > 1));
         const std::vector<Index> numbers(part.vertex_numbers.begin(), part.vertex_numbers.end());
         CHECK(test::same_bits(part.mesh.vertices, expected.vertices(numbers, Eigen::all)));
     }
@@ -56,7 +56,7 @@ TEST_CASE("ranks of MPI find the bits of one machine")
 int main(int argc, char** argv)
 {
     // Longer messages go in pieces.
-    const auto world = seamflow::make_mpi_communicator(10'000);
-    communicator = world.get();
+    const auto world = seamflow::make_mpi_transport(10'000);
+    transport = world.get();
     return doctest::Context(argc, argv).run();
 }

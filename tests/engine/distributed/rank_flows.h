@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "engine/mean_curvature_flow.h"
 #include "tests/engine/distributed/parts.h"
 #include "tests/support/flows.h"
@@ -40,12 +40,12 @@ inline Result flowed_on_ranks(const Example& example, const std::vector<Index>& 
     Result result{example.mesh.vertices, std::vector<RankReport>(n)};
     std::vector<std::uint8_t> is_written(example.mesh.n_vertices(), 0);
     std::mutex mutex;
-    run_on_threads(n, [&](Communicator& communicator) {
-        MeshPart part = part_of(example.mesh, labels, n_sub_meshes, communicator.rank(), n, example.fixed);
+    run_on_threads(n, [&](Transport& transport) {
+        MeshPart part = part_of(example.mesh, labels, n_sub_meshes, transport.rank(), n, example.fixed);
         for (const std::int64_t number : part.vertex_numbers)
             if (!example.weights.empty())
                 part.attachment_weights.push_back(example.weights[static_cast<std::size_t>(number)]);
-        result.reports[communicator.rank()] = distributed_mean_curvature_flow(communicator, part, example.options);
+        result.reports[transport.rank()] = distributed_mean_curvature_flow(transport, part, example.options);
         const std::scoped_lock lock(mutex);
         for (std::size_t v = 0; v < part.vertex_numbers.size(); ++v) {
             const auto number = static_cast<Index>(part.vertex_numbers[v]);

@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/distributed/distributed_flow.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
 #include "tests/engine/distributed/parts.h"
@@ -23,7 +23,7 @@ using test::Example;
 
 namespace {
 
-Index begin_of_stretch(Eigen::Index n_vertices, int rank, int n)
+Index begin_of_range(Eigen::Index n_vertices, int rank, int n)
 {
     return static_cast<Index>(n_vertices * rank / n);
 }
@@ -32,8 +32,8 @@ Index begin_of_stretch(Eigen::Index n_vertices, int rank, int n)
 RankFlowState share_of(const RankFlowState& whole, int rank, int n)
 {
     const Eigen::Index n_vertices = whole.vertices.rows();
-    const Index begin = begin_of_stretch(n_vertices, rank, n);
-    const Index size = begin_of_stretch(n_vertices, rank + 1, n) - begin;
+    const Index begin = begin_of_range(n_vertices, rank, n);
+    const Index size = begin_of_range(n_vertices, rank + 1, n) - begin;
     RankFlowState share{
         .step = whole.step, .vertices = whole.vertices.middleRows(begin, size), .numbers = whole.numbers};
     for (const Points& array : whole.arrays)
@@ -44,7 +44,7 @@ RankFlowState share_of(const RankFlowState& whole, int rank, int n)
 /// Puts that of rank of n back.
 void put_share(const RankFlowState& share, int rank, int n, RankFlowState& whole)
 {
-    const Index begin = begin_of_stretch(whole.vertices.rows(), rank, n);
+    const Index begin = begin_of_range(whole.vertices.rows(), rank, n);
     whole.step = share.step;
     whole.vertices.middleRows(begin, share.vertices.rows()) = share.vertices;
     whole.arrays.resize(share.arrays.size(), Points::Zero(whole.vertices.rows(), 3));
@@ -65,8 +65,8 @@ Run run_on_ranks(const Example& example, const CutReport& cut, int n, const Rank
 {
     Run run{example.mesh.vertices, {}, {.step = 0, .vertices = example.mesh.vertices}};
     std::mutex mutex;
-    run_on_threads(n, [&](Communicator& communicator) {
-        const int rank = communicator.rank();
+    run_on_threads(n, [&](Transport& transport) {
+        const int rank = transport.rank();
         MeshPart part = test::part_of(example.mesh, cut.labels, cut.n_sub_meshes(), rank, n, example.fixed);
         RankFlowState share;
         if (from != nullptr)
@@ -74,7 +74,7 @@ Run run_on_ranks(const Example& example, const CutReport& cut, int n, const Rank
         const RankFlowState at_first = share_of({.step = 0, .vertices = example.mesh.vertices}, rank, n);
         RankFlowState kept;
         const RankReport report = distributed_mean_curvature_flow(
-            communicator, part, example.options,
+            transport, part, example.options,
             [&](const RankStepState& state) { kept = state.capture(at_first.vertices); },
             from != nullptr ? &share : nullptr);
         const std::scoped_lock lock(mutex);
@@ -118,7 +118,7 @@ void check_going_on(Example example, int subdomains)
 
 }  // namespace
 
-TEST_CASE("sweeps of ranks go on from a state on any number of ranks with the same bits")
+TEST_CASE("sweeps of ranks resume from a state on any number of ranks with the same bits")
 {
     for (const Laplacian laplacian : test::all_laplacians)
         check_going_on({std::string(name_of(laplacian)), make_mixed_polygons(700), by_sweeps(laplacian, 2e-3, 5)}, 9);
@@ -129,7 +129,7 @@ TEST_CASE("sweeps of ranks go on from a state on any number of ranks with the sa
     check_going_on({"filtered", make_noisy_sphere(800), options}, 9);
 }
 
-TEST_CASE("converged steps of ranks go on from a state on any number of ranks with the same bits")
+TEST_CASE("converged steps of ranks resume from a state on any number of ranks with the same bits")
 {
     for (const Laplacian laplacian : {Laplacian::Fujiwara, Laplacian::AlexaWardetzky, Laplacian::VirtualRefinement}) {
         FlowOptions options = converged(laplacian, 1e-3, 1e-6);
@@ -164,10 +164,10 @@ TEST_CASE("a state of other steps, or of another mesh, is refused by all ranks a
     RankFlowState state = run_on_ranks(example, cut, 3, nullptr).last;
     const auto check_refused = [&](const RankFlowState& from, const std::string& expected) {
         CAPTURE(expected);
-        run_on_threads(3, [&](Communicator& communicator) {
-            MeshPart part = test::part_of(example.mesh, cut.labels, cut.n_sub_meshes(), communicator.rank(), 3);
-            const RankFlowState share = share_of(from, communicator.rank(), 3);
-            CHECK_THROWS_WITH_AS(distributed_mean_curvature_flow(communicator, part, example.options, {}, &share),
+        run_on_threads(3, [&](Transport& transport) {
+            MeshPart part = test::part_of(example.mesh, cut.labels, cut.n_sub_meshes(), transport.rank(), 3);
+            const RankFlowState share = share_of(from, transport.rank(), 3);
+            CHECK_THROWS_WITH_AS(distributed_mean_curvature_flow(transport, part, example.options, {}, &share),
                                  expected.c_str(), InputError);
         });
     };
@@ -176,12 +176,12 @@ TEST_CASE("a state of other steps, or of another mesh, is refused by all ranks a
     broken.arrays.front()(broken.arrays.front().rows() - 1, 1) = std::nan("");
     broken.arrays.front().row(0).setConstant(std::nan(""));
     broken.vertices(broken.vertices.rows() - 1, 1) = std::nan("");
-    check_refused(broken, "the state to go on from has vertices that are not finite");
+    check_refused(broken, "the state to resume from has vertices that are not finite");
     RankFlowState short_of_vertices = share_of(state, 0, 2);
-    check_refused(short_of_vertices, "the state to go on from has fewer vertices than the mesh");
+    check_refused(short_of_vertices, "the state to resume from has fewer vertices than the mesh");
     example.options = by_sweeps(Laplacian::Fujiwara, 1e-2, 5);
-    check_refused(state, "the state to go on from is that of steps of another kind");
+    check_refused(state, "the state to resume from is that of steps of another kind");
     state.numbers.resize(1);
     example.options = converged(Laplacian::Fujiwara, 1e-2);
-    check_refused(state, "the state to go on from is that of steps of another kind");
+    check_refused(state, "the state to resume from is that of steps of another kind");
 }

@@ -15,7 +15,7 @@
 #include "engine/distributed/files/open_together.h"
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/whole_mesh.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "partition/formats/off.h"
 #include "partition/formats/off_header.h"
 #include "partition/formats/ply_source.h"
@@ -58,28 +58,28 @@ inline Shared pass_through(const std::filesystem::path& file, const std::filesys
     Shared shared;
     std::mutex mutex;
     std::vector<std::string> faults;
-    const auto pass = [&](Conversation& talk) {
-        const auto opened = open_together(talk, file, sharing);
-        RankSlice slice = opened->read(talk);
-        PolygonMesh mesh = gather_mesh(talk, slice);
+    const auto pass = [&](Communicator& comm) {
+        const auto opened = open_together(comm, file, sharing);
+        RankSlice slice = opened->read(comm);
+        PolygonMesh mesh = gather_mesh(comm, slice);
         lift(slice.vertices);
-        auto remarks = opened->write(talk, result, slice.vertices);
+        auto remarks = opened->write(comm, result, slice.vertices);
         std::vector<Index> labels(at(slice.n_faces()));
         for (Index f = 0; f < slice.n_faces(); ++f)
             labels[f] = static_cast<Index>(slice.corners[slice.face_offsets[f]] % 7);
-        opened->write_labelled(talk, result.parent_path() / "labelled.ply", slice.vertices, labels);
-        const auto n_faces = talk.gather_all(std::vector<Index>{slice.n_faces()});
-        talk.at_first_rank([&] {
+        opened->write_labelled(comm, result.parent_path() / "labelled.ply", slice.vertices, labels);
+        const auto n_faces = comm.gather_all(std::vector<Index>{slice.n_faces()});
+        comm.at_first_rank([&] {
             shared.mesh = std::move(mesh);
             shared.least_faces = std::ranges::min(n_faces);
             shared.faults = opened->faults();
             shared.remarks = std::move(remarks);
         });
     };
-    run_on_threads(n, [&](Communicator& communicator) {
+    run_on_threads(n, [&](Transport& transport) {
         std::string fault;
         try {
-            run_together(communicator, pass);
+            run_together(transport, pass);
         } catch (const std::exception& error) {
             fault = error.what();
         }

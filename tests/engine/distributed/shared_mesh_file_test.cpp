@@ -17,7 +17,7 @@
 #include "engine/distributed/files/shared_mesh_file.h"
 #include "engine/distributed/parts/slice_measures.h"
 #include "engine/distributed/parts/whole_mesh.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
 #include "partition/io/byte_writer.h"
@@ -260,13 +260,13 @@ TEST_CASE("a result that binary OFF cannot hold is refused as on one machine")
     }
     REQUIRE(!expected.empty());
     for (const int n : {1, 3})
-        run_on_threads(n, [&](Communicator& communicator) {
-            const auto work = [&](Conversation& talk) {
-                const auto opened = open_together(talk, file, sliced);
-                static_cast<void>(opened->read(talk));
-                opened->write(talk, result, hand_out(talk, alone.mesh, sliced.block).vertices);
+        run_on_threads(n, [&](Transport& transport) {
+            const auto work = [&](Communicator& comm) {
+                const auto opened = open_together(comm, file, sliced);
+                static_cast<void>(opened->read(comm));
+                opened->write(comm, result, hand_out(comm, alone.mesh, sliced.block).vertices);
             };
-            CHECK_THROWS_WITH_AS(run_together(communicator, work), expected.c_str(), OutputError);
+            CHECK_THROWS_WITH_AS(run_together(transport, work), expected.c_str(), OutputError);
         });
     CHECK(!std::filesystem::exists(result));
 }
@@ -300,19 +300,19 @@ TEST_CASE("a file that changes while it is used is noticed")
         // The title of a binary STL file is nobody's.
         for (const std::size_t place : {extension == ".stl" ? size / 8 : 1, size / 4, size - 2}) {
             std::string fault;
-            run_on_threads(3, [&](Communicator& communicator) {
+            run_on_threads(3, [&](Transport& transport) {
                 try {
-                    run_together(communicator, [&](Conversation& talk) {
-                        const auto opened = open_together(talk, file, sliced);
-                        const RankSlice slice = opened->read(talk);
-                        talk.at_first_rank([&] {
+                    run_together(transport, [&](Communicator& comm) {
+                        const auto opened = open_together(comm, file, sliced);
+                        const RankSlice slice = opened->read(comm);
+                        comm.at_first_rank([&] {
                             std::fstream changed(file, std::ios::binary | std::ios::in | std::ios::out);
                             changed.seekp(static_cast<std::streamoff>(place)) << 'x';
                         });
-                        opened->write(talk, result, slice.vertices);
+                        opened->write(comm, result, slice.vertices);
                     });
                 } catch (const InputError& error) {
-                    if (communicator.rank() == 0)
+                    if (transport.rank() == 0)
                         fault = error.what();
                 }
             });
@@ -345,10 +345,10 @@ TEST_CASE("sizes of a mesh that ranks have are those of one machine, bit for bit
     PolygonMesh moved = mesh;
     test::lift(moved.vertices);
     for (const int n : {1, 2, 3, 5})
-        run_on_threads(n, [&](Communicator& communicator) {
-            run_together(communicator, [&](Conversation& talk) {
-                RankSlice slice = hand_out(talk, mesh, block_size);
-                const SharedMeshSize size = measure(talk, slice);
+        run_on_threads(n, [&](Transport& transport) {
+            run_together(transport, [&](Communicator& comm) {
+                RankSlice slice = hand_out(comm, mesh, block_size);
+                const SharedMeshSize size = measure(comm, slice);
                 CHECK(size.vertices == mesh.n_vertices());
                 CHECK(size.faces == mesh.n_faces());
                 CHECK(size.area == expected.area);
@@ -356,11 +356,11 @@ TEST_CASE("sizes of a mesh that ranks have are those of one machine, bit for bit
                 CHECK(size.diagonal == extent_of(mesh.vertices));
                 const Points before = slice.vertices;
                 test::lift(slice.vertices);
-                CHECK(measure_moves(talk, before, slice.vertices).max ==
+                CHECK(measure_moves(comm, before, slice.vertices).max ==
                       (moved.vertices - mesh.vertices).rowwise().norm().maxCoeff());
                 if (!slice.corners.empty())
                     slice.corners.front() = mesh.n_vertices();
-                CHECK_THROWS_WITH_AS(measure(talk, slice), doctest::Contains("face 0 (numbered from 0) names vertex"),
+                CHECK_THROWS_WITH_AS(measure(comm, slice), doctest::Contains("face 0 (numbered from 0) names vertex"),
                                      InputError);
             });
         });

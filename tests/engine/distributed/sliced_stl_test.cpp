@@ -113,13 +113,13 @@ TEST_CASE("a result that STL cannot hold is refused as on one machine")
     REQUIRE(!expected.empty());
     for (const int n : {1, 2, 3, 5}) {
         CAPTURE(n);
-        run_on_threads(n, [&](Communicator& communicator) {
-            const auto work = [&](Conversation& talk) {
-                const auto opened = open_together(talk, file, sliced);
-                static_cast<void>(opened->read(talk));
-                opened->write(talk, result, hand_out(talk, moved, sliced.block).vertices);
+        run_on_threads(n, [&](Transport& transport) {
+            const auto work = [&](Communicator& comm) {
+                const auto opened = open_together(comm, file, sliced);
+                static_cast<void>(opened->read(comm));
+                opened->write(comm, result, hand_out(comm, moved, sliced.block).vertices);
             };
-            CHECK_THROWS_WITH_AS(run_together(communicator, work), expected.c_str(), OutputError);
+            CHECK_THROWS_WITH_AS(run_together(transport, work), expected.c_str(), OutputError);
         });
     }
     CHECK(!std::filesystem::exists(result));
@@ -139,11 +139,11 @@ TEST_CASE("facets that become lines are written, and told of, as on one machine"
         REQUIRE(remarks.size() == 1);
         for (const int n : {1, 2, 3, 5}) {
             CAPTURE(n);
-            run_on_threads(n, [&](Communicator& communicator) {
-                run_together(communicator, [&](Conversation& talk) {
-                    const auto opened = open_together(talk, file, sliced);
-                    static_cast<void>(opened->read(talk));
-                    CHECK(opened->write(talk, directory / "out.stl", hand_out(talk, moved, sliced.block).vertices) ==
+            run_on_threads(n, [&](Transport& transport) {
+                run_together(transport, [&](Communicator& comm) {
+                    const auto opened = open_together(comm, file, sliced);
+                    static_cast<void>(opened->read(comm));
+                    CHECK(opened->write(comm, directory / "out.stl", hand_out(comm, moved, sliced.block).vertices) ==
                           remarks);
                 });
             });

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/memory/shared_factor_pool.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/workers.h"
 
 using namespace seamflow;

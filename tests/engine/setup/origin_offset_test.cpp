@@ -206,7 +206,7 @@ TEST_CASE("after a failure the mesh is back where it was")
     CHECK(mesh.vertices == before);
 }
 
-TEST_CASE("a flow far away goes on from a step before")
+TEST_CASE("a flow far away continues from a step before")
 {
     PolygonMesh mesh = make_noisy_sphere(800);
     mesh.vertices = (1e-2 * mesh.vertices.array() + 1e6).matrix();

@@ -9,7 +9,7 @@
 #include "engine/measure/surface_measures.h"
 #include "engine/setup/presets.h"
 #include "engine/setup/smoothed_radius.h"
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/metrics/flipped_faces.h"
 #include "partition/metrics/vertex_distance.h"

@@ -1,4 +1,4 @@
-// A run goes on from a state only with the options that made it: each of them counts, and each alone.
+// A run continues from a state only with the options that made it: each of them counts, and each alone.
 
 #include <functional>
 #include <set>

@@ -119,7 +119,7 @@ TEST_CASE("sweeps that begin with rescaled surfaces go on with the same bits, wi
     }
 }
 
-TEST_CASE("a state goes on from a state")
+TEST_CASE("a state continues from a state")
 {
     const PolygonMesh mesh = make_mixed_polygons(600);
     const FlowOptions options = test::flow_kinds(mean_edge_length(mesh)).front().options;

@@ -78,7 +78,7 @@ class SimulatedSweep {
             return [&done](const Transfer& transfer) { return done[transfer.from] != 0; };
         };
         const auto solved_or_later = [&](const Transfer& transfer) {
-            return plan_->rank[transfer.from] > plan_->rank[s] || solved_[transfer.from] != 0;
+            return plan_->stage[transfer.from] > plan_->stage[s] || solved_[transfer.from] != 0;
         };
         const auto all = [](const std::vector<Transfer>& transfers, const auto& holds) {
             return std::all_of(transfers.begin(), transfers.end(), holds);
@@ -126,12 +126,12 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
     for (const Index k : {2, 3, 8, 20}) {
         const Decomposition decomposition = cut_up(make_triangles(3000), k);
         for (const Colouring colouring : {Colouring::Greedy, Colouring::Label}) {
-            const auto rank = rank_sub_meshes(decomposition, colouring, std::vector<double>(4000, 1.0));
-            std::vector<int> used(rank.size(), 0);
-            for (std::size_t s = 0; s < rank.size(); ++s) {
-                ++used[rank[s]];
+            const auto stage = assign_stages(decomposition, colouring, std::vector<double>(4000, 1.0));
+            std::vector<int> used(stage.size(), 0);
+            for (std::size_t s = 0; s < stage.size(); ++s) {
+                ++used[stage[s]];
                 for (const Index t : decomposition.adjacency[s])
-                    CHECK(rank[s] != rank[t]);
+                    CHECK(stage[s] != stage[t]);
             }
             bool ended = false;
             for (const int count : used) {
@@ -144,8 +144,8 @@ TEST_CASE("adjacent sub-meshes have different ranks, and ranks have no gaps")
 
 TEST_CASE("with labels as colours the rank is the label")
 {
-    const auto rank = rank_sub_meshes(cut_up(make_quads(1000), 5), Colouring::Label, std::vector<double>(2000, 0.0));
-    CHECK(rank == std::vector<Index>{0, 1, 2, 3, 4});
+    const auto stage = assign_stages(cut_up(make_quads(1000), 5), Colouring::Label, std::vector<double>(2000, 0.0));
+    CHECK(stage == std::vector<Index>{0, 1, 2, 3, 4});
 }
 
 TEST_CASE("the colour with more curvature in the interior of its sub-meshes goes first")
@@ -157,9 +157,9 @@ TEST_CASE("the colour with more curvature in the interior of its sub-meshes goes
         const SubMesh& sub_mesh = decomposition.sub_meshes[curved];
         for (Index v = 0; v < sub_mesh.n_vertices; ++v)
             curvature[sub_mesh.local_to_global[v]] = 1.0;
-        const auto rank = rank_sub_meshes(decomposition, Colouring::Greedy, curvature);
-        CHECK(rank[curved] == 0);
-        CHECK(rank[1 - curved] == 1);
+        const auto stage = assign_stages(decomposition, Colouring::Greedy, curvature);
+        CHECK(stage[curved] == 0);
+        CHECK(stage[1 - curved] == 1);
     }
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("curvature on the interface and on the boundary does not count")
     for (Index v = 0; v < first.n_vertices; ++v)
         if (first.fixed[v] == 0)
             curvature[first.local_to_global[v]] += 1e-3;
-    CHECK(rank_sub_meshes(decomposition, Colouring::Greedy, curvature) == std::vector<Index>{0, 1});
+    CHECK(assign_stages(decomposition, Colouring::Greedy, curvature) == std::vector<Index>{0, 1});
 }
 
 TEST_CASE("the reversed order turns first to last")

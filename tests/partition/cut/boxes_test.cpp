@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/cut/boxes.h"
 
 using namespace seamflow;

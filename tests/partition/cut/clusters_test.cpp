@@ -94,7 +94,7 @@ TEST_CASE("large meshes are done in chunks, in any order, whose ends are no ends
     }
     CHECK(n_between_chunks > 100);
     CHECK(2 * n_cut < n_between_chunks);
-    const Loop in_reverse = [](Index n, const LoopBody& body) {
+    const Executor in_reverse = [](Index n, const RangeBody& body) {
         for (Index i = n; i-- > 0;)
             body(i, i + 1);
     };

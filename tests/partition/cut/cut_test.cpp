@@ -82,7 +82,7 @@ TEST_CASE("large meshes, divided by clusters, are cut soundly too, however loops
             ++sizes[static_cast<std::size_t>(label)];
         CHECK(*std::max_element(sizes.begin(), sizes.end()) < 1.1 * m.mesh.n_faces() / k);
     }
-    const Loop backwards = [](Index n, const LoopBody& body) {
+    const Executor backwards = [](Index n, const RangeBody& body) {
         for (Index i = n; i > 0; --i)
             body(i - 1, i);
     };

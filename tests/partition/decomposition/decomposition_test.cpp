@@ -151,7 +151,7 @@ TEST_CASE("faces are listed by label, in ascending order")
     for (Index f = 0; f < n_faces; ++f)
         expected[labels[f]].push_back(f);
     CHECK(faces_by_label(labels, n_parts) == expected);
-    CHECK(faces_by_label(labels, n_parts, [](Index n, const LoopBody& body) {
+    CHECK(faces_by_label(labels, n_parts, [](Index n, const RangeBody& body) {
               for (Index i = n; i > 0; --i)
                   body(i - 1, i);
           }) == expected);

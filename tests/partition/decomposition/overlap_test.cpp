@@ -4,10 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/setup/sweep_plan.h"
 #include "partition/cut/colouring.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/decomposition/overlap.h"
-#include "partition/decomposition/sweep_plan.h"
 #include "partition/labels.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
@@ -19,7 +19,7 @@ namespace {
 
 struct Grown {
     const CutMesh& cut;
-    std::vector<Index> rank;
+    std::vector<Index> stage;
     Decomposition decomposition;
     SweepPlan plan;
 
@@ -34,23 +34,23 @@ struct Grown {
     {
         Index first = *parts_at(v).begin();
         for (const Index part : parts_at(v))
-            if (rank[part] < rank[first])
+            if (stage[part] < stage[first])
                 first = part;
         return first;
     }
     [[nodiscard]] Index global(Index s, Index i) const { return decomposition.sub_meshes[s].local_to_global[i]; }
 };
 
-Grown grown(const CutMesh& cut, std::vector<Index> rank, int layers)
+Grown grown(const CutMesh& cut, std::vector<Index> stage, int layers)
 {
-    const Overlap overlap{cut.labels, rank, layers};
+    const Overlap overlap{cut.labels, stage, layers};
     std::vector<SubMesh> sub_meshes;
     auto faces = faces_by_label(cut.labels, cut.n_parts);
     for (Index s = 0; s < cut.n_parts; ++s)
         sub_meshes.push_back(make_overlapping_sub_mesh(cut.mesh, cut.topology, overlap, s, std::move(faces[s])));
     Decomposition decomposition = connect_overlapping(std::move(sub_meshes), cut.topology, overlap);
-    SweepPlan plan = plan_overlapping_sweep(decomposition, rank);
-    return {cut, std::move(rank), std::move(decomposition), std::move(plan)};
+    SweepPlan plan = plan_overlapping_sweep(decomposition, stage);
+    return {cut, std::move(stage), std::move(decomposition), std::move(plan)};
 }
 
 /// Calls `check` with every cut mesh, grown by one and two layers, in the order of colours and of labels.
@@ -61,9 +61,9 @@ void for_each_grown(Check&& check)
         CAPTURE(cut.name);
         std::vector<Index> by_label(cut.n_parts);
         std::iota(by_label.begin(), by_label.end(), 0);
-        for (const auto& rank : {colour(test::decompose(cut).adjacency), by_label})
+        for (const auto& stage : {colour(test::decompose(cut).adjacency), by_label})
             for (const int layers : {1, 2})
-                check(grown(cut, rank, layers));
+                check(grown(cut, stage, layers));
     }
 }
 
@@ -78,8 +78,8 @@ constexpr int reach = 2;
 
 GrownPart grown_part(const CutMesh& cut, int layers, Index s)
 {
-    const std::vector<Index> rank(cut.n_parts, 0);
-    return make_grown_part(cut.mesh, cut.topology, {cut.labels, rank, layers}, reach, s,
+    const std::vector<Index> stage(cut.n_parts, 0);
+    return make_grown_part(cut.mesh, cut.topology, {cut.labels, stage, layers}, reach, s,
                            faces_by_label(cut.labels, cut.n_parts)[s]);
 }
 
@@ -114,9 +114,9 @@ TEST_CASE("a part grows by the faces around its vertices, into parts of equal or
     std::vector<Index> labels;
     for (Index f = 0; f < 12; ++f)
         labels.push_back(f / 4);
-    const std::vector<Index> rank{1, 0, 1};
+    const std::vector<Index> stage{1, 0, 1};
     const auto grown_by = [&](int layers, Index s) {
-        return grow(mesh, topology, {labels, rank, layers}, s, row_of({4 * s, 4 * s + 4}));
+        return grow(mesh, topology, {labels, stage, layers}, s, row_of({4 * s, 4 * s + 4}));
     };
     CHECK(grown_by(0, 1) == row_of({4, 8}));
     CHECK(grown_by(1, 1) == row_of({3, 9}));
@@ -130,8 +130,8 @@ TEST_CASE("a layer reaches across corners")
     const PolygonMesh mesh = quad_grid(3, 3);
     std::vector<Index> labels(9, 1);
     labels[4] = 0;
-    const std::vector<Index> rank{0, 1};
-    CHECK(grow(mesh, make_topology(mesh), {labels, rank, 1}, 0, {4}).size() == 9);
+    const std::vector<Index> stage{0, 1};
+    CHECK(grow(mesh, make_topology(mesh), {labels, stage, 1}, 0, {4}).size() == 9);
 }
 
 TEST_CASE("the interface is the artificial boundary, and never touches what the sub-mesh itself leads")
@@ -184,7 +184,7 @@ TEST_CASE("traces come from the part of lowest rank where that solves before, an
             CHECK(g.plan.roles[s] == std::vector<InterfaceRole>(interface.vertices.size(), InterfaceRole::Follows));
             std::set<std::pair<Index, Index>> expected;
             for (const Index i : interface.vertices)
-                if (const Index first = g.first_at(g.global(s, i)); g.rank[first] < g.rank[s])
+                if (const Index first = g.first_at(g.global(s, i)); g.stage[first] < g.stage[s])
                     expected.emplace(first, i);
             std::set<std::pair<Index, Index>> found;
             for (const Transfer& trace : g.plan.traces[s])

@@ -224,7 +224,7 @@ TEST_CASE("the neighbours of a vertex of the interface are the other ends of its
             for (const Index corner : cut.topology.corners_at(sub_mesh.local_to_global[sub_mesh.interface.vertices[i]]))
                 for (const Index end : {cut.topology.next(cut.mesh, corner), cut.topology.previous(cut.mesh, corner)})
                     expected.insert(cut.mesh.face_vertices[end]);
-            const auto found = to_global(sub_mesh, sub_mesh.seam.neighbours[i]);
+            const auto found = to_global(sub_mesh, sub_mesh.corrected.neighbours[i]);
             CHECK(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
         }
     });

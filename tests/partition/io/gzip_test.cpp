@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/io/gzip.h"
 #include "tests/support/mesh_files.h"
@@ -117,8 +117,8 @@ TEST_CASE("compressed meshes of every format are read and written, anew and like
         const auto compressed = folder / ("a" + extension + ".gz");
         const FileKind kind{*format_of(compressed), Encoding::Ascii};
         write_mesh(plain, mesh, kind);
-        for (const Loop& loop : {Loop(run_serially), Loop(run_in_parallel)}) {
-            write_mesh(compressed, mesh, kind, loop);
+        for (const Executor& exec : {Executor(run_serially), Executor(run_in_parallel)}) {
+            write_mesh(compressed, mesh, kind, exec);
             CHECK(unpacked(content_of(compressed)) == content_of(plain));
         }
         const MeshFile file = read_mesh(compressed, run_in_parallel);

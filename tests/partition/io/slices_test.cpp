@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "partition/formats/obj.h"
 #include "partition/formats/off.h"
@@ -28,7 +28,7 @@ using test::TemporaryDirectory;
 namespace {
 
 /// One range for every index, the last first.
-void last_slice_first(Index n, const LoopBody& body)
+void last_slice_first(Index n, const RangeBody& body)
 {
     for (Index i = n; i-- > 0;)
         body(i, i + 1);
@@ -270,7 +270,7 @@ TEST_CASE("a file without faults is read slice by slice to its end, and not agai
     for (const File& file : files) {
         CAPTURE(file.content.substr(0, 100));
         int n_loops = 0;
-        const Loop counting = [&](Index n, const LoopBody& body) {
+        const Executor counting = [&](Index n, const RangeBody& body) {
             run_serially(n, body);
             ++n_loops;
         };

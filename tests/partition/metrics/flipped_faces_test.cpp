@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/flipped_faces.h"
 #include "samples/common/meshes.h"
 #include "tests/support/test_meshes.h"

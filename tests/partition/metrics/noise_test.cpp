@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/noise.h"
 #include "partition/metrics/vertex_distance.h"
 #include "samples/common/meshes.h"

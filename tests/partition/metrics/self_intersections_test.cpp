@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/self_intersections.h"
 #include "partition/metrics/triangle_crossing.h"
 #include "partition/metrics/triangulation.h"

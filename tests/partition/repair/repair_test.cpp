@@ -6,8 +6,8 @@
 #include "partition/cut/clusters.h"
 #include "partition/cut/divide.h"
 #include "partition/cut/face_graph.h"
+#include "partition/cut/part_boundaries.h"
 #include "partition/cut/refine.h"
-#include "partition/cut/seams.h"
 #include "partition/labels.h"
 #include "partition/repair/repair.h"
 #include "tests/support/cut_checks.h"
@@ -71,7 +71,7 @@ TEST_CASE("what is suspected of shortened seams is all that there is to repair")
         CAPTURE(m.description);
         const Topology topology = make_topology(m.mesh);
         std::vector<Index> labels = parts_of_clusters(m.mesh, topology, 2 + random.below(8), 2 + random.below(12));
-        const SuspectedDefects suspected = shorten_seams(m.mesh, topology, compact_labels(labels), labels);
+        const SuspectedDefects suspected = shorten_boundaries(m.mesh, topology, compact_labels(labels), labels);
         std::vector<Index> all = labels;
         n_repaired += repair_where_suspected(m.mesh, topology, suspected, labels);
         repair_within_components(m.mesh, topology, all);

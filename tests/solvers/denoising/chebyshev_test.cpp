@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "solvers/denoising/chebyshev.h"
 #include "tests/support/test_meshes.h"
 
@@ -34,13 +34,13 @@ Eigen::MatrixXd dense_laplacian(const FilterSample& sample)
     return laplacian;
 }
 
-Signals filtered(const FilterSample& sample, const Signals& signals, double amount, const Loop& loop)
+Signals filtered(const FilterSample& sample, const Signals& signals, double amount, const Executor& exec)
 {
     const Eigen::VectorXd coefficients =
         ChebyshevExpansion(n_terms).coefficients([&](double eigenvalue) { return filter(amount, eigenvalue); });
     Signals result = Signals::Zero(signals.rows(), 4);
     visit_chebyshev_basis(
-        sample, signals, n_terms, [&](Index j, const Signals& term) { result += coefficients[j] * term; }, loop);
+        sample, signals, n_terms, [&](Index j, const Signals& term) { result += coefficients[j] * term; }, exec);
     return result;
 }
 

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "samples/common/meshes.h"
 #include "solvers/denoising/filter_sample.h"
 #include "tests/support/test_meshes.h"

@@ -4,8 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/decomposition/sweep_plan.h"
 #include "solvers/direct/factor_memory.h"
+#include "solvers/systems/interface_role.h"
 #include "solvers/systems/sub_mesh_system.h"
 #include "tests/support/cut_meshes.h"
 

@@ -64,7 +64,7 @@ void assemble(const Case& c, const Points& after, double time_step, ErrorEquatio
 }
 
 /// The last index first.
-void run_backwards(Index n, const LoopBody& body)
+void run_backwards(Index n, const RangeBody& body)
 {
     for (Index i = n; i-- > 0;)
         body(i, i + 1);

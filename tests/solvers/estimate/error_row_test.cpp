@@ -18,7 +18,7 @@ constexpr double error_time_step = 0.03;
 std::vector<Index> kinds_at(const test::CutMesh& cut, const SubMesh& sub_mesh, Index i)
 {
     std::vector<Index> kinds;
-    for (const Index local : sub_mesh.seam.neighbours[i]) {
+    for (const Index local : sub_mesh.corrected.neighbours[i]) {
         const Index v = sub_mesh.local_to_global[local];
         const auto corners = cut.topology.corners_at(v);
         const auto label = [&](Index corner) { return cut.labels[cut.topology.face_of[corner]]; };

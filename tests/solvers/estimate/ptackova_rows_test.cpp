@@ -43,9 +43,9 @@ TEST_CASE("the residuals are rows of the whole system times the areas of their v
         }
         PtackovaRows rows(mesh, topology, vertices, faces);
         Points residuals(static_cast<Eigen::Index>(vertices.size()), 3);
-        const Loop loop = run_serially;
+        const Executor exec = run_serially;
         const long allocations = test::n_allocations();
-        rows.evaluate(mesh, topology, before, after, time_step, loop, residuals);
+        rows.evaluate(mesh, topology, before, after, time_step, exec, residuals);
         CHECK(test::n_allocations() == allocations);
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Point found = residuals.row(static_cast<Eigen::Index>(i)) / vertex_area(mesh, topology, vertices[i]);

@@ -53,7 +53,7 @@ TEST_CASE("what is left of the residual after the correction has no part along a
             system.take_schur_complement(*factor, workspace.ldl, complements.emplace_back());
         }
         std::vector<double> weights(copies.n_copies());
-        std::map<std::vector<Index>, Index> stretches;
+        std::map<std::vector<Index>, Index> classes;
         for (Index v = 0; v < copies.n_vertices(); ++v) {
             double sum = 0.0;
             std::vector<Index> sharing;
@@ -63,12 +63,12 @@ TEST_CASE("what is left of the residual after the correction has no part along a
             }
             for (const Index copy : copies.of_vertex[v])
                 weights[copy] /= sum;
-            ++stretches[sharing];
+            ++classes[sharing];
         }
         OnePeer all(copies.n_sub_meshes());
         CoarseSpace coarse(copies, all);
         Index n_functions = 0;
-        for (const auto& [sharing, length] : stretches)
+        for (const auto& [sharing, length] : classes)
             n_functions += length > 1 ? static_cast<Index>(sharing.size()) : 1;
         CHECK(coarse.size() == n_functions);
 

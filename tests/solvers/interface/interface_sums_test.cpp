@@ -90,10 +90,10 @@ TEST_CASE("rows are added along a tree of their numbers, whoever has them")
                 CHECK(sums[1] == expected);
         }
     }
-    // Of a stretch, only few sums are told.
-    std::vector<Index> stretches(64, 0);
-    std::fill(stretches.begin() + 21, stretches.end(), 2);
-    CHECK(add_up_together(std::vector<double>(64, 1.0), stretches, 1).n_told < 10);
+    // Of a range, only few sums are told.
+    std::vector<Index> ranges(64, 0);
+    std::fill(ranges.begin() + 21, ranges.end(), 2);
+    CHECK(add_up_together(std::vector<double>(64, 1.0), ranges, 1).n_told < 10);
 }
 
 TEST_CASE("inner products count every vertex of the interface once")

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 #include "partition/errors.h"
 #include "solvers/systems/block_row_matrix.h"
 
@@ -76,14 +76,14 @@ struct Solution {
     BlockRowMatrix::Result result;
 };
 
-Solution solve(BlockRowMatrix& matrix, const Eigen::MatrixXf& b, double goal, float scale, const Loop& loop)
+Solution solve(BlockRowMatrix& matrix, const Eigen::MatrixXf& b, double goal, float scale, const Executor& exec)
 {
     for (Index i = 0; i < matrix.n_rows(); ++i)
         matrix.residual(i) << b(i, 0), b(i, 1), b(i, 2), 0.0F;
-    matrix.factorise(loop);
-    const Eigen::Array4d squared = matrix.start(scale, loop);
+    matrix.factorise(exec);
+    const Eigen::Array4d squared = matrix.start(scale, exec);
     Solution solution;
-    solution.result = matrix.iterate(squared, goal, 1000, loop);
+    solution.result = matrix.iterate(squared, goal, 1000, exec);
     solution.x.resize(matrix.n_rows(), 3);
     for (Index i = 0; i < matrix.n_rows(); ++i)
         solution.x.row(i) = matrix.increment(i).head<3>().matrix().transpose();

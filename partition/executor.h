@@ -11,15 +11,15 @@
 namespace seamflow {
 
 /// The part of a loop over the indices begin to end - 1.
-using LoopBody = std::function<void(Index begin, Index end)>;
+using RangeBody = std::function<void(Index begin, Index end)>;
 
 /// How loops over 0 … n - 1 are run: a caller who has threads passes one that uses them. It runs the body for ranges
 /// that together have every index once, in any order and perhaps several at a time, and returns when all are done. What
 /// a loop computes never depends on how it is divided.
-using Loop = std::function<void(Index n, const LoopBody& body)>;
+using Executor = std::function<void(Index n, const RangeBody& body)>;
 
 /// The whole loop as one range in the thread of the caller.
-inline void run_serially(Index n, const LoopBody& body)
+inline void run_serially(Index n, const RangeBody& body)
 {
     if (n > 0)
         body(0, n);
@@ -27,9 +27,9 @@ inline void run_serially(Index n, const LoopBody& body)
 
 /// Runs body(i) for every i from 0 to n - 1.
 template <class Body>
-void for_each(const Loop& loop, Index n, Body&& body)
+void for_each(const Executor& exec, Index n, Body&& body)
 {
-    loop(n, [&body](Index begin, Index end) {
+    exec(n, [&body](Index begin, Index end) {
         for (Index i = begin; i < end; ++i)
             body(i);
     });
@@ -40,10 +40,10 @@ inline constexpr Index block_size = 4096;
 
 /// Cuts 0 … n - 1 into blocks that depend on n alone and runs body(block, begin, end) for each.
 template <class Body>
-void for_each_block(const Loop& loop, Index n, Body&& body)
+void for_each_block(const Executor& exec, Index n, Body&& body)
 {
     const Index n_blocks = n / block_size + (n % block_size > 0 ? 1 : 0);
-    for_each(loop, n_blocks, [&](Index block) {
+    for_each(exec, n_blocks, [&](Index block) {
         const Index begin = block * block_size;
         body(block, begin, begin + std::min(block_size, n - begin));
     });
@@ -52,10 +52,10 @@ void for_each_block(const Loop& loop, Index n, Body&& body)
 /// What add(total, i) makes of an empty total for each i from 0 to n - 1, block by block; join(total, part) puts the
 /// blocks together. Always in the same order.
 template <class Total, class Add, class Join>
-Total reduce(const Loop& loop, Index n, const Total& empty, Add&& add, Join&& join)
+Total reduce(const Executor& exec, Index n, const Total& empty, Add&& add, Join&& join)
 {
     std::vector<Total> of_block(at(n / block_size) + 1, empty);
-    for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+    for_each_block(exec, n, [&](Index block, Index begin, Index end) {
         Total total = empty;
         for (Index i = begin; i < end; ++i)
             add(total, i);
@@ -69,10 +69,10 @@ Total reduce(const Loop& loop, Index n, const Total& empty, Add&& add, Join&& jo
 
 /// Those of 0 … n - 1 for which `holds`, in ascending order.
 template <class Predicate>
-std::vector<Index> select(const Loop& loop, Index n, Predicate&& holds)
+std::vector<Index> select(const Executor& exec, Index n, Predicate&& holds)
 {
     return reduce(
-        loop, n, std::vector<Index>{},
+        exec, n, std::vector<Index>{},
         [&](std::vector<Index>& selected, Index i) {
             if (holds(i))
                 selected.push_back(i);
@@ -83,10 +83,10 @@ std::vector<Index> select(const Loop& loop, Index n, Predicate&& holds)
 /// The sum of value(i) over 0 … n - 1. Always added up in the same order.
 /// @param zero where the sum begins.
 template <class Value, class Sum = double>
-Sum sum(const Loop& loop, Index n, Value&& value, const Sum& zero = 0.0)
+Sum sum(const Executor& exec, Index n, Value&& value, const Sum& zero = 0.0)
 {
     return reduce(
-        loop, n, zero, [&](Sum& total, Index i) { total += value(i); },
+        exec, n, zero, [&](Sum& total, Index i) { total += value(i); },
         [](Sum& total, const Sum& part) { total += part; });
 }
 
@@ -119,11 +119,12 @@ inline std::vector<IndexRange> long_ranges(Index n, Index n_values)
 
 /// For each of the values 0 … n_values - 1 the sum of weight(i) over the indices i below n that have it.
 template <class ValueOf, class Weight>
-std::vector<std::int64_t> sums_by_value(const Loop& loop, Index n, Index n_values, ValueOf&& value_of, Weight&& weight)
+std::vector<std::int64_t> sums_by_value(const Executor& exec, Index n, Index n_values, ValueOf&& value_of,
+                                        Weight&& weight)
 {
     const std::vector<IndexRange> ranges = long_ranges(n, n_values);
     std::vector<std::vector<std::int64_t>> of_range(ranges.size());
-    for_each(loop, static_cast<Index>(ranges.size()), [&](Index r) {
+    for_each(exec, static_cast<Index>(ranges.size()), [&](Index r) {
         std::vector<std::int64_t> sums(n_values, 0);
         for (Index i = ranges[r].begin; i < ranges[r].end; ++i)
             sums[value_of(i)] += weight(i);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/options/flow_options.h"
-#include "engine/options/schedule.h"
+#include "engine/tasks/schedule.h"
 #include "partition/metrics/displacement.h"
 #include "partition/metrics/length_statistics.h"
 #include "partition/metrics/vertex_distance.h"
@@ -173,7 +173,8 @@ struct StepState {
     const PolygonMesh* separated = nullptr;
     /// #V by 3, those of the undecomposed flow, rescaled as well; null without ReportOptions::reference.
     const Points* reference_positions = nullptr;
-    /// Copies everything that the flow needs to go on from here (see FlowState). May be called while the observer runs.
+    /// Copies everything that the flow needs to resume from here (see FlowState). May be called while the observer
+    /// runs.
     std::function<FlowState()> capture = {};
 };
 

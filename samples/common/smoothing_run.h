@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/options/flow_report.h"
+#include "engine/measure/flow_report.h"
 #include "partition/polygon_mesh.h"
 #include "samples/common/run_record.h"
 #include "samples/common/smooth_command.h"
@@ -18,7 +18,7 @@ RunRecord begin_record(const SmoothCommand& command);
 /// an attachment; notes them in `run`.
 /// @param mesh valid (see require_valid).
 /// @throws InputError for a mesh that has no size to measure by, without naming it: "has no size …".
-void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run);
+void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run);
 
 /// A surface that flows by mean curvature shrinks, which surprises those who only wanted it smooth: adds a remark where
 /// it has lost much of its volume, or most of its area where it encloses none.

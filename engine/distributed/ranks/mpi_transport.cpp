@@ -1,4 +1,4 @@
-#include "engine/distributed/ranks/mpi_communicator.h"
+#include "engine/distributed/ranks/mpi_transport.h"
 
 #include <algorithm>
 #include <array>
@@ -17,9 +17,9 @@ namespace {
 /// Tags of pieces that others follow lie above the tags of messages.
 constexpr int more_follows = 256;
 
-class MpiCommunicator final : public Communicator {
+class MpiTransport final : public Transport {
   public:
-    explicit MpiCommunicator(std::size_t largest_piece)
+    explicit MpiTransport(std::size_t largest_piece)
         : largest_piece_(largest_piece)
     {
         int is_started = 0;
@@ -44,7 +44,7 @@ class MpiCommunicator final : public Communicator {
         incomplete_.resize(size_);
     }
 
-    ~MpiCommunicator() override
+    ~MpiTransport() override
     {
         for (Outgoing& outgoing : outgoing_)
             ::MPI_Wait(&outgoing.request, MPI_STATUS_IGNORE);
@@ -150,9 +150,9 @@ class MpiCommunicator final : public Communicator {
 
 }  // namespace
 
-std::unique_ptr<Communicator> make_mpi_communicator(std::size_t largest_piece)
+std::unique_ptr<Transport> make_mpi_transport(std::size_t largest_piece)
 {
-    return std::make_unique<MpiCommunicator>(largest_piece);
+    return std::make_unique<MpiTransport>(largest_piece);
 }
 
 }  // namespace seamflow

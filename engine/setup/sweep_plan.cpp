@@ -1,4 +1,4 @@
-#include "partition/decomposition/sweep_plan.h"
+#include "engine/setup/sweep_plan.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,14 +9,14 @@ namespace seamflow {
 namespace {
 
 /// What sub-mesh s takes over at the vertices of its Γ at which another one solves before it.
-std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, const std::vector<Index>& rank)
+std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, const std::vector<Index>& stage)
 {
     const auto& interface = decomposition.sub_meshes[s].interface;
     std::vector<TransferRow> rows;
     for (Index i = 0; i < interface.size(); ++i) {
         const auto sharing = interface.sharing[i];
-        const auto leader = std::ranges::min_element(sharing, {}, [&](Index t) { return rank[t]; });
-        if (rank[*leader] < rank[s])
+        const auto leader = std::ranges::min_element(sharing, {}, [&](Index t) { return stage[t]; });
+        if (stage[*leader] < stage[s])
             rows.push_back({*leader, interface.index_in_sharing[i][static_cast<std::size_t>(leader - sharing.begin())],
                             interface.vertices[i]});
     }
@@ -24,14 +24,14 @@ std::vector<Transfer> list_traces(const Decomposition& decomposition, Index s, c
 }
 
 /// Sub-mesh s leads where it solves first.
-std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s, const std::vector<Index>& rank)
+std::vector<InterfaceRole> list_roles(const SubMeshInterface& interface, Index s, const std::vector<Index>& stage)
 {
     std::vector<InterfaceRole> roles;
     roles.reserve(interface.vertices.size());
     for (Index i = 0; i < interface.size(); ++i) {
-        assert(std::ranges::none_of(interface.sharing[i], [&](Index t) { return t != s && rank[t] == rank[s]; }) &&
+        assert(std::ranges::none_of(interface.sharing[i], [&](Index t) { return t != s && stage[t] == stage[s]; }) &&
                "adjacent sub-meshes have different ranks");
-        const bool leads = std::ranges::none_of(interface.sharing[i], [&](Index t) { return rank[t] < rank[s]; });
+        const bool leads = std::ranges::none_of(interface.sharing[i], [&](Index t) { return stage[t] < stage[s]; });
         roles.push_back(leads ? InterfaceRole::Leads : InterfaceRole::Follows);
     }
     return roles;
@@ -133,11 +133,11 @@ std::vector<Transfer> list_copies(const Decomposition& decomposition, Index s)
 
 }  // namespace
 
-SweepPlan empty_plan(std::vector<Index> rank)
+SweepPlan empty_plan(std::vector<Index> stage)
 {
-    const std::size_t n = rank.size();
+    const std::size_t n = stage.size();
     SweepPlan plan;
-    plan.rank = std::move(rank);
+    plan.stage = std::move(stage);
     plan.roles.resize(n);
     plan.traces.resize(n);
     plan.predictions.resize(n);
@@ -145,33 +145,33 @@ SweepPlan empty_plan(std::vector<Index> rank)
     return plan;
 }
 
-SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> rank, const Loop& loop)
+SweepPlan plan_mutual_sweep(const Decomposition& decomposition, std::vector<Index> stage, const Executor& exec)
 {
-    SweepPlan plan = empty_plan(std::move(rank));
-    for_each(loop, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
+    SweepPlan plan = empty_plan(std::move(stage));
+    for_each(exec, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
         plan.roles[s].assign(decomposition.sub_meshes[s].interface.size(), InterfaceRole::Leads);
         plan.copies[s] = list_copies(decomposition, s);
     });
     return plan;
 }
 
-SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> rank, const Loop& loop)
+SweepPlan plan_sweep(const Decomposition& decomposition, std::vector<Index> stage, const Executor& exec)
 {
-    SweepPlan plan = empty_plan(std::move(rank));
-    for_each(loop, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
-        plan.traces[s] = list_traces(decomposition, s, plan.rank);
-        plan.roles[s] = list_roles(decomposition.sub_meshes[s].interface, s, plan.rank);
+    SweepPlan plan = empty_plan(std::move(stage));
+    for_each(exec, static_cast<Index>(decomposition.sub_meshes.size()), [&](Index s) {
+        plan.traces[s] = list_traces(decomposition, s, plan.stage);
+        plan.roles[s] = list_roles(decomposition.sub_meshes[s].interface, s, plan.stage);
         plan_predictions(decomposition, s, plan);
     });
     return plan;
 }
 
-SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::vector<Index> rank)
+SweepPlan plan_overlapping_sweep(const Decomposition& decomposition, std::vector<Index> stage)
 {
-    SweepPlan plan = empty_plan(std::move(rank));
+    SweepPlan plan = empty_plan(std::move(stage));
     for (Index s = 0; s < static_cast<Index>(decomposition.sub_meshes.size()); ++s) {
         plan.roles[s].assign(decomposition.sub_meshes[s].interface.vertices.size(), InterfaceRole::Follows);
-        plan.traces[s] = list_traces(decomposition, s, plan.rank);
+        plan.traces[s] = list_traces(decomposition, s, plan.stage);
     }
     return plan;
 }

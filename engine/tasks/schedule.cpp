@@ -1,4 +1,4 @@
-#include "engine/options/schedule.h"
+#include "engine/tasks/schedule.h"
 
 namespace seamflow {
 

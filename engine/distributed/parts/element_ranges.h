@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/distributed/parts/deal.h"
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 #include "partition/polygon_mesh.h"
 
 /// Which elements of a mesh each rank has, and how they move where that changes. Bounds are #ranks + 1: the first
@@ -14,24 +14,24 @@
 namespace seamflow {
 
 /// The bounds if all ranks in their order have so many.
-std::vector<std::int64_t> gather_bounds_of(Conversation& talk, std::int64_t n_own);
+std::vector<std::int64_t> gather_bounds_of(Communicator& comm, std::int64_t n_own);
 
-/// See begin_of_stretch.
-std::vector<std::int64_t> bounds_of_stretches(std::int64_t n, int n_ranks, std::int64_t block);
+/// See begin_of_range.
+std::vector<std::int64_t> bounds_of_ranges(std::int64_t n, int n_ranks, std::int64_t block);
 
 /// Gives elements to the ranks that are to have them.
 /// @param from, to bounds: which this rank has, and which it is to have.
 /// @param pack called with the first of some elements that go to the same rank and the one behind the last, both from 0
 ///        among those of this rank.
 /// @returns what comes from each rank; empty: nothing does.
-std::vector<Bytes> move_elements(Conversation& talk, const std::vector<std::int64_t>& from,
+std::vector<Bytes> move_elements(Communicator& comm, const std::vector<std::int64_t>& from,
                                  const std::vector<std::int64_t>& to,
                                  const std::function<Bytes(Index begin, Index end)>& pack);
 
 /// The same of values.
 /// @param own those of this rank by the bounds `from`. @returns those of this rank by the bounds `to`.
 template <class Value>
-std::vector<Value> move_values(Conversation& talk, const std::vector<Value>& own, const std::vector<std::int64_t>& from,
+std::vector<Value> move_values(Communicator& comm, const std::vector<Value>& own, const std::vector<std::int64_t>& from,
                                const std::vector<std::int64_t>& to)
 {
     const auto pack = [&](Index begin, Index end) {
@@ -40,7 +40,7 @@ std::vector<Value> move_values(Conversation& talk, const std::vector<Value>& own
         return packer.take();
     };
     std::vector<Value> values;
-    for (const Bytes& bytes : move_elements(talk, from, to, pack))
+    for (const Bytes& bytes : move_elements(comm, from, to, pack))
         if (!bytes.empty())
             Unpacker(bytes).append_all(values);
     return values;
@@ -48,12 +48,12 @@ std::vector<Value> move_values(Conversation& talk, const std::vector<Value>& own
 
 /// Gives rows to the ranks that are to have them.
 /// @param own those of this rank by the bounds `from`. @returns those of this rank by the bounds `to`.
-Points move_rows(Conversation& talk, const Points& own, const std::vector<std::int64_t>& from,
+Points move_rows(Communicator& comm, const Points& own, const std::vector<std::int64_t>& from,
                  const std::vector<std::int64_t>& to);
 
-/// Makes stretches as SharedMeshFile::read gives them of what ranks have found in slices of a file.
+/// Makes ranges as SharedMeshFile::read gives them of what ranks have found in slices of a file.
 /// @param found without labels; its corners are numbered in the whole mesh.
-RankSlice move_to_stretches(Conversation& talk, RankSlice found, Index block);
+RankSlice move_to_ranges(Communicator& comm, RankSlice found, Index block);
 
 /// The same as a mesh, with corners numbered in the whole mesh.
 PolygonMesh mesh_of(const RankSlice& slice);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 #include "partition/polygon_mesh.h"
 #include "partition/repair/repair.h"
 #include "partition/topology.h"
@@ -17,11 +17,11 @@ namespace seamflow {
 /// (see repair).
 /// @param labels #F, from 0 to n_labels - 1; none is carried into another connected component.
 /// @returns where defects may be now if all parts were connected before.
-SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
-                               std::vector<Index>& labels, const Loop& loop = run_serially);
+SuspectedDefects shorten_boundaries(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
+                                    std::vector<Index>& labels, const Executor& exec = run_serially);
 
 /// What a piece of a mesh has to know of the whole.
-struct SeamSurroundings {
+struct BoundarySurroundings {
     /// One entry per label: the weight of the part in the whole mesh.
     std::vector<std::int64_t> weights;
     /// #F of the piece: 1 where a face keeps its label, as those do that have neighbours outside.
@@ -29,7 +29,8 @@ struct SeamSurroundings {
 };
 
 /// The same within a piece of a mesh.
-SuspectedDefects shorten_seams(const PolygonMesh& piece, const Topology& topology, const SeamSurroundings& whole,
-                               std::vector<Index>& labels, const Loop& loop = run_serially);
+SuspectedDefects shorten_boundaries(const PolygonMesh& piece, const Topology& topology,
+                                    const BoundarySurroundings& whole, std::vector<Index>& labels,
+                                    const Executor& exec = run_serially);
 
 }  // namespace seamflow

@@ -6,14 +6,14 @@
 
 #include <doctest/doctest.h>
 
-#include "partition/loop.h"
+#include "partition/executor.h"
 
 using namespace seamflow;
 
 namespace {
 
 /// Ranges of one index, the last one first.
-void run_backwards(Index n, const LoopBody& body)
+void run_backwards(Index n, const RangeBody& body)
 {
     for (Index i = n; i > 0; --i)
         body(i - 1, i);
@@ -23,11 +23,11 @@ void run_backwards(Index n, const LoopBody& body)
 
 TEST_CASE("a loop comes by every index once")
 {
-    for (const Loop& loop : {Loop(run_serially), Loop(run_backwards)})
+    for (const Executor& exec : {Executor(run_serially), Executor(run_backwards)})
         for (const Index n : {0, 1, block_size - 1, block_size, 3 * block_size + 5}) {
             std::vector<int> visits(n, 0);
-            for_each(loop, n, [&](Index i) { ++visits[i]; });
-            for_each_block(loop, n, [&](Index block, Index begin, Index end) {
+            for_each(exec, n, [&](Index i) { ++visits[i]; });
+            for_each_block(exec, n, [&](Index block, Index begin, Index end) {
                 CHECK(begin == block * block_size);
                 for (Index i = begin; i < end; ++i)
                     ++visits[i];

@@ -1,4 +1,4 @@
-#include "partition/formats/ply_stretches.h"
+#include "partition/formats/ply_ranges.h"
 
 #include <algorithm>
 #include <limits>
@@ -55,7 +55,7 @@ void require_few(const std::filesystem::path& path, const PlyElement* element)
 
 }  // namespace
 
-PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content)
+PlyRanges::PlyRanges(std::filesystem::path path, std::string_view content)
     : path_(std::move(path))
     , content_(content)
 {
@@ -81,7 +81,7 @@ PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content)
     }
 }
 
-PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin)
+PlyRanges::PlyRanges(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin)
     : path_(std::move(path))
     , content_(content)
     , header_(std::move(header))
@@ -92,7 +92,7 @@ PlyStretches::PlyStretches(std::filesystem::path path, std::string_view content,
     find_elements();
 }
 
-void PlyStretches::find_elements()
+void PlyRanges::find_elements()
 {
     faces_ = header_.element("face");
     std::size_t offset = elements_begin_;
@@ -108,7 +108,7 @@ void PlyStretches::find_elements()
     triangle_bytes_ = faces_ != nullptr ? bytes_with_triples(*faces_) : 0;
 }
 
-Points PlyStretches::vertices(Index begin, Index end) const
+Points PlyRanges::vertices(Index begin, Index end) const
 {
     Points points = uninitialised_points(end - begin);
     PolygonMesh unused;
@@ -119,7 +119,7 @@ Points PlyStretches::vertices(Index begin, Index end) const
     return points;
 }
 
-std::size_t PlyStretches::end_of_faces(std::size_t byte, Index begin, Index end) const
+std::size_t PlyRanges::end_of_faces(std::size_t byte, Index begin, Index end) const
 {
     if (begin == end)
         return byte;
@@ -128,7 +128,7 @@ std::size_t PlyStretches::end_of_faces(std::size_t byte, Index begin, Index end)
     return pass_over_elements(content_, byte, order_of(header_.encoding), *faces_, at(end - begin));
 }
 
-PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end, FaultLog& faults) const
+PolygonMesh PlyRanges::faces(std::size_t byte, Index begin, Index end, FaultLog& faults) const
 {
     PolygonMesh mesh;
     if (begin == end)
@@ -141,7 +141,7 @@ PolygonMesh PlyStretches::faces(std::size_t byte, Index begin, Index end, FaultL
     return mesh;
 }
 
-void PlyStretches::require_end(std::size_t byte) const
+void PlyRanges::require_end(std::size_t byte) const
 {
     PlyBinarySource source(path_, content_, byte, header_.encoding);
     const PlyElement* const last = faces_ != nullptr ? faces_ : &header_.elements.back();

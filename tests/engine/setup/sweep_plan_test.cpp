@@ -4,8 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/setup/sweep_plan.h"
 #include "partition/cut/colouring.h"
-#include "partition/decomposition/sweep_plan.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/test_meshes.h"
 
@@ -19,8 +19,8 @@ std::vector<std::vector<Index>> ranks_for(const Decomposition& decomposition)
 {
     const std::vector<Index> by_colour = colour(decomposition.adjacency);
     std::vector<Index> backwards = by_colour;
-    for (Index& rank : backwards)
-        rank = n_colours(by_colour) - 1 - rank;
+    for (Index& stage : backwards)
+        stage = n_colours(by_colour) - 1 - stage;
     std::vector<Index> one_by_one(by_colour.size());
     std::iota(one_by_one.begin(), one_by_one.end(), 0);
     return {by_colour, backwards, one_by_one};
@@ -49,9 +49,9 @@ void for_each_plan(Check&& check)
     for (const CutMesh& cut : cuts) {
         CAPTURE(cut.name);
         const Decomposition decomposition = test::decompose(cut);
-        for (const auto& rank : ranks_for(decomposition)) {
-            const SweepPlan plan = plan_sweep(decomposition, rank);
-            CHECK(plan.rank == rank);
+        for (const auto& stage : ranks_for(decomposition)) {
+            const SweepPlan plan = plan_sweep(decomposition, stage);
+            CHECK(plan.stage == stage);
             check(decomposition, plan);
         }
     }
@@ -75,13 +75,13 @@ std::vector<Index> senders_of_predictions(const Decomposition& decomposition, In
     return sender;
 }
 
-/// The sub-mesh of the lowest rank among those at the i-th vertex of Γ of a sub-mesh.
+/// The sub-mesh of the earliest stage among those at the i-th vertex of Γ of a sub-mesh.
 Index first_at(const SubMesh& sub_mesh, Index i, const SweepPlan& plan)
 {
     const auto sharing = sub_mesh.interface.sharing[i];
     Index first = sharing.front();
     for (const Index s : sharing)
-        if (plan.rank[s] < plan.rank[first])
+        if (plan.stage[s] < plan.stage[first])
             first = s;
     return first;
 }
@@ -120,7 +120,7 @@ TEST_CASE("traces bring each following vertex its position from the leader, and 
                 CHECK(trace.to == s);
                 CHECK(trace.from > previous);
                 previous = trace.from;
-                CHECK(plan.rank[trace.from] < plan.rank[s]);
+                CHECK(plan.stage[trace.from] < plan.stage[s]);
                 const SubMesh& from = decomposition.sub_meshes[trace.from];
                 REQUIRE(trace.source.size() == trace.target.size());
                 for (std::size_t k = 0; k < trace.source.size(); ++k) {

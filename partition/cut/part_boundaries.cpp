@@ -1,4 +1,4 @@
-#include "partition/cut/seams.h"
+#include "partition/cut/part_boundaries.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -17,10 +17,10 @@ namespace {
 /// Hardly anything moves in later rounds.
 constexpr int max_shortening_rounds = 8;
 
-class SeamShortener {
+class BoundaryShortener {
   public:
-    SeamShortener(const PolygonMesh& mesh, const Topology& topology, const SeamSurroundings& whole,
-                  std::vector<Index>& labels)
+    BoundaryShortener(const PolygonMesh& mesh, const Topology& topology, const BoundarySurroundings& whole,
+                      std::vector<Index>& labels)
         : mesh_(mesh)
         , topology_(topology)
         , labels_(labels)
@@ -33,7 +33,7 @@ class SeamShortener {
 
     [[nodiscard]] bool is_held(Index f) const { return !held_.empty() && held_[f] != 0; }
 
-    [[nodiscard]] bool is_beside_seam(Index f) const
+    [[nodiscard]] bool is_beside_boundary(Index f) const
     {
         bool beside = false;
         for_each_neighbour(mesh_, topology_, f, [&](Index, Index g) { beside = beside || labels_[g] != labels_[f]; });
@@ -115,23 +115,23 @@ class SeamShortener {
 
 }  // namespace
 
-SuspectedDefects shorten_seams(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
-                               std::vector<Index>& labels, const Loop& loop)
+SuspectedDefects shorten_boundaries(const PolygonMesh& mesh, const Topology& topology, Index n_labels,
+                                    std::vector<Index>& labels, const Executor& exec)
 {
     const auto weights = sums_by_value(
-        loop, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
+        exec, mesh.n_faces(), n_labels, [&](Index f) { return labels[f]; },
         [&](Index f) { return face_weight(mesh, f); });
-    return shorten_seams(mesh, topology, SeamSurroundings{.weights = weights, .held = {}}, labels, loop);
+    return shorten_boundaries(mesh, topology, BoundarySurroundings{.weights = weights, .held = {}}, labels, exec);
 }
 
-SuspectedDefects shorten_seams(const PolygonMesh& piece, const Topology& topology, const SeamSurroundings& whole,
-                               std::vector<Index>& labels, const Loop& loop)
+SuspectedDefects shorten_boundaries(const PolygonMesh& piece, const Topology& topology,
+                                    const BoundarySurroundings& whole, std::vector<Index>& labels, const Executor& exec)
 {
     if (whole.weights.size() < 2)
         return {.parts = std::vector<bool>(whole.weights.size(), false), .faces = {}};
-    SeamShortener shortener(piece, topology, whole, labels);
-    auto faces =
-        select(loop, piece.n_faces(), [&](Index f) { return !shortener.is_held(f) && shortener.is_beside_seam(f); });
+    BoundaryShortener shortener(piece, topology, whole, labels);
+    auto faces = select(exec, piece.n_faces(),
+                        [&](Index f) { return !shortener.is_held(f) && shortener.is_beside_boundary(f); });
     std::vector<Index> suspected = faces;
     for (int round = 0; round < max_shortening_rounds && !faces.empty(); ++round) {
         // Only around faces that have moved may others follow.

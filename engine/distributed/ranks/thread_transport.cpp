@@ -1,4 +1,4 @@
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 
 #include <condition_variable>
 #include <deque>
@@ -40,9 +40,9 @@ class Inbox {
     std::deque<Message> messages_;
 };
 
-class ThreadCommunicator final : public Communicator {
+class ThreadTransport final : public Transport {
   public:
-    ThreadCommunicator(int rank, std::vector<Inbox>& inboxes)
+    ThreadTransport(int rank, std::vector<Inbox>& inboxes)
         : rank_(rank)
         , inboxes_(&inboxes)
     {
@@ -66,12 +66,12 @@ class ThreadCommunicator final : public Communicator {
 
 }  // namespace
 
-void run_on_threads(int n, const std::function<void(Communicator&)>& body)
+void run_on_threads(int n, const std::function<void(Transport&)>& body)
 {
     std::vector<Inbox> inboxes(n);
-    std::deque<ThreadCommunicator> communicators;
+    std::deque<ThreadTransport> transports;
     for (int rank = 0; rank < n; ++rank)
-        communicators.emplace_back(rank, inboxes);
+        transports.emplace_back(rank, inboxes);
     std::vector<std::exception_ptr> failures(n);
     // No rank begins before all are there: it might wait for one that does not come.
     std::promise<bool> all_begin;
@@ -83,7 +83,7 @@ void run_on_threads(int n, const std::function<void(Communicator&)>& body)
                 if (!begin.get())
                     return;
                 try {
-                    body(communicators[rank]);
+                    body(transports[rank]);
                 } catch (...) {
                     failures[rank] = std::current_exception();
                 }

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "engine/distributed/ranks/communicator.h"
+#include "engine/distributed/ranks/transport.h"
 
 namespace seamflow {
 
@@ -10,6 +10,6 @@ namespace seamflow {
 /// throws leaves the others to themselves: use run_together within it.
 /// @param n at least 1.
 /// @throws what the body of the lowest rank has thrown, of those that have.
-void run_on_threads(int n, const std::function<void(Communicator&)>& body);
+void run_on_threads(int n, const std::function<void(Transport&)>& body);
 
 }  // namespace seamflow

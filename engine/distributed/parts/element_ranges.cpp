@@ -1,4 +1,4 @@
-#include "engine/distributed/parts/stretches.h"
+#include "engine/distributed/parts/element_ranges.h"
 
 #include <algorithm>
 #include <functional>
@@ -12,7 +12,7 @@ namespace seamflow {
 
 namespace {
 
-void move_faces(Conversation& talk, const RankSlice& found, const std::vector<std::int64_t>& from,
+void move_faces(Communicator& comm, const RankSlice& found, const std::vector<std::int64_t>& from,
                 const std::vector<std::int64_t>& to, RankSlice& slice)
 {
     const auto pack = [&](Index begin, Index end) {
@@ -26,7 +26,7 @@ void move_faces(Conversation& talk, const RankSlice& found, const std::vector<st
             std::span<const std::int64_t>(found.corners).subspan(at(first), at(found.face_offsets[end] - first)));
         return packer.take();
     };
-    for (const Bytes& bytes : move_elements(talk, from, to, pack)) {
+    for (const Bytes& bytes : move_elements(comm, from, to, pack)) {
         if (bytes.empty())
             continue;
         Unpacker unpacker(bytes);
@@ -39,38 +39,38 @@ void move_faces(Conversation& talk, const RankSlice& found, const std::vector<st
 
 }  // namespace
 
-std::vector<std::int64_t> gather_bounds_of(Conversation& talk, std::int64_t n_own)
+std::vector<std::int64_t> gather_bounds_of(Communicator& comm, std::int64_t n_own)
 {
-    const auto counts = talk.gather_all(std::vector<std::int64_t>{n_own});
+    const auto counts = comm.gather_all(std::vector<std::int64_t>{n_own});
     std::vector<std::int64_t> bounds{0};
     std::partial_sum(counts.begin(), counts.end(), std::back_inserter(bounds));
     return bounds;
 }
 
-std::vector<std::int64_t> bounds_of_stretches(std::int64_t n, int n_ranks, std::int64_t block)
+std::vector<std::int64_t> bounds_of_ranges(std::int64_t n, int n_ranks, std::int64_t block)
 {
     std::vector<std::int64_t> bounds;
     for (int r = 0; r <= n_ranks; ++r)
-        bounds.push_back(begin_of_stretch(n, r, n_ranks, block));
+        bounds.push_back(begin_of_range(n, r, n_ranks, block));
     return bounds;
 }
 
-std::vector<Bytes> move_elements(Conversation& talk, const std::vector<std::int64_t>& from,
+std::vector<Bytes> move_elements(Communicator& comm, const std::vector<std::int64_t>& from,
                                  const std::vector<std::int64_t>& to,
                                  const std::function<Bytes(Index begin, Index end)>& pack)
 {
-    std::vector<Bytes> to_each(static_cast<std::size_t>(talk.size()));
-    const std::int64_t first = from[talk.rank()];
-    for (int r = 0; r < talk.size(); ++r) {
+    std::vector<Bytes> to_each(static_cast<std::size_t>(comm.size()));
+    const std::int64_t first = from[comm.rank()];
+    for (int r = 0; r < comm.size(); ++r) {
         const std::int64_t begin = std::max(first, to[r]);
-        const std::int64_t end = std::min(from[talk.rank() + 1], to[r + 1]);
+        const std::int64_t end = std::min(from[comm.rank() + 1], to[r + 1]);
         if (begin < end)
             to_each[r] = pack(static_cast<Index>(begin - first), static_cast<Index>(end - first));
     }
-    return talk.exchange(std::move(to_each));
+    return comm.exchange(std::move(to_each));
 }
 
-Points move_rows(Conversation& talk, const Points& own, const std::vector<std::int64_t>& from,
+Points move_rows(Communicator& comm, const Points& own, const std::vector<std::int64_t>& from,
                  const std::vector<std::int64_t>& to)
 {
     const auto pack = [&](Index begin, Index end) {
@@ -78,26 +78,26 @@ Points move_rows(Conversation& talk, const Points& own, const std::vector<std::i
         packer.put_all(std::span<const double>(own.data() + std::ptrdiff_t{3} * begin, at(end - begin) * 3));
         return packer.take();
     };
-    Points rows(to[talk.rank() + 1] - to[talk.rank()], 3);
+    Points rows(to[comm.rank() + 1] - to[comm.rank()], 3);
     double* next = rows.data();
-    for (const Bytes& bytes : move_elements(talk, from, to, pack))
+    for (const Bytes& bytes : move_elements(comm, from, to, pack))
         if (!bytes.empty())
             next = std::ranges::copy(unpacked<double>(bytes), next).out;
     return rows;
 }
 
-RankSlice move_to_stretches(Conversation& talk, RankSlice found, Index block)
+RankSlice move_to_ranges(Communicator& comm, RankSlice found, Index block)
 {
-    const SliceBounds from = gather_bounds(talk, found);
-    const auto vertices = bounds_of_stretches(from.vertices.back(), talk.size(), block);
-    const auto faces = bounds_of_stretches(from.faces.back(), talk.size(), block);
+    const SliceBounds from = gather_bounds(comm, found);
+    const auto vertices = bounds_of_ranges(from.vertices.back(), comm.size(), block);
+    const auto faces = bounds_of_ranges(from.faces.back(), comm.size(), block);
     if (vertices != from.vertices)
-        found.vertices = move_rows(talk, found.vertices, from.vertices, vertices);
+        found.vertices = move_rows(comm, found.vertices, from.vertices, vertices);
     if (faces == from.faces)
         return found;
     RankSlice slice;
     slice.vertices = std::move(found.vertices);
-    move_faces(talk, found, from.faces, faces, slice);
+    move_faces(comm, found, from.faces, faces, slice);
     return slice;
 }
 

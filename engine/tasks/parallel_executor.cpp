@@ -1,4 +1,4 @@
-#include "engine/tasks/parallel_loop.h"
+#include "engine/tasks/parallel_executor.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -10,7 +10,7 @@ namespace seamflow {
 
 namespace tbb = oneapi::tbb;
 
-void run_in_parallel(Index n, const LoopBody& body)
+void run_in_parallel(Index n, const RangeBody& body)
 {
     const SharedWork work;
     tbb::parallel_for(tbb::blocked_range<Index>(0, n), [&](const tbb::blocked_range<Index>& range) {

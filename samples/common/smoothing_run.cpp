@@ -1,4 +1,4 @@
-#include "samples/common/flow_run.h"
+#include "samples/common/smoothing_run.h"
 
 #include <optional>
 #include <utility>
@@ -14,11 +14,11 @@ namespace seamflow {
 namespace {
 
 /// The amount that the preset chooses.
-void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
+void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
     PresetChoice choice{.options = std::move(command.options)};
     const PresetTraits& preset = preset_of(command.preset);
-    choose_amount(preset, mesh, command.noise, choice, loop);
+    choose_amount(preset, mesh, command.noise, choice, exec);
     command.options = std::move(choice.options);
     if (!choice.remark.empty())
         run.remarks.push_back(choice.remark);
@@ -49,16 +49,16 @@ RunRecord begin_record(const SmoothCommand& command)
             .remarks = command.remarks};
 }
 
-void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Loop& loop, RunRecord& run)
+void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
 {
-    run.scale = measure_scale(mesh, loop);
+    run.scale = measure_scale(mesh, exec);
     MotionOptions& motion = command.options.motion;
     motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
     motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
     if (command.attach)
         motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
     if (command.chooses_amount)
-        choose_amount(command, mesh, loop, run);
+        choose_amount(command, mesh, exec, run);
     else
         command.options.time_step =
             time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));

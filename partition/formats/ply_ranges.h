@@ -20,21 +20,21 @@
 namespace seamflow {
 
 /// A binary file, and where its elements stand.
-class PlyStretches {
+class PlyRanges {
   public:
     /// @param content the whole file, which is not text (see slice_ply_text) and of which only what is asked for is
     /// looked at. It has to outlive this.
     /// @throws InputError as read_ply; also for files whose vertices have no fixed place: with lists in vertices, and
     ///         with faces before them.
-    PlyStretches(std::filesystem::path path, std::string_view content);
+    PlyRanges(std::filesystem::path path, std::string_view content);
 
     /// A file of another format with such elements.
     /// @param begin of the elements in the file.
     /// @throws InputError, of no use to a reader, if the vertices are not all there.
-    PlyStretches(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin);
-    PlyStretches(const PlyStretches&) = delete;
-    PlyStretches& operator=(const PlyStretches&) = delete;
-    ~PlyStretches() = default;
+    PlyRanges(std::filesystem::path path, std::string_view content, PlyHeader header, std::size_t begin);
+    PlyRanges(const PlyRanges&) = delete;
+    PlyRanges& operator=(const PlyRanges&) = delete;
+    ~PlyRanges() = default;
 
     [[nodiscard]] const PlyHeader& header() const { return header_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/distributed/ranks/conversation.h"
-#include "engine/distributed/ranks/thread_communicator.h"
+#include "engine/distributed/ranks/communicator.h"
+#include "engine/distributed/ranks/thread_transport.h"
 #include "tests/engine/distributed/rank_checks.h"
 
 using namespace seamflow;
@@ -16,13 +16,13 @@ using namespace seamflow;
 namespace {
 
 /// What every rank of n throws when `work` runs on all of them: a message each, with the type in front.
-std::vector<std::string> thrown_by_ranks(int n, const std::function<void(Conversation&)>& work)
+std::vector<std::string> thrown_by_ranks(int n, const std::function<void(Communicator&)>& work)
 {
     std::vector<std::string> thrown(n);
-    run_on_threads(n, [&](Communicator& communicator) {
-        std::string& own = thrown[communicator.rank()];
+    run_on_threads(n, [&](Transport& transport) {
+        std::string& own = thrown[transport.rank()];
         try {
-            run_together(communicator, work);
+            run_together(transport, work);
         } catch (const InputError& error) {
             own = std::string("input: ") + error.what();
         } catch (const OptionError& error) {
@@ -45,9 +45,9 @@ bool all_are(const std::vector<std::string>& thrown, const std::string& expected
     return std::ranges::all_of(thrown, [&](const std::string& message) { return message == expected; });
 }
 
-void wait_in_vain(Conversation& talk)
+void wait_in_vain(Communicator& comm)
 {
-    talk.gather_all(std::vector<int>{1});
+    comm.gather_all(std::vector<int>{1});
 }
 
 }  // namespace
@@ -56,11 +56,11 @@ TEST_CASE("ranks as threads hear each other")
 {
     for (const int n : {1, 2, 3, 5, 8}) {
         CAPTURE(n);
-        run_on_threads(n, [](Communicator& communicator) {
-            test::check_collectives(communicator);
-            test::check_arrivals(communicator);
-            test::check_failures(communicator);
-            test::check_agreement(communicator);
+        run_on_threads(n, [](Transport& transport) {
+            test::check_collectives(transport);
+            test::check_arrivals(transport);
+            test::check_failures(transport);
+            test::check_agreement(transport);
         });
     }
 }
@@ -68,10 +68,10 @@ TEST_CASE("ranks as threads hear each other")
 TEST_CASE("what one rank throws all throw, by its type")
 {
     const auto thrown_by_second = [](auto&& fail) {
-        return thrown_by_ranks(3, [&](Conversation& talk) {
-            if (talk.rank() == 1)
+        return thrown_by_ranks(3, [&](Communicator& comm) {
+            if (comm.rank() == 1)
                 fail();
-            wait_in_vain(talk);
+            wait_in_vain(comm);
         });
     };
     const std::string where = "rank 1 on this process: ";
@@ -88,26 +88,26 @@ TEST_CASE("what one rank throws all throw, by its type")
 TEST_CASE("of several ranks that fail the lowest is heard")
 {
     std::latch both_are_here(2);
-    const auto thrown = thrown_by_ranks(4, [&](Conversation& talk) {
-        if (talk.rank() >= 2) {
+    const auto thrown = thrown_by_ranks(4, [&](Communicator& comm) {
+        if (comm.rank() >= 2) {
             both_are_here.arrive_and_wait();
-            throw InputError("from " + std::to_string(talk.rank()));
+            throw InputError("from " + std::to_string(comm.rank()));
         }
-        wait_in_vain(talk);
+        wait_in_vain(comm);
     });
     CHECK(all_are(thrown, "input: rank 2 on this process: from 2"));
 }
 
 TEST_CASE("what all ranks find wrong alike is said without the name of one")
 {
-    CHECK(all_are(thrown_by_ranks(3, [](Conversation&) { throw OptionError("steps is -1"); }), "option: steps is -1"));
+    CHECK(all_are(thrown_by_ranks(3, [](Communicator&) { throw OptionError("steps is -1"); }), "option: steps is -1"));
 }
 
 TEST_CASE("a rank that ends too early is noticed")
 {
-    const auto thrown = thrown_by_ranks(2, [](Conversation& talk) {
-        if (talk.rank() == 1)
-            wait_in_vain(talk);
+    const auto thrown = thrown_by_ranks(2, [](Communicator& comm) {
+        if (comm.rank() == 1)
+            wait_in_vain(comm);
     });
     CHECK(all_are(thrown, "computation: rank 1 on this process: rank 0 has ended before its time"));
 }

@@ -8,7 +8,7 @@
 namespace seamflow {
 
 /// What attaches a sub-mesh to V⁰: dt M w more on the diagonal of M + dt K, and dt M w V⁰ more on the right-hand side.
-struct Attachment {
+struct Screening {
     /// Per own vertex: w, in 1/length². Empty: there is no attachment.
     std::vector<double> weights;
     /// #own by 3: V⁰.
@@ -19,16 +19,16 @@ struct Attachment {
 };
 
 /// @param own the vertices of the sub-mesh, as numbers in the mesh.
-inline Attachment make_attachment(const FlowTerms& terms, std::span<const Index> own)
+inline Screening make_screening(const FlowTerms& terms, std::span<const Index> own)
 {
-    Attachment attachment;
+    Screening screening;
     if (!terms.attaches())
-        return attachment;
-    attachment.first = rows_of(*terms.first, own);
-    attachment.weights.reserve(own.size());
+        return screening;
+    screening.first = rows_of(*terms.first, own);
+    screening.weights.reserve(own.size());
     for (const Index v : own)
-        attachment.weights.push_back(terms.weight(v));
-    return attachment;
+        screening.weights.push_back(terms.weight(v));
+    return screening;
 }
 
 }  // namespace seamflow

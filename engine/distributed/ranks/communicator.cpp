@@ -1,4 +1,4 @@
-#include "engine/distributed/ranks/conversation.h"
+#include "engine/distributed/ranks/communicator.h"
 
 #include <algorithm>
 #include <new>
@@ -121,37 +121,37 @@ WorkOutcome unpacked_outcome(const Bytes& bytes)
 
 }  // namespace
 
-Conversation::Conversation(Communicator& communicator)
-    : communicator_(&communicator)
-    , collective_(communicator.size())
-    , ended_(communicator.size())
+Communicator::Communicator(Transport& transport)
+    : transport_(&transport)
+    , collective_(transport.size())
+    , ended_(transport.size())
 {
 }
 
-void Conversation::send(int to, int tag, Bytes bytes)
+void Communicator::send(int to, int tag, Bytes bytes)
 {
     ++n_messages_;
     n_bytes_ += bytes.size();
-    communicator_->send(to, tag, std::move(bytes));
+    transport_->send(to, tag, std::move(bytes));
 }
 
-void Conversation::send(int to, Bytes bytes)
+void Communicator::send(int to, Bytes bytes)
 {
     send(to, ArrivalTag, std::move(bytes));
 }
 
 /// Waits for the next message and puts it where it belongs.
 /// @returns whether there was one.
-bool Conversation::take_in(std::chrono::microseconds patience)
+bool Communicator::take_in(std::chrono::microseconds patience)
 {
-    std::optional<Message> message = communicator_->receive(patience);
+    std::optional<Message> message = transport_->receive(patience);
     if (!message)
         return false;
     sort_in(std::move(*message));
     return true;
 }
 
-void Conversation::sort_in(Message message)
+void Communicator::sort_in(Message message)
 {
     switch (message.tag) {
     case CollectiveTag:
@@ -165,7 +165,7 @@ void Conversation::sort_in(Message message)
     }
 }
 
-void Conversation::require_all_well() const
+void Communicator::require_all_well() const
 {
     for (const auto& outcome : ended_)
         if (outcome && outcome->kind != Kind::Done)
@@ -173,7 +173,7 @@ void Conversation::require_all_well() const
 }
 
 /// Waits for what another rank sends in a collective function.
-Bytes Conversation::next_collective(int from)
+Bytes Communicator::next_collective(int from)
 {
     while (collective_[from].empty()) {
         require_all_well();
@@ -186,7 +186,7 @@ Bytes Conversation::next_collective(int from)
     return bytes;
 }
 
-std::vector<Bytes> Conversation::exchange(std::vector<Bytes> to_each)
+std::vector<Bytes> Communicator::exchange(std::vector<Bytes> to_each)
 {
     for (int r = 0; r < size(); ++r)
         if (r != rank())
@@ -199,7 +199,7 @@ std::vector<Bytes> Conversation::exchange(std::vector<Bytes> to_each)
     return from_each;
 }
 
-std::vector<Bytes> Conversation::exchange_with(std::span<const int> others, std::vector<Bytes> to_each)
+std::vector<Bytes> Communicator::exchange_with(std::span<const int> others, std::vector<Bytes> to_each)
 {
     for (std::size_t i = 0; i < others.size(); ++i)
         send(others[i], CollectiveTag, std::move(to_each[i]));
@@ -209,7 +209,7 @@ std::vector<Bytes> Conversation::exchange_with(std::span<const int> others, std:
     return from_each;
 }
 
-std::vector<Bytes> Conversation::allgather(Bytes own)
+std::vector<Bytes> Communicator::allgather(Bytes own)
 {
     // Every rank passes on what it knows: of itself and of the ranks before it, in each round of twice as many.
     std::vector<Bytes> known{std::move(own)};
@@ -231,7 +231,7 @@ std::vector<Bytes> Conversation::allgather(Bytes own)
     return of_ranks;
 }
 
-std::vector<Bytes> Conversation::bytes_at_first(Bytes own)
+std::vector<Bytes> Communicator::bytes_at_first(Bytes own)
 {
     if (rank() != 0) {
         send(0, CollectiveTag, std::move(own));
@@ -244,7 +244,7 @@ std::vector<Bytes> Conversation::bytes_at_first(Bytes own)
 }
 
 /// If any rank has failed, all throw what the lowest of them has said.
-void Conversation::agree_on(const WorkOutcome& own)
+void Communicator::agree_on(const WorkOutcome& own)
 {
     for (const Bytes& bytes : allgather(own.kind == Kind::Done ? Bytes() : packed_outcome(own))) {
         if (bytes.empty())
@@ -256,12 +256,12 @@ void Conversation::agree_on(const WorkOutcome& own)
     }
 }
 
-void Conversation::at_first_rank(const std::function<void()>& action)
+void Communicator::at_first_rank(const std::function<void()>& action)
 {
     agree_on(rank() == 0 ? outcome_of(action) : WorkOutcome{});
 }
 
-void Conversation::look_together(const std::function<void()>& look)
+void Communicator::look_together(const std::function<void()>& look)
 {
     WorkOutcome own;
     try {
@@ -274,7 +274,7 @@ void Conversation::look_together(const std::function<void()>& look)
     agree_on(own);
 }
 
-std::optional<Message> Conversation::next_arrival(std::chrono::microseconds patience)
+std::optional<Message> Communicator::next_arrival(std::chrono::microseconds patience)
 {
     if (arrivals_.empty())
         take_in(patience);
@@ -288,22 +288,22 @@ std::optional<Message> Conversation::next_arrival(std::chrono::microseconds pati
 
 /// What is still on the way from a rank arrives before its end, and is forgotten. What arrives after it belongs to the
 /// next work, which others may have begun.
-std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
+std::vector<WorkOutcome> Communicator::part(const WorkOutcome& own)
 {
     for (int r = 0; r < size(); ++r)
         if (r != rank())
-            retry([&] { communicator_->send(r, EndTag, packed_outcome(own)); });
+            retry([&] { transport_->send(r, EndTag, packed_outcome(own)); });
     retry([&] { ended_[rank()] = own; });
     std::vector<Message> of_next_work;
     while (!std::ranges::all_of(ended_, [](const auto& outcome) { return outcome.has_value(); })) {
         std::optional<Message> message;
-        retry([&] { message = communicator_->receive(patience_of_wait); });
+        retry([&] { message = transport_->receive(patience_of_wait); });
         if (message && ended_[message->from])
             retry([&] { of_next_work.push_back(std::move(*message)); });
         else if (message && message->tag == EndTag)
             retry([&] { ended_[message->from] = unpacked_outcome(message->bytes); });
     }
-    retry([&] { communicator_->put_back(of_next_work); });
+    retry([&] { transport_->put_back(of_next_work); });
     std::vector<WorkOutcome> outcomes;
     retry([&] {
         outcomes.clear();
@@ -313,14 +313,14 @@ std::vector<WorkOutcome> Conversation::part(const WorkOutcome& own)
     return outcomes;
 }
 
-void run_work_together(Communicator& communicator, const std::function<void(Conversation&)>& work)
+void run_work_together(Transport& transport, const std::function<void(Communicator&)>& work)
 {
-    std::optional<Conversation> conversation;
-    retry([&] { conversation.emplace(communicator); });
-    WorkOutcome own = outcome_of([&] { work(*conversation); });
-    retry([&] { own.host = communicator.host(); });
-    own.is_agreed = conversation->has_agreed_ && own.kind != Kind::OutOfMemory;
-    require_success(conversation->part(own));
+    std::optional<Communicator> communicator;
+    retry([&] { communicator.emplace(transport); });
+    WorkOutcome own = outcome_of([&] { work(*communicator); });
+    retry([&] { own.host = transport.host(); });
+    own.is_agreed = communicator->has_agreed_ && own.kind != Kind::OutOfMemory;
+    require_success(communicator->part(own));
 }
 
 }  // namespace seamflow

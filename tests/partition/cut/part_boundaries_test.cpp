@@ -5,8 +5,8 @@
 
 #include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
+#include "partition/cut/part_boundaries.h"
 #include "partition/cut/refine.h"
-#include "partition/cut/seams.h"
 #include "partition/labels.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/test_meshes.h"
@@ -76,12 +76,12 @@ TEST_CASE("fewer edges are cut, and no label enters another component")
         CAPTURE(m.name);
         std::vector<Index> labels = random_labels(m.mesh, 3);
         const Index before = cut_edges(m, labels);
-        shorten_seams(m.mesh, m.topology, 3, labels);
+        shorten_boundaries(m.mesh, m.topology, 3, labels);
         CHECK(cut_edges(m, labels) <= before);
 
         const Components components = face_components(m.mesh, m.topology);
         std::vector<Index> whole = components.component_of;
-        shorten_seams(m.mesh, m.topology, components.count(), whole);
+        shorten_boundaries(m.mesh, m.topology, components.count(), whole);
         CHECK(whole == components.component_of);
     }
 }
@@ -93,14 +93,14 @@ TEST_CASE("parts in balance remain so, and the result does not depend on how loo
     std::vector<Index> other = labels;
     const auto before = weights(m.mesh, labels, 4);
     const Index cut_before = cut_edges(m, labels);
-    shorten_seams(m.mesh, m.topology, 4, labels);
+    shorten_boundaries(m.mesh, m.topology, 4, labels);
     CHECK(cut_edges(m, labels) < cut_before * 2 / 3);
     const auto after = weights(m.mesh, labels, 4);
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK(after[i] <= std::max(before[i], 800 * (1.0 + balance_tolerance)));
         CHECK(after[i] >= std::min(before[i], 800 / (1.0 + balance_tolerance) - 1.0));
     }
-    shorten_seams(m.mesh, m.topology, 4, other, [](Index n, const LoopBody& body) {
+    shorten_boundaries(m.mesh, m.topology, 4, other, [](Index n, const RangeBody& body) {
         for (Index i = n; i > 0; --i)
             body(i - 1, i);
     });
@@ -114,11 +114,11 @@ TEST_CASE("a spike is cut off, a straight seam stays")
     for (Index f = 0; f < grid.mesh.n_faces(); ++f)
         straight[f] = f % 16 < 8 ? 0 : 1;
     std::vector<Index> labels = straight;
-    shorten_seams(grid.mesh, grid.topology, 2, labels);
+    shorten_boundaries(grid.mesh, grid.topology, 2, labels);
     CHECK(labels == straight);
     for (Index f = 6 * 16 + 8; f < 6 * 16 + 11; ++f)
         labels[f] = 0;
-    shorten_seams(grid.mesh, grid.topology, 2, labels);
+    shorten_boundaries(grid.mesh, grid.topology, 2, labels);
     CHECK(labels == straight);
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("a part that is too heavy gives faces to its neighbours until it is no
     for (Index f = 0; f < m.mesh.n_faces(); ++f)
         labels[f] = f < m.mesh.n_faces() * 55 / 100 ? 0 : 1;
     const Index before = cut_edges(m, labels);
-    shorten_seams(m.mesh, m.topology, 2, labels);
+    shorten_boundaries(m.mesh, m.topology, 2, labels);
     for (const double weight : weights(m.mesh, labels, 2))
         CHECK(weight <= 0.5 * m.mesh.n_faces() * (1.0 + balance_tolerance));
     CHECK(cut_edges(m, labels) < before * 5 / 4);
@@ -143,7 +143,7 @@ TEST_CASE("however far a seam moves, what is there then is suspected")
     for (Index f = 0; f < m.mesh.n_faces(); ++f)
         labels[f] = f < m.mesh.n_faces() * 70 / 100 ? 0 : 1;
     const auto seam_before = mixed_vertices(m.topology, labels);
-    const SuspectedDefects defects = shorten_seams(m.mesh, m.topology, 2, labels);
+    const SuspectedDefects defects = shorten_boundaries(m.mesh, m.topology, 2, labels);
     std::vector<bool> suspected(m.mesh.n_vertices(), false);
     for (const Index f : defects.faces)
         for (const Index v : m.mesh.face(f))
@@ -170,7 +170,7 @@ TEST_CASE("parts that are no longer connected are suspected")
             const NamedMesh m = with_topology(mesh);
             const FaceClusters clusters = grow_clusters(m.mesh, m.topology, weight);
             std::vector<Index> labels = clusters.cluster_of;
-            const SuspectedDefects defects = shorten_seams(m.mesh, m.topology, clusters.size(), labels);
+            const SuspectedDefects defects = shorten_boundaries(m.mesh, m.topology, clusters.size(), labels);
             const std::vector<Index> n_components = count_components(m, labels, clusters.size());
             for (Index label = 0; label < clusters.size(); ++label)
                 CHECK((n_components[label] <= 1 || defects.parts[label]));
