@@ -86,6 +86,7 @@ void ExplicitStepper::step(const Points& before)
 {
     assert(&before != &positions_);
     require_stable(before);
+    // Vⁿ⁺¹ = Vⁿ - dt Δ(Vⁿ) Vⁿ
     for_each(progress_->counted_loop(), mesh_->n_vertices(), [&](Index v) {
         if (topology_->moves(v))
             positions_.row(v) =

@@ -236,6 +236,7 @@ void SchurStepper::condense_with(Index s, const NeumannSystem::Assembled& equati
     part.residual.setZero();
     for (const Index v : std::span(part.system->unknowns()).first(part.system->n_interior()))
         part.residual = part.residual.cwiseMax(equations.residual.row(v).cwiseAbs());
+    // g_Γ = r_Γ - A_ΓI A_II⁻¹ r_I
     part.system->condense(equations, factor,
                           interface_.condensed.middleRows(equation_.copies().first[s], part.system->n_interface()));
 }
@@ -313,6 +314,7 @@ void SchurStepper::substitute(Index s, NeumannSystem::Factor& factor, const Poin
         change.row(i) = update.row(v) - interface_.reached.row(v);
         workspace.increments.row(system.unknowns()[system.n_interior() + i]) = update.row(v);
     }
+    // x_I = A_II⁻¹ (r_I - A_IΓ x_Γ)
     system.back_substitute(factor, change, workspace.increments);
 }
 
@@ -404,6 +406,7 @@ InterfaceResult SchurStepper::solve_on_interface(const IterationStop& stop, cons
 {
     interface_.reached.setZero(equation_.copies().n_vertices(), 3);
     const Point first = interior_residual();
+    // Σ S x_Γ = Σ g_Γ over the sub-meshes
     InterfaceResult result = equation_.solve(
         interface_.complements, interface_.condensed,
         [&](const Points& update) -> Points& { return refine_all(update, exec); },

@@ -200,6 +200,7 @@ void ErrorEquation::solve(const Executor& exec)
     constexpr double squared_tolerance = 1e-4;
     shared_->complete(rows_.response.data(), 1);
     stiffen(exec);
+    // p = z = D⁻¹ r, e = 0
     double size_before = add_up(exec, [&](Index i) {
         iteration_.direction.row(i) = iteration_.residual.row(i) / rows_.diagonal[i];
         iteration_.error.row(i).setZero();
@@ -210,16 +211,19 @@ void ErrorEquation::solve(const Executor& exec)
     const double enough = squared_tolerance * size_before;
     for (int iteration = 0; iteration < most_iterations && size_before > enough; ++iteration) {
         shared_->complete(iteration_.direction.data(), 3);
+        // q = T p
         const double curvature = add_up(exec, [&](Index i) {
             iteration_.product.row(i) = product(i);
             return iteration_.product.row(i).dot(iteration_.direction.row(i));
         });
+        // α = (r, z) / (p, q), e = e + α p, r = r - α q
         const double length = size_before / curvature;
         const double size_now = add_up(exec, [&](Index i) {
             iteration_.error.row(i) += length * iteration_.direction.row(i);
             iteration_.residual.row(i) -= length * iteration_.product.row(i);
             return iteration_.residual.row(i).squaredNorm() / rows_.diagonal[i];
         });
+        // β = (r, z) / (r, z) before, p = z + β p
         const double share = size_now / size_before;
         for_each(exec, size(), [&](Index i) {
             iteration_.direction.row(i) =

@@ -72,10 +72,13 @@ inline double largest_ratio(const Point& norms, const Point& first)
 template <class Multiply>
 void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, const Executor& exec)
 {
+    // q = A p
     multiply(v.p, v.q);
     const std::vector<Point> found = v.products({{v.p, v.q}, {v.p, v.r}}, exec);
+    // α = (p, r) / (p, q)
     v.pq = found[0];
     v.alpha = quotients(found[1], v.pq);
+    // x = x + α p, r = r - α q
     for_each(exec, static_cast<Index>(x.rows()), [&](Index i) {
         x.row(i) += v.p.row(i).cwiseProduct(v.alpha);
         v.r.row(i) -= v.q.row(i).cwiseProduct(v.alpha);
@@ -133,9 +136,11 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         const int most = std::min(criterion.iterations_left(), most_iterations_at_once);
         int iterations = 0;
         do {
+            // z = M⁻¹ r
             precondition(v.r, v.z);
-            // Conjugate to the direction before even where the residual has just been measured.
+            // β = -(z, q) / (p, q): conjugate to the direction before even where the residual has just been measured.
             const Point beta = -quotients(v.products({{v.z, v.q}}, exec).front(), v.pq);
+            // p = z + β p
             for_each(exec, static_cast<Index>(x.rows()),
                      [&](Index i) { v.p.row(i) = v.z.row(i) + v.p.row(i).cwiseProduct(beta); });
             advance(multiply, x, v, exec);

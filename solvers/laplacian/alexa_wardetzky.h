@@ -59,7 +59,6 @@ struct AlexaWardetzky {
         [[nodiscard]] double mass(std::size_t) const { return corner_area(area_, size()); }
         /// |f|: W1 of eq. 15 divides by it.
         [[nodiscard]] double divisor() const { return area_; }
-        [[nodiscard]] Point divided(const Point& product) const { return product / area_; }
         [[nodiscard]] Row row(std::size_t i, double scale) const { return {scale * bisectors_(i), bisectors_}; }
         [[nodiscard]] Point difference(std::size_t i, std::size_t k) const
         {
@@ -113,7 +112,6 @@ struct AlexaWardetzky {
         [[nodiscard]] Index corner(std::size_t k) const { return corners_[k]; }
         [[nodiscard]] double mass(std::size_t) const { return double_area_ / 6.0; }
         [[nodiscard]] double divisor() const { return 2.0 * double_area_; }
-        [[nodiscard]] Point divided(const Point& product) const { return 1.0 / divisor() * product; }
         [[nodiscard]] Row row(std::size_t i, double scale) const
         {
             return {{scale * dots_[0], scale * dots_[1], scale * dots_[2]}, i};

@@ -27,7 +27,7 @@ concept EdgeKernel = requires
 /// a number that both need, and `Scratch` what the latter stores, which must outlive the result. They return what has:
 /// - `size()`, `corner(k)`: the number of vertices, and the k-th of them;
 /// - `row(i, scale)(k)`: scale · N_ik; the rows of N sum to zero;
-/// - `divisor()`, `divided(x)`: d and x / d;
+/// - `divisor()`: d;
 /// - `mass(k)`: what the face adds to M at corner k, which is also what `corner_mass(size, number of corners)` says;
 /// - `difference(i, k)`: V_k - V_i, for i < k.
 ///

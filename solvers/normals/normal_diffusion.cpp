@@ -249,6 +249,7 @@ void NormalDiffusion::diffuse(Points& normals, const Executor& exec)
         return diagonal_[f] > 0.0 ? Point(residual_.row(f) / diagonal_[f]) : Point(Point::Zero());
     };
     const auto energy = [&] { return sum(exec, n, [&](Index f) { return residual_.row(f).dot(preconditioned(f)); }); };
+    // r = A N₀ - (A + τ L) N₀, p = z = D⁻¹ r
     for_each(exec, n, [&](Index f) {
         residual_.row(f) = -laplacian(normals, f);
         direction_.row(f) = preconditioned(f);
@@ -256,14 +257,17 @@ void NormalDiffusion::diffuse(Points& normals, const Executor& exec)
     const double wanted = diffusion_tolerance * diffusion_tolerance * sum_of_products(residual_, residual_, exec);
     double before = energy();
     for (int i = 0; i < most_diffusion_iterations && sum_of_products(residual_, residual_, exec) > wanted; ++i) {
+        // q = (A + τ L) p, α = (r, z) / (p, q)
         for_each(exec, n, [&](Index f) { product_.row(f) = areas_[f] * direction_.row(f) + laplacian(direction_, f); });
         const double alpha = before / sum_of_products(direction_, product_, exec);
         if (!std::isfinite(alpha))
             break;
+        // N = N + α p, r = r - α q
         for_each(exec, n, [&](Index f) {
             normals.row(f) += alpha * direction_.row(f);
             residual_.row(f) -= alpha * product_.row(f);
         });
+        // β = (r, z) / (r, z) before, p = z + β p
         const double after = energy();
         const double beta = after / before;
         before = after;

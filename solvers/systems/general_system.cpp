@@ -63,6 +63,7 @@ SubMeshSystem::Assembled GeneralSystem::assemble(const Points& positions, const 
     time_step_ = time_step;
     pulls_ = screening_.exists();
     roles_.assign(roles.begin(), roles.end());
+    // (I + dt Δ + dt w) Vᵏ⁺¹ = Vᵏ + dt w V⁰, but on Γ and where vertices are fixed
     const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index v = 0; v < sub_mesh_->n_vertices; ++v) {
         if (row_of_[v] != Row::Interface)

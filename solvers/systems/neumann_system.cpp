@@ -77,6 +77,7 @@ NeumannSystem::Assembled NeumannSystem::assemble(const Points& positions, const 
     Points& residual = workspace.residual;
     set_rows(residual, matrix_.n_vertices);
     const StiffnessProduct product{increments, residual};
+    // r = -dt K (Vᵏ + X) - M X - dt M w (Vᵏ + X - V⁰)
     const std::span<const double> matrix = matrix_.fill(positions, time_step, 0, workspace, &product);
     for (const Index v : matrix_.vertex_of)
         residual.row(v) = -residual.row(v) - workspace.mass[v] * increments.row(v);

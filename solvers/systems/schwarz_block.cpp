@@ -81,6 +81,7 @@ std::vector<Index> SchwarzBlock::make_slots(const std::vector<MatrixEntry>& entr
 
 SchwarzBlock::Assembled SchwarzBlock::assemble(const Points& positions, double time_step)
 {
+    // (I + dt Δ) Vᵏ⁺¹ = Vᵏ
     const Assembled equations{matrix_->fill(positions, time_step)};
     for (Index u = 0; u < matrix_->n(); ++u) {
         matrix_->diagonal(u) += 1.0;

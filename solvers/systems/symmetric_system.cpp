@@ -143,6 +143,7 @@ SubMeshSystem::Assembled SymmetricSystem::assemble(const Points& positions, cons
                                                    double, std::span<const InterfaceRole> roles,
                                                    SolverWorkspace& workspace)
 {
+    // (M + dt K + dt M w) Vᵏ⁺¹ = M Vᵏ + dt M w V⁰
     const std::span<double> values = matrix_.fill(positions, time_step, fixed_.size() + beyond_.size(), workspace);
     const double* further = values.data() + matrix_.n_entries();
     for (auto* couplings : {&fixed_, &beyond_})

@@ -11,7 +11,7 @@
 #include "partition/cut/boxes.h"
 #include "partition/errors.h"
 #include "partition/index_lists.h"
-#include "solvers/laplacian/kernels.h"
+#include "solvers/laplacian/vertex_row.h"
 
 namespace seamflow {
 
@@ -32,62 +32,38 @@ struct RowGeometry {
 /// Calls entry(value, j, K_ij) for a row i, value() being the entry of the matrix, maybe several times for one j; the
 /// rows of K add up to zero.
 /// @returns M_i.
-template <EdgeKernel Kernel, class Entry>
-double visit_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
+template <class Kernel, class Entry>
+double visit_matrix_row(Kernel kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
 {
     const Index v = g.blocks.values[place.row];
-    const Point here = g.of_rows.row(place.row);
-    double mass = 0.0;
-    if (g.topology.kind[v] != VertexKind::Boundary) {
-        int n_edges = 0;
-        g.matrix.for_each_entry(place, [&](Index j, float& value) {
-            const auto edge = kernel.edge(here - g.of_rows.row(j));
-            entry([&]() -> float& { return value; }, j, -edge.weight(1.0));
-            mass += edge.mass();
-            ++n_edges;
-        });
-        return Kernel::averages_mass ? mass / n_edges : mass;
-    }
-    // Each half-edge is half of its edge.
-    const std::span<const Index> corners = g.topology.corners_at(v);
-    for (const Index corner : corners)
-        for (const Index end : {g.topology.next(g.mesh, corner), g.topology.previous(g.mesh, corner)}) {
-            const Index j = g.row_of[g.mesh.face_vertices[end]];
-            const auto edge = kernel.edge(here - g.of_rows.row(j));
-            entry([&]() -> float& { return g.matrix.entry(place, j); }, j, -edge.weight(0.5));
-            mass += edge.mass();
+    if constexpr (EdgeKernel<Kernel>)
+        // The entries of the matrix are the edges.
+        if (g.topology.kind[v] != VertexKind::Boundary) {
+            const Point here = g.of_rows.row(place.row);
+            double mass = 0.0;
+            int n_edges = 0;
+            g.matrix.for_each_entry(place, [&](Index j, float& value) {
+                const auto edge = kernel.edge(here - g.of_rows.row(j));
+                entry([&]() -> float& { return value; }, j, -edge.weight(1.0));
+                mass += edge.mass();
+                ++n_edges;
+            });
+            return Kernel::averages_mass ? mass / n_edges : mass;
         }
-    return 0.5 * (Kernel::averages_mass ? mass / static_cast<double>(corners.size()) : mass);
+    return visit_row(kernel, g.mesh, g.topology, g.positions, v, [&](Index w, double k) {
+        const Index j = g.row_of[w];
+        entry([&]() -> float& { return g.matrix.entry(place, j); }, j, k);
+    });
 }
 
-template <FaceKernel Kernel, class Entry>
-double visit_row(Kernel, const RowGeometry& g, const BlockRowMatrix::Place& place, Entry&& entry)
-{
-    double mass = 0.0;
-    for (const Index corner : g.topology.corners_at(g.blocks.values[place.row])) {
-        const Index f = g.topology.face_of[corner];
-        measure_corner<Kernel>(g.mesh.face(f), at(corner - g.mesh.face_offsets[f]), g.positions,
-                               [&](const auto& face, std::size_t i) {
-                                   const auto row = face.row(i, 1.0 / face.divisor());
-                                   for (std::size_t k = 0; k < face.size(); ++k)
-                                       if (k != i) {
-                                           const Index j = g.row_of[face.corner(k)];
-                                           entry([&]() -> float& { return g.matrix.entry(place, j); }, j, row(k));
-                                       }
-                                   mass += face.mass(i);
-                               });
-    }
-    return mass;
-}
-
-/// Calls action(visit), where visit(place, entry) is visit_row of the Laplacian.
+/// Calls action(visit), where visit(place, entry) is visit_matrix_row of the Laplacian.
 template <class Action>
 void with_rows(const ScaledLaplacian& laplacian, const RowGeometry& geometry, Action&& action)
 {
     with_kernel(laplacian, [&]<class Kernel>(Kernel kernel) {
         if constexpr (EdgeKernel<Kernel> || FaceKernel<Kernel>)
             action([&](const BlockRowMatrix::Place& place, auto&& entry) {
-                return visit_row(kernel, geometry, place, entry);
+                return visit_matrix_row(kernel, geometry, place, entry);
             });
         else
             throw OptionError("the Laplacian is not symmetric");
