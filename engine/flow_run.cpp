@@ -256,7 +256,7 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
     std::optional<DisplacementBound> bound;
     if (options().motion.within)
         bound.emplace(mesh, prepared_->topology, *options().motion.within);
-    // Mean curvature is measured across edges, but for that of Δ_P.
+    // Mean curvature is measured across edges, except for that of Δ_P.
     if (traits_of(options().laplacian).reach != Reach::TwoRings)
         prepared_->topology.twin = std::vector<Index>();
     const bool is_scaled = goes_on_scaled(options());

@@ -14,7 +14,7 @@
 
 namespace seamflow {
 
-/// A flow on its way: takes the steps of a prepared flow, measures each, and tells of it.
+/// Takes the steps of a prepared flow, measures each, and reports it.
 class FlowRun {
   public:
     /// Makes what takes the steps, and what takes those of the undecomposed flow where it is asked for.

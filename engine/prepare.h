@@ -16,7 +16,7 @@
 
 namespace seamflow {
 
-/// A flow before its first step: all that was decided about it, and what was measured for that.
+/// A flow before its first step: all decisions about it, and the measurements behind them.
 struct PreparedFlow {
     /// What was asked for, with what was chosen where that left it open: the approach, the tolerance. Labels are those
     /// of the faces that flow.

@@ -13,7 +13,7 @@
 
 namespace seamflow {
 
-/// A number that tells a mesh, in the ranges of all ranks, from others, however it is divided among them. All ranks
+/// A checksum of a mesh in the ranges of all ranks, which does not depend on how it is divided among them. All ranks
 /// call this together. @returns the same on all ranks.
 std::uint64_t checksum_of_mesh(Communicator& comm, const RankSlice& slice);
 

@@ -26,7 +26,7 @@ struct KnownSubMesh {
     std::array<std::int64_t, 1> faces{};
 };
 
-/// Carries what ranks tell each other of their sub-meshes while a sweep runs: one message for each sub-mesh, kind of
+/// Exchanges data of sub-meshes between ranks while a sweep runs: one message for each sub-mesh, kind of
 /// news and rank that waits for it. A thread of its own receives them, and lets the tasks begin that waited.
 class RankExchange final : public ForeignSubMeshes {
   public:

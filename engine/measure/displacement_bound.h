@@ -21,7 +21,7 @@ struct KnownElsewhere {
 };
 
 /// Keeps every vertex within a distance r of where it was: the nearest surface that does so takes the place of the one
-/// that does not, so that vertices are held on the boundaries of their spheres and all others give way smoothly.
+/// that does not, so that vertices are held on the boundaries of their spheres and all others follow smoothly.
 ///
 /// Nearest is meant in the metric of a diffusion step with uniform weights: the correction U minimises
 /// tr Uᵀ (D + t K) U under |V - V⁰ + U| ≤ r at each vertex, K the Laplacian of the graph with weights of one, D its

@@ -34,7 +34,7 @@ struct KeptFactors {
 /// @param factors what those of all sub-meshes take, in bytes.
 /// @param limit in bytes. Empty: all are kept.
 /// @param n_threads at least 1: there are no more places than that.
-/// @throws OptionError if there is no room for any factor; it tells how much that takes.
+/// @throws OptionError if there is no room for any factor; its message has the necessary number of bytes.
 KeptFactors choose_kept_factors(std::span<const std::size_t> factors, std::optional<std::size_t> limit,
                                 Index n_threads);
 

@@ -84,7 +84,7 @@ class Writer {
 /// written there.
 class Reader {
   public:
-    /// @param n_bytes what there is but for the checksum.
+    /// @param n_bytes what there is except for the checksum.
     Reader(const std::filesystem::path& path, std::uint64_t n_bytes)
         : path_(path)
         , file_(path, std::ios::binary)

@@ -10,8 +10,8 @@
 
 namespace seamflow {
 
-/// Everything that determines the result of a flow, except for the number of steps. It tells whether the state of one
-/// flow belongs to another.
+/// Everything that determines the result of a flow, except for the number of steps. It decides whether the state of
+/// one flow belongs to another.
 struct FlowIdentity {
     struct Entry {
         /// "mesh", "version" or a field of FlowOptions.

@@ -29,7 +29,7 @@ class EdgeKeepingStepper final : public Stepper {
     void restore(const StepMemory& memory) override;
     /// There are no tasks.
     void add_seconds(PhaseSeconds&) const override {}
-    /// Of a single step there is nothing to tell.
+    /// A single step has nothing to report.
     void describe(StepReport&) const override {}
     void describe(FlowReport& report) const override;
 

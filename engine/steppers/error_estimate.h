@@ -15,7 +15,7 @@ namespace seamflow {
 
 /// How far a flow in sub-meshes is from the undecomposed one, estimated without it.
 ///
-/// Given Γ, the interiors obey the undecomposed step exactly (but for Δ_P, see ErrorEquation). What the sweep
+/// Given Γ, the interiors obey the undecomposed step exactly (except for Δ_P, see ErrorEquation). What the sweep
 /// leaves of its rows on Γ, the residual, gives the error e of the sweep by an equation on Γ alone; the correction of Γ
 /// adds its own displacement, which is known. Steps add up as vectors on Γ: the flow carries tangential differences
 /// along and smooths normal ones. Away from Γ the error of a step dies away, so that Γ has the largest.

@@ -13,7 +13,7 @@
 
 namespace seamflow {
 
-/// What ranks tell each other of a sub-mesh in a sweep, each once.
+/// Data of a sub-mesh that ranks exchange in a sweep, each once.
 enum class News : std::uint8_t {
     /// Vᵏ.
     Position,

@@ -15,7 +15,7 @@ namespace seamflow {
 struct SweepTasks {
     using Task = std::function<void(Index s)>;
     Task assemble_and_factorise;
-    /// None where sub-meshes do not tell each other what they would do.
+    /// None where sub-meshes do not predict.
     Task predict;
     Task use_predictions;
     Task solve;

@@ -59,7 +59,7 @@ Cut cut_into(const PolygonMesh& mesh, const Topology& topology, Index k, const E
              const Alongside& alongside = run_alone);
 
 /// Cuts a mesh as given. Gaps in the labels are closed, keeping their order, and parts that are no manifolds with
-/// boundary are repaired (see repair); remarks tell of both. If all labels are equal the mesh is not cut at all.
+/// boundary are repaired (see repair); remarks report both. If all labels are equal the mesh is not cut at all.
 /// @param labels #F, at least 0.
 /// @throws InputError if there are not as many labels as faces, or one is negative.
 Cut cut_by_labels(const PolygonMesh& mesh, const Topology& topology, std::span<const Index> labels,

@@ -22,7 +22,7 @@ namespace seamflow {
 /// with vertices but without faces is read. The file stays open (see MeshFile::source), but its content is not kept in
 /// memory. A file that gzip has compressed is unpacked, whatever its name is; `.gz` may follow the extension. `-` is
 /// standard input, whose format is recognised from its content. Only these two are kept, unpacked, in memory.
-/// @param loop runs what is done slice by slice; seamflow::run_in_parallel uses all threads. Here and in the functions
+/// @param exec runs what is done slice by slice; seamflow::run_in_parallel uses all threads. Here and in the functions
 ///        below, the result never depends on it.
 /// @throws InputError naming file, line or byte or element, reason and remedy; nothing of the surface is skipped in
 ///         silence. Among the reasons: an unknown extension, a file that cannot be opened, no vertices, a coordinate

@@ -75,10 +75,10 @@ class StlText {
     /// @param path for messages only. @param content the whole file. It has to outlive this.
     StlText(const std::filesystem::path& path, std::string_view content);
 
-    /// All of it, but for a byte order mark.
+    /// All of it, except for a byte order mark.
     [[nodiscard]] std::string_view all() const { return whole_.rest(); }
 
-    /// At most n shares of it that begin where a facet does, but for the first.
+    /// At most n shares of it that begin where a facet does, except for the first.
     [[nodiscard]] std::vector<std::string_view> shares(std::size_t n) const;
 
     /// Appends the facets of a share.
@@ -111,7 +111,7 @@ class StlText {
 constexpr std::size_t stl_header_bytes = 84;
 constexpr std::size_t stl_facet_bytes = 50;
 
-/// Slices of a text that begin at facets, but for the first.
+/// Slices of a text that begin at facets, except for the first.
 std::vector<std::string_view> stl_slices_at_facets(const TextScanner& whole, std::size_t bytes);
 
 /// Whether it is text rather than binary (see read_stl).

@@ -14,7 +14,7 @@ inline bool is_standard_stream(const std::filesystem::path& path)
 }
 
 /// Whether a path names something that is open already, be it a pipe: `-`, /dev/stdin, or what a shell puts in place of
-/// <(command). It has no name to tell a format by, and can be read once.
+/// <(command). It has no name that could give the format, and can be read once.
 bool is_input_stream(const std::filesystem::path& path);
 
 /// A regular file, open for reading: what it holds can be read even after it was renamed, replaced or removed. A file

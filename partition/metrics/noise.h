@@ -19,7 +19,7 @@ namespace seamflow {
 ///   as for shape alone, or neighbours are bent alike, the noise is 0.
 /// - Noise spares no vertex: where many are on their fits, the noise is 0.
 ///
-/// Costs the same for all large meshes, but for the mean edge.
+/// Costs the same for all large meshes, except for the mean edge.
 /// @returns in units of length; 0 where noise is not proved: on meshes of fewer than 200 vertices with rings to fit to,
 /// where the estimate is above a third of the mean edge, which noise of half of the true mean edge makes, and where it
 /// is below a hundredth of it, where it hardly shows: it bends faces by about a degree.

@@ -45,7 +45,7 @@ class Interruption {
     std::atomic<bool> is_over_{false};
     /// 0: none yet.
     std::atomic<int> first_signal_{0};
-    /// SIGINT and SIGTERM, but for those that were ignored; and with what wakes the thread.
+    /// SIGINT and SIGTERM, except for those that were ignored; and with what wakes the thread.
     sigset_t ours_{};
     sigset_t waited_for_{};
     sigset_t mask_before_{};

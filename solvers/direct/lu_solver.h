@@ -18,9 +18,9 @@ namespace seamflow {
 
 /// LU factorisation of sparse matrices of one pattern with each pivot taken from the diagonal. All but the numbers is
 /// known beforehand then, and a column of L and the row of U across the diagonal are computed in one go, so that a
-/// factor costs hardly more than that of a symmetric matrix. For matrices that are symmetric but for few rows, or whose
-/// diagonal dominates; others are found out. Different threads may factorise and solve at the same time, each with a
-/// workspace of its own.
+/// factor costs hardly more than that of a symmetric matrix. For matrices that are symmetric except for few rows, or
+/// whose diagonal dominates; others are found out. Different threads may factorise and solve at the same time, each
+/// with a workspace of its own.
 class LuSolver {
   public:
     class Factor;

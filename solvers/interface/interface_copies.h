@@ -33,7 +33,7 @@ struct InterfaceCopies {
     IndexLists of_vertex;
 };
 
-/// What peers tell each other of their copies: of every vertex that two of them have, each knows all copies.
+/// What peers exchange of their copies: of every vertex that two of them have, each knows all copies.
 /// @param peers must outlive the result.
 SharedRows shared_copies(const InterfaceCopies& copies, InterfacePeers& peers);
 

@@ -44,13 +44,13 @@ EliminationTree make_tree(const SparsePattern& upper)
     return tree;
 }
 
-/// Whether two consecutive columns have the same rows but for the second one itself.
+/// Whether two consecutive columns have the same rows except for the second one itself.
 bool belong_together(const EliminationTree& tree, Index column)
 {
     return tree.parent[column] == column + 1 && tree.count[column] == tree.count[column + 1] + 1;
 }
 
-/// The last of the columns that have the same rows as the first one but for each other; the last n_last are one
+/// The last of the columns that have the same rows as the first one except for each other; the last n_last are one
 /// supernode.
 Index end_of_supernode(const EliminationTree& tree, Index first, Index n_last)
 {

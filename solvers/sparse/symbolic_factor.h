@@ -10,7 +10,7 @@ namespace seamflow {
 
 /// Which entries of the factors L and U of a matrix may be different from zero if every pivot is taken from the
 /// diagonal, with the matrix's pattern made symmetric. Unknowns are numbered in the elimination ordering, and gathered
-/// into supernodes of consecutive ones, whose columns of L have the same rows but for each other. The rows of U
+/// into supernodes of consecutive ones, whose columns of L have the same rows except for each other. The rows of U
 /// are those columns, transposed.
 struct SymbolicFactor {
     /// An update of one column of L, and one row of U, by a supernode of earlier ones.

@@ -116,7 +116,7 @@ BlockGraph graph_of(const Block& block, std::span<const std::int64_t> weights,
     return graph;
 }
 
-/// Components that are much smaller than a part and go on in other blocks, but for the heaviest of the block.
+/// Components that are much smaller than a part and go on in other blocks, except for the heaviest of the block.
 /// @returns one entry per cluster: 1 where it is in one of them, else 0.
 std::vector<Index> find_shards(const BlockGraph& block, const Components& components, Index k)
 {

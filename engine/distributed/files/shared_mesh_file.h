@@ -31,7 +31,7 @@ class SharedMeshFile {
     virtual ~SharedMeshFile() = default;
 
     /// This rank's range, without labels.
-    /// @throws InputError as read_mesh, but for faces that read_faulty_mesh leaves out.
+    /// @throws InputError as read_mesh, except for faces that read_faulty_mesh leaves out.
     virtual RankSlice read(Communicator& comm) = 0;
 
     /// Checks, before the long work begins, that `write` can write such a file.

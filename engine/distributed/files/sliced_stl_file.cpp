@@ -139,7 +139,7 @@ class SlicedStlFile final : public SharedMeshFile {
         });
     }
 
-    /// The same as was read, but for the positions.
+    /// The same as was read, except for the positions.
     RankSlice read_again(Communicator& comm, const Points& vertices) const
     {
         const InputFile input(file_);

@@ -11,7 +11,7 @@ namespace seamflow {
 
 /// An STL file of which every rank reads and writes a slice. All ranks have to see the file under this path. It is read
 /// once more when it is written: the vertices of its facets are not kept.
-/// @param encoding of the file. @param loop runs what is done piece by piece.
+/// @param encoding of the file. @param exec runs what is done piece by piece.
 /// @throws InputError naming the file.
 std::unique_ptr<SharedMeshFile> open_sliced_stl(const std::filesystem::path& path, Encoding encoding,
                                                 const FileSharing& sharing, const Executor& exec);

@@ -15,7 +15,7 @@ using TextSlicer = std::unique_ptr<SlicedText> (*)(const std::filesystem::path& 
 
 /// An OBJ, OFF or PLY file that is text, of which every rank reads and writes about as many bytes, up to the end of a
 /// line. All ranks have to see the file under this path. Normals stay as they are.
-/// @param loop runs what is done piece by piece.
+/// @param exec runs what is done piece by piece.
 /// @throws InputError naming the file.
 std::unique_ptr<SharedMeshFile> open_sliced_text(const std::filesystem::path& path, TextSlicer slicer,
                                                  const FileSharing& sharing, const Executor& exec);
