@@ -17,6 +17,59 @@ namespace seamflow {
 
 namespace {
 
+/// What an option concerns, so that others exclude or imply it.
+enum Concern : unsigned {
+    /// It shows or sets sub-meshes.
+    SubMeshes = 1U,
+    /// Sweeps over them.
+    Sweeps = 2U,
+    /// Sweeps are taken because of it.
+    ImpliesSweeps = 4U,
+    /// The method: no preset can go with it.
+    Method = 8U,
+    /// Factorisations of sub-meshes.
+    Factors = 16U,
+    /// Converged steps.
+    ConvergedSteps = 32U,
+    /// How the equations are solved, in any other way.
+    Solution = 64U,
+};
+constexpr unsigned any_equations = ~0U;
+
+struct ConcernedOption {
+    const char* name;
+    unsigned concerns;
+};
+
+/// All options about the equations of mean curvature flow; steps that keep edges have none of these.
+constexpr ConcernedOption options_of_equations[] = {
+    {"--subdomains", SubMeshes},
+    {"--labels", SubMeshes},
+    {"--parts", SubMeshes},
+    {"--task-graph", SubMeshes},
+    {"--trace", SubMeshes},
+    {"--paper", Sweeps | Method},
+    {"--scheme", Method},
+    {"--conditions", Sweeps | ImpliesSweeps | Method},
+    {"--transmission", Sweeps | ImpliesSweeps | Method},
+    {"--p", Sweeps | Method},
+    {"--p-rule", Sweeps | ImpliesSweeps | Method},
+    {"--p-edge", Sweeps | ImpliesSweeps | Method},
+    {"--q", Sweeps | Method},
+    {"--overlap", Sweeps | Method},
+    {"--no-correction", Sweeps | Method},
+    {"--sweep", Sweeps},
+    {"--coloring", Sweeps | ImpliesSweeps},
+    {"--keep-gaps", Method},
+    {"--converge", Solution},
+    {"--converge-iterations", ConvergedSteps},
+    {"--approach", Solution},
+    {"--memory-limit", Factors},
+    {"--factorisation", Factors},
+    {"--precision", Factors | ConvergedSteps},
+    {"--reference", Solution},
+};
+
 /// The first of these options that was given; empty: none.
 std::string first_given(const CLI::App& app, std::initializer_list<const char*> names)
 {
@@ -26,40 +79,21 @@ std::string first_given(const CLI::App& app, std::initializer_list<const char*> 
     return {};
 }
 
-/// Options that show or set sub-meshes.
-constexpr auto of_sub_meshes_alone = {"--subdomains", "--labels", "--parts", "--task-graph", "--trace"};
+/// The same of those with one of these concerns.
+std::string first_given(const CLI::App& app, unsigned concerns)
+{
+    for (const auto& [name, own] : options_of_equations)
+        if ((own & concerns) != 0)
+            if (std::string found = first_given(app, {name}); !found.empty())
+                return found;
+    return {};
+}
 
 /// Options that mean nothing to steps that keep edges.
 void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
 {
-    if (!command.options.keep_edges)
-        return;
-    const std::string other = first_given(app, {"--subdomains",
-                                                "--labels",
-                                                "--parts",
-                                                "--task-graph",
-                                                "--trace",
-                                                "--conditions",
-                                                "--transmission",
-                                                "--p",
-                                                "--p-rule",
-                                                "--p-edge",
-                                                "--q",
-                                                "--overlap",
-                                                "--no-correction",
-                                                "--sweep",
-                                                "--coloring",
-                                                "--paper",
-                                                "--keep-gaps",
-                                                "--scheme",
-                                                "--converge",
-                                                "--converge-iterations",
-                                                "--approach",
-                                                "--factorisation",
-                                                "--precision",
-                                                "--memory-limit",
-                                                "--reference"});
-    if (!other.empty())
+    const std::string other = first_given(app, any_equations);
+    if (command.options.keep_edges && !other.empty())
         throw OptionError(other +
                           " is about the equations of mean curvature flow, but --keep-edges smooths face normals "
                           "on the whole mesh: leave one of them out");
@@ -76,9 +110,8 @@ void require_consistent_approach(const CLI::App& app, const SmoothCommand& comma
         throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
     if (approach != Approach::Sweep && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
-    std::string of_sub_meshes = first_given(app, of_sub_meshes_alone);
-    if (of_sub_meshes.empty() && approach == Approach::ConjugateGradients)
-        of_sub_meshes = first_given(app, {"--memory-limit", "--factorisation", "--precision"});
+    const std::string of_sub_meshes =
+        first_given(app, approach == Approach::ConjugateGradients ? SubMeshes | Factors : SubMeshes);
     if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
         throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
                           " takes the whole mesh: leave one of them out");
@@ -87,15 +120,12 @@ void require_consistent_approach(const CLI::App& app, const SmoothCommand& comma
 /// Options that would have no effect are a mistake of the user's.
 void require_effective(const CLI::App& app, const SmoothCommand& command)
 {
-    const std::string of_sweeps =
-        first_given(app, {"--conditions", "--transmission", "--p", "--p-rule", "--p-edge", "--q", "--overlap",
-                          "--no-correction", "--sweep", "--coloring", "--paper"});
+    const std::string of_sweeps = first_given(app, Sweeps);
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
     require_consistent_approach(app, command, of_sweeps);
     if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
-        if (const std::string of_converged = first_given(app, {"--converge-iterations", "--precision"});
-            !of_converged.empty())
+        if (const std::string of_converged = first_given(app, ConvergedSteps); !of_converged.empty())
             throw OptionError(of_converged + " is for converged steps, but --converge never takes none");
     if (app.count("--p") > 0)
         if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
@@ -105,13 +135,6 @@ void require_effective(const CLI::App& app, const SmoothCommand& command)
     if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
         throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
                           " has a number a line");
-}
-
-/// Options that leave no room for what a preset chooses, unless another option asks for it.
-std::string given_against_presets(const CLI::App& app)
-{
-    return first_given(app, {"--paper", "--scheme", "--conditions", "--transmission", "--p", "--p-rule", "--p-edge",
-                             "--q", "--overlap", "--no-correction", "--keep-gaps"});
 }
 
 /// Whether what a preset says by an option is said otherwise, or has no place beside what is.
@@ -150,7 +173,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                           " does so, too: give one of them");
     if (command.preset.empty() && has_amount)
         return;
-    if (const std::string other = given_against_presets(app); !other.empty())
+    if (const std::string other = first_given(app, Method); !other.empty())
         throw OptionError(
             fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}", other,
                         command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
@@ -227,10 +250,9 @@ void settle(const CLI::App& app, SmoothCommand& command)
         throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
                           " names edges to keep: say --preset cad, or --keep-edges with an angle, as well");
     command.limits_iterations = app.count("--converge-iterations") > 0;
-    for (const char* of_sweeps : {"--conditions", "--transmission", "--p-rule", "--p-edge", "--coloring"})
-        if (app.count(of_sweeps) > 0 && app.count("--approach") == 0)
-            command.options.accuracy.approach = Approach::Sweep;
-    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, of_sub_meshes_alone).empty())
+    if (app.count("--approach") == 0 && !first_given(app, ImpliesSweeps).empty())
+        command.options.accuracy.approach = Approach::Sweep;
+    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, SubMeshes).empty())
         command.options.accuracy.approach = Approach::Decomposed;
     require_consistent(app, command);
     if (app.count("--conditions") > 0 && app.count("--paper") == 0 &&
