@@ -56,7 +56,7 @@ struct RankReport {
     double setup_seconds = 0.0;
     /// With ReportOptions::measures: the mesh before the first step.
     std::optional<RankMeasures> before = {};
-    /// Those that this flow took: not those before the state that it went on from.
+    /// Those that this flow took: not those before the state that it resumed from.
     std::vector<RankStepReport> steps;
     /// With ReportOptions::measures: the mesh after all steps.
     std::optional<RankMeasures> after = {};

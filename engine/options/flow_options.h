@@ -117,9 +117,8 @@ enum class Rescale {
 
 /// The solver of a backward Euler step.
 enum class Approach {
-    /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model (see choose_approach).
-    /// Decomposed
-    /// if another option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
+    /// The fastest of Decomposed, ConjugateGradients and Undecomposed, by a cost model (see choose_approach). It is
+    /// Decomposed if another option concerns sub-meshes or sweeps, or if the Laplacian is not symmetric.
     Automatic,
     /// Sub-meshes: Converged with a tolerance, or to a loose one where that pays (see choose_tolerance), otherwise
     /// Sweep.
