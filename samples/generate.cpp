@@ -33,8 +33,8 @@ ExitStatus generate(int argc, char** argv)
     std::filesystem::path output;
     Index vertices = 10'000;
     MeshVariation variation;
-    const RealLimits any{-1e6, 1e6};
-    const RealLimits not_negative{0.0, 1e6};
+    const Limits any{.least = -1e6, .most = 1e6, .below_most = false};
+    const Limits not_negative{.least = 0.0, .most = 1e6, .below_most = false};
     int seed = 1;
     app.add_option("KIND", kind, listed_kinds())->required()->type_name("");
     app.add_option("OUTPUT", output,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/update_limit.h"
 #include "engine/options/flow_control.h"
+#include "engine/options/option_table.h"
 #include "engine/options/valid_options.h"
 #include "engine/setup/automatic_choices.h"
 #include "engine/setup/origin_offset.h"
@@ -44,7 +46,7 @@ bool is_converged(const FlowOptions& options)
 void require_for_ranks(const FlowOptions& options)
 {
     const InterfaceOptions& interface = options.interface;
-    const char* unknown = nullptr;
+    std::string_view unknown;
     if (is_converged(options) && !is_symmetric(options.laplacian))
         throw OptionError(fmt::format("ranks cannot take converged steps of {}, which are by GMRES: take sweeps "
                                       "(approach sweep, without a tolerance), or let one process do it",
@@ -52,23 +54,16 @@ void require_for_ranks(const FlowOptions& options)
     if (!is_converged(options) && (options.accuracy.approach != Approach::Sweep || options.accuracy.tolerance))
         unknown = "approaches but sweeps and converged steps (approach has to be sweep, without a tolerance, or "
                   "converged)";
-    else if (options.scheme != Scheme::BackwardEuler || options.keep_edges)
-        unknown = "explicit steps, nor steps that keep edges";
     else if (!is_converged(options) && interface.conditions != Conditions::AdaptedRobin &&
              interface.conditions != Conditions::AdaptedVentcell)
         unknown = "conditions but the adapted ones";
-    else if (options.motion.rescale != Rescale::None || options.motion.strict || options.motion.limits.exist())
-        unknown = "rescaled results, limits of components, nor strict";
-    else if (options.cut.subdomains > 0 || !options.cut.labels.empty() || !options.motion.fixed_vertices.empty() ||
-             !options.motion.attachment_weights.empty())
-        unknown = "options for single faces and vertices: labels, fixed vertices and weights are those of the parts";
-    else if (options.report.reference || options.report.record_schedule || options.report.keep_gaps)
-        unknown = "an undecomposed flow to compare with, a schedule, nor gaps";
-    if (unknown == nullptr && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
+    else
+        unknown = first_set(options, concern::one_process | concern::part);
+    if (unknown.empty() && options.laplacian == Laplacian::Uniform && options.uniform_edge == 0.0)
         throw OptionError(
             "uniform_edge is 0, but ranks do not know the mean edge length of the whole mesh: say what it "
             "is (measure in engine/distributed/parts/slice_measures.h finds it)");
-    if (unknown != nullptr)
+    if (!unknown.empty())
         throw OptionError(
             fmt::format("distributed flows do not know {}: leave that out, or let one process do it", unknown));
 }

@@ -25,8 +25,7 @@ StepFilter filter_of(const FlowOptions& options)
 {
     // Tolerances that were not asked for are not smaller.
     constexpr double smallest_by_choice = 1e-4;
-    StepFilter filter{.kind = options.filter,
-                      .order = options.order.value_or(options.filter == Filter::LowPass ? 2 : 1)};
+    StepFilter filter{.kind = options.filter, .order = options.order.value_or(orders_of(options.filter).first)};
     constexpr double of_undecomposed = 1e-6;
     if (options.accuracy.tolerance && *options.accuracy.tolerance < smallest_by_choice)
         filter.tolerance = std::max(*options.accuracy.tolerance, 1e-12);

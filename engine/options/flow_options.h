@@ -195,6 +195,8 @@ struct AccuracyOptions {
 struct LengthOnMesh {
     double value = 0.0;
     bool of_diagonal = false;
+
+    friend bool operator==(const LengthOnMesh&, const LengthOnMesh&) = default;
 };
 
 /// Limits on the change of each connected component of a mesh. If a component would exceed one, its displacement is

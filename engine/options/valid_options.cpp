@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -15,31 +18,39 @@ namespace seamflow {
 namespace {
 
 template <class Value>
-void require(bool holds, const char* field, Value value, const char* limits)
+requires std::is_arithmetic_v<Value>
+void require_within(const OptionTraits& row, Value value)
 {
-    if (holds)
+    if (row.limits.hold(static_cast<double>(value)))
         return;
     constexpr const char* text =
         std::is_same_v<Value, double> ? "{} is {:.17g}, but must be {}" : "{} is {}, but must be {}";
-    throw OptionError(fmt::format(fmt::runtime(text), field, value, limits));
+    throw OptionError(fmt::format(fmt::runtime(text), row.field, value, row.limits.text));
 }
 
-bool positive_and_finite(double value)
+void require_within(const OptionTraits& row, LengthOnMesh length)
 {
-    return value > 0.0 && std::isfinite(value);
+    require_within(row, length.value);
 }
 
-void require_valid_amount(const FlowOptions& options)
+template <class Value>
+void require_within(const OptionTraits& row, const std::optional<Value>& value)
 {
-    if (!options.radius) {
-        require(positive_and_finite(options.time_step), "time_step", options.time_step,
-                "positive and finite (length²)");
-        return;
-    }
-    require(positive_and_finite(options.radius->value), "radius", options.radius->value,
-            "positive and finite (a length, or a part of the bounding box's diagonal)");
-    if (options.time_step != 0.0)
+    if (value)
+        require_within(row, *value);
+}
+
+/// All numbers.
+void require_limits(const FlowOptions& options)
+{
+    if (options.radius && options.time_step != 0.0)
         throw OptionError("time_step and radius both say how much is smoothed: leave one of them out");
+    for_each_option(options, [&](const auto& row) {
+        const bool is_open = row.field == "time_step" && options.radius;
+        if constexpr (requires { require_within(row, *row.value); })
+            if (!row.limits.text.empty() && !is_open)
+                require_within(row, *row.value);
+    });
 }
 
 void require_valid_schwarz(const FlowOptions& options)
@@ -68,17 +79,11 @@ void require_valid_copies(const FlowOptions& options)
 
 void require_valid_tolerance(const FlowOptions& options)
 {
-    require(options.accuracy.converge_iterations >= 0, "converge_iterations", options.accuracy.converge_iterations,
-            "at least 0");
     const bool asks_for_convergence = options.accuracy.tolerance || options.accuracy.approach == Approach::Converged;
     if (asks_for_convergence &&
         (options.interface.conditions != Conditions::AdaptedRobin || options.scheme == Scheme::ExplicitEuler))
         throw OptionError(std::string(options.accuracy.tolerance ? "tolerance is given" : "approach is converged") +
                           ", which leaves no room for other conditions or an explicit scheme");
-    if (!options.accuracy.tolerance)
-        return;
-    require(positive_and_finite(*options.accuracy.tolerance) && *options.accuracy.tolerance < 1.0, "tolerance",
-            *options.accuracy.tolerance, "positive and below 1 (residual against that at the beginning of a step)");
 }
 
 /// Without a tolerance converged steps are not chosen (see choose_tolerance).
@@ -97,8 +102,8 @@ void require_valid_approach(const FlowOptions& options)
     if (!takes_whole_mesh(options.accuracy.approach))
         return;
     const std::string approach = fmt::format("approach is {}", option_name(options.accuracy.approach));
-    if (options.interface != InterfaceOptions{} || options.scheme == Scheme::ExplicitEuler)
-        throw OptionError(approach + ", which leaves no room for options of sweeps or an explicit scheme");
+    if (const std::string_view other = first_set(options, concern::sweeps | concern::method); !other.empty())
+        throw OptionError(fmt::format("{}, which leaves no room for {}: leave one of them out", approach, other));
     if (options.cut.subdomains > 1 || !options.cut.labels.empty())
         throw OptionError(approach + ", which takes the whole mesh: leave out the sub-meshes");
     if (options.accuracy.approach == Approach::Undecomposed)
@@ -107,10 +112,8 @@ void require_valid_approach(const FlowOptions& options)
         throw OptionError(fmt::format("approach is by conjugate gradients, but the Laplacian {} is not symmetric: use "
                                       "{}, or leave the approach automatic",
                                       name_of(options.laplacian), names_of_symmetric_laplacians()));
-    if (options.resources.memory_limit || options.resources.factorisation != Factorisation::Automatic ||
-        options.resources.precision != Precision::Automatic)
-        throw OptionError("approach is by conjugate gradients, which factorise nothing: leave out the memory limit, "
-                          "the factorisation and its precision");
+    if (const std::string_view other = first_set(options, concern::factors); !other.empty())
+        throw OptionError(fmt::format("{}, but conjugate gradients factorise nothing: leave {} out", approach, other));
 }
 
 void require_valid_constraints(const FlowOptions& options)
@@ -119,12 +122,6 @@ void require_valid_constraints(const FlowOptions& options)
         throw OptionError(fmt::format("boundary is free, but the Laplacian {} has no natural boundary conditions (its "
                                       "rows there are one-sided and unstable): use {}, or leave the boundary fixed",
                                       name_of(options.laplacian), names_of_symmetric_laplacians()));
-    if (options.motion.weld)
-        require(*options.motion.weld >= 0.0 && std::isfinite(*options.motion.weld), "weld", *options.motion.weld,
-                "at least 0 and finite (a length; empty: never)");
-    if (options.motion.within)
-        require(*options.motion.within > 0.0 && std::isfinite(*options.motion.within), "within", *options.motion.within,
-                "above 0 and finite (a length; empty: no bound)");
     if (options.report.keep_gaps &&
         (options.motion.rescale != Rescale::None || options.motion.within || options.motion.limits.exist()))
         throw OptionError(
@@ -148,7 +145,6 @@ bool is_weight(double weight)
 
 void require_valid_attachment(const MotionOptions& motion)
 {
-    require(is_weight(motion.attachment), "attachment", motion.attachment, "at least 0 and finite (1/length²)");
     const auto wrong = std::ranges::find_if_not(motion.attachment_weights, is_weight);
     if (wrong != motion.attachment_weights.end())
         throw InputError(fmt::format("the attachment weight of vertex {} is {:.17g}, but must be at least 0 and finite "
@@ -171,13 +167,11 @@ std::string further_flow(const FlowOptions& options)
 
 void require_valid_filter(const FlowOptions& options)
 {
+    const auto [least, most] = orders_of(options.filter);
     const int order = filter_of(options).order;
-    if (options.filter == Filter::Diffusion)
-        require(order >= 1 && order <= 3, "order", order, "1, 2 or 3 with the filter diffusion");
-    else
-        require(order >= 2 && order <= 8, "order", order, "at least 2 and at most 8 with the filter low-pass");
-    require(options.uniform_edge >= 0.0 && std::isfinite(options.uniform_edge), "uniform_edge", options.uniform_edge,
-            "at least 0 and finite (a length; 0: the mean edge length of the mesh)");
+    if (order < least || order > most)
+        throw OptionError(fmt::format("order is {}, but must be {} to {} with the filter {}", order, least, most,
+                                      option_name(options.filter)));
 }
 
 void require_valid_flow(const FlowOptions& options)
@@ -206,25 +200,12 @@ void require_valid_edges(const FlowOptions& options)
 {
     if (!options.keep_edges)
         return;
-    require(*options.keep_edges > 0.0 && *options.keep_edges < 180.0, "keep_edges", *options.keep_edges,
-            "above 0 and below 180 (degrees)");
-    const FlowOptions defaults;
-    const char* other = nullptr;
-    if (options.scheme != defaults.scheme)
-        other = "an explicit scheme";
-    else if (options.cut.subdomains > 1 || !options.cut.labels.empty() || options.resources.memory_limit)
+    std::string_view other = first_set(options, concern::equations & ~concern::sub_meshes);
+    if (options.cut.subdomains > 1 || !options.cut.labels.empty())
         other = "sub-meshes";
-    else if (options.interface != defaults.interface || options.report.keep_gaps)
-        other = "an interface";
-    else if (options.accuracy.approach != defaults.accuracy.approach || options.accuracy.tolerance ||
-             options.resources.factorisation != defaults.resources.factorisation ||
-             options.resources.precision != defaults.resources.precision)
-        other = "an approach, a tolerance, a factorisation or its precision";
     else if (!is_plain_flow(options))
         other = "another flow, a filter or an attachment";
-    else if (options.report.reference)
-        other = "an undecomposed flow to compare with";
-    if (other != nullptr)
+    if (!other.empty())
         throw OptionError(fmt::format("keep_edges is given, which smooths normals on the whole mesh and leaves no room "
                                       "for {}: leave one of them out",
                                       other));
@@ -234,31 +215,15 @@ void require_valid_edges(const FlowOptions& options)
 
 void require_threads(int threads)
 {
-    require(threads >= 0 && threads <= ResourceOptions::most_threads, "threads", threads,
-            "at least 0 and at most 1024 (0: as many as the calling TBB arena has)");
+    require_within(*std::ranges::find(all_options(), "threads", &OptionTraits::field), threads);
 }
 
 void require_valid(const FlowOptions& options)
 {
-    require_valid_amount(options);
-    require(options.steps >= 0 && options.steps <= FlowOptions::most_steps, "steps", options.steps,
-            "at least 0 and at most 1000000000");
-    require(options.cut.subdomains >= 0, "subdomains", options.cut.subdomains, "at least 0 (0: chosen)");
-    require_threads(options.resources.threads);
-    if (options.interface.p)
-        require(positive_and_finite(*options.interface.p), "p", *options.interface.p, "positive and finite (1/length)");
-    if (options.interface.q)
-        require(*options.interface.q >= 0.0 && std::isfinite(*options.interface.q), "q", *options.interface.q,
-                "at least 0 and finite");
+    require_limits(options);
     if (options.interface.q.has_value() != has_tangential_derivative(options.interface.conditions))
         throw OptionError(options.interface.q ? "q is given, but belongs to the Ventcell conditions alone"
                                               : "q must be given with the Ventcell conditions");
-    require(options.interface.overlap >= 1, "overlap", options.interface.overlap, "at least 1 (layers of faces)");
-    if (options.resources.memory_limit)
-        require(*options.resources.memory_limit >= 1, "memory_limit", *options.resources.memory_limit,
-                "at least 1 (byte)");
-    require(options.accuracy.largest_update > 0.0, "largest_update", options.accuracy.largest_update,
-            "positive (diagonals of the mesh's bounding box; infinite: no limit)");
     if (options.interface.conditions == Conditions::Schwarz)
         require_valid_schwarz(options);
     require_valid_copies(options);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/options/option_table.h"
 #include "engine/setup/constraints.h"
 #include "solvers/laplacian/laplacian.h"
 
@@ -62,19 +63,15 @@ bool is_long(const FlowOptions& options, const MeshSize& size)
 /// Whether an option is set that means nothing without sub-meshes.
 bool speaks_of_sub_meshes(const FlowOptions& options)
 {
-    const FlowOptions defaults;
-    return options.cut.subdomains > 0 || !options.cut.labels.empty() || options.interface != defaults.interface ||
-           options.resources.factorisation != defaults.resources.factorisation ||
-           options.resources.precision != defaults.resources.precision || options.resources.memory_limit ||
-           options.report.keep_gaps;
+    return !first_set(options, concern::sub_meshes | concern::sweeps | concern::factors).empty();
 }
 
 /// Whether an option is set that means nothing to converged steps.
 bool speaks_of_sweeps(const FlowOptions& options)
 {
-    const FlowOptions defaults;
-    return options.accuracy.approach == Approach::Sweep || options.scheme != defaults.scheme || options.keep_edges ||
-           options.interface != defaults.interface || is_foreign(options.resources.factorisation);
+    return options.accuracy.approach == Approach::Sweep || options.keep_edges ||
+           !first_set(options, concern::sweeps | concern::method).empty() ||
+           is_foreign(options.resources.factorisation);
 }
 
 /// Whether sweeps would take two sub-meshes at most.

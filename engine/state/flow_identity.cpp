@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/options/option_names.h"
+#include "engine/options/option_table.h"
 #include "engine/setup/origin_offset.h"
 #include "engine/state/checksum.h"
 #include "partition/errors.h"
@@ -32,7 +33,18 @@ std::string text_of(double value)
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-std::string text_of(const std::optional<double>& value)
+std::string text_of(bool value)
+{
+    return value ? "yes" : "no";
+}
+
+std::string text_of(const LengthOnMesh& length)
+{
+    return text_of(length.value) + (length.of_diagonal ? " diagonals" : "");
+}
+
+template <class Value>
+std::string text_of(const std::optional<Value>& value)
 {
     return value ? text_of(*value) : std::string(none);
 }
@@ -93,68 +105,15 @@ std::string text_of(const PolygonMesh& mesh)
 
 FlowIdentity identify(const PolygonMesh& mesh, const FlowOptions& options)
 {
-    // Every field has a name here, so that a new one cannot be forgotten.
-    const auto& [laplacian, flow, filter, order, time_step, radius, uniform_edge, steps, scheme, keep_edges, cut,
-                 interface, accuracy, motion, resources, report] = options;
-    const auto& [subdomains, labels] = cut;
-    const auto& [conditions, transmission, p, p_rule, p_edge, q, overlap, colouring, sweep, correction] = interface;
-    const auto& [tolerance, approach, converge_iterations, largest_update] = accuracy;
-    const auto& [weld, boundary, fixed_vertices, feature_edges, strict, attachment, attachment_weights, rescale, within,
-                 limits] = motion;
-    const auto& [threads, memory_limit, factorisation, precision] = resources;
-    const auto& [reference, record_schedule, keep_gaps, measures] = report;
-    // These do not change results, or (steps) only where they end; a radius has become a time step.
-    static_cast<void>(radius);
-    static_cast<void>(order);
-    static_cast<void>(steps);
-    static_cast<void>(strict);
-    static_cast<void>(keep_gaps);
-    static_cast<void>(threads);
-    static_cast<void>(memory_limit);
-    static_cast<void>(largest_update);
-    static_cast<void>(record_schedule);
-    return {{
-        {"version", SEAMFLOW_VERSION},
-        {"mesh", text_of(mesh)},
-        {"laplacian", text_of(laplacian)},
-        {"flow", text_of(flow)},
-        {"filter", text_of(filter)},
-        {"order", text_of(filter_of(options).order)},
-        {"uniform_edge", text_of(uniform_edge)},
-        {"time_step", text_of(time_step)},
-        {"subdomains", text_of(subdomains)},
-        {"labels", text_of(labels)},
-        {"colouring", text_of(colouring)},
-        {"conditions", text_of(conditions)},
-        {"scheme", text_of(scheme)},
-        {"keep_edges", text_of(keep_edges)},
-        {"transmission", text_of(transmission)},
-        {"p", text_of(p)},
-        {"p_rule", text_of(p_rule)},
-        {"p_edge", text_of(p_edge)},
-        {"q", text_of(q)},
-        {"overlap", text_of(overlap)},
-        {"sweep", text_of(sweep)},
-        {"weld", text_of(weld)},
-        {"boundary", text_of(boundary)},
-        {"fixed_vertices", text_of(fixed_vertices)},
-        {"feature_edges", text_of(feature_edges)},
-        {"attachment", text_of(attachment)},
-        {"attachment_weights", text_of(attachment_weights)},
-        {"rescale", text_of(rescale)},
-        {"within", within ? text_of(*within) : "none"},
-        {"limit_of_volume", text_of(limits.volume)},
-        {"limit_of_move", text_of(limits.move)},
-        {"limit_of_slide", text_of(limits.slide)},
-        {"correction", text_of(correction)},
-        {"tolerance", text_of(tolerance)},
-        {"approach", text_of(approach)},
-        {"converge_iterations", text_of(converge_iterations)},
-        {"reference", reference ? "yes" : "no"},
-        {"factorisation", text_of(factorisation)},
-        {"measures", measures ? "yes" : "no"},
-        {"precision", text_of(precision)},
-    }};
+    FlowIdentity identity{{{"version", SEAMFLOW_VERSION}, {"mesh", text_of(mesh)}}};
+    for_each_option(options, [&](const auto& row) {
+        if ((row.concerns & concern::no_result) == 0)
+            identity.entries.push_back({std::string(row.field), text_of(*row.value)});
+        // That of the filter where it is left open.
+        if (row.field == "order")
+            identity.entries.back().value = text_of(filter_of(options).order);
+    });
+    return identity;
 }
 
 void require_same(const FlowIdentity& of_state, const FlowIdentity& of_flow)

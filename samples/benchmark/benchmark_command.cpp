@@ -58,22 +58,20 @@ void add_mesh_options(CLI::App& app, BenchmarkCommand& command)
 void add_flow_options(CLI::App& app, BenchmarkCommand& command)
 {
     FlowOptions& flow = command.options.flow;
-    add_choice(app, "--laplacian", flow.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
+    add_field(app, flow, "--laplacian", "discrete Laplacian [fujiwara]");
     add_real(app, "--time-step-edges", command.time_step_edges, positive(), "in squared mean edge lengths [5]");
     add_integer(app, "--steps", flow.steps, 1, "number of steps [5]");
-    add_integer(app, "--subdomains", flow.cut.subdomains, 0, "number of sub-meshes of ours; 0: chosen [0]");
-    add_choice(app, "--conditions", flow.interface.conditions, "what holds between sub-meshes of ours [adapted-robin]");
-    add_real(app, "--q", flow.interface.q, {0.0, std::numeric_limits<double>::max()},
-             "Ventcell parameter of ours, for adapted-ventcell and ventcell");
-    add_bytes(app, "--memory-limit", flow.resources.memory_limit,
+    add_field(app, flow, "--subdomains", "number of sub-meshes of ours; 0: chosen [0]");
+    add_field(app, flow, "--conditions", "what holds between sub-meshes of ours [adapted-robin]");
+    add_field(app, flow, "--q", "Ventcell parameter of ours, for adapted-ventcell and ventcell");
+    add_field(app, flow, "--memory-limit",
               "most that the factorisations of ours may take at once: 500M, 2GiB [as much as is fast]\n"
               "In bytes or with K, M, G, KiB, MiB, GiB. Converged steps make twice what they cannot keep. By default "
               "sweeps take as little as keeps all threads busy; converged steps and --simulate-threads have no limit.");
     add_converge(app, flow,
                  "ours by converged steps, to this relative residual; never: by sweeps; auto: as the library decides "
                  "[auto]");
-    add_integer(app, "--threads", flow.resources.threads, 0,
-                "number of threads, at most 1024; 0: all cores [0; with --simulate-threads 1]");
+    add_field(app, flow, "--threads", "number of threads, at most 1024; 0: all cores [0; with --simulate-threads 1]");
 }
 
 void require_consistent(const CLI::App& app, const BenchmarkCommand& command)

@@ -18,13 +18,17 @@ namespace seamflow {
 
 namespace {
 
-std::string described(const RealLimits& limits)
+std::string described(const Limits& limits)
 {
     std::string text = "a finite number";
     if (std::isfinite(limits.least))
         text += fmt::format(" {} {:.6g}", limits.above_least ? "above" : "from", limits.least);
-    if (limits.most < std::numeric_limits<double>::max())
-        text += fmt::format(" {} {:.6g}", std::isfinite(limits.least) ? "to" : "up to", limits.most);
+    if (std::isfinite(limits.most))
+        text += fmt::format(" {} {:.6g}",
+                            limits.below_most             ? "and below"
+                            : std::isfinite(limits.least) ? "to"
+                                                          : "up to",
+                            limits.most);
     return text;
 }
 
@@ -53,18 +57,17 @@ std::optional<std::string> text_about(const CLI::App& app, std::string_view aske
 
 }  // namespace
 
-RealLimits positive()
+Limits positive()
 {
-    return {0.0, std::numeric_limits<double>::max(), true};
+    return {.least = 0.0, .above_least = true};
 }
 
-double parse_real(std::string_view text, const RealLimits& limits)
+double parse_real(std::string_view text, const Limits& limits)
 {
     double value = 0.0;
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
-    const bool number = error == std::errc() && rest == end && std::isfinite(value);
-    if (number && value <= limits.most && (limits.above_least ? value > limits.least : value >= limits.least))
+    if (error == std::errc() && rest == end && std::isfinite(value) && limits.hold(value))
         return value;
     throw OptionError(fmt::format("\"{}\" is not {}", text, described(limits)));
 }
@@ -109,14 +112,14 @@ LengthOnMesh parse_length(std::string_view text)
     }
 }
 
-CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
+CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const Limits& limits,
                       const std::string& description)
 {
     const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };
     return add_parsed(app, names, target, parse, "NUMBER", description);
 }
 
-CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const RealLimits& limits,
+CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const Limits& limits,
                       const std::string& description)
 {
     const auto parse = [limits](const std::string& text) { return parse_real(text, limits); };

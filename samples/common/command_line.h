@@ -13,25 +13,18 @@
 
 #include "engine/options/flow_options.h"
 #include "engine/options/option_names.h"
+#include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "samples/common/exit_status.h"
 
 namespace seamflow {
 
-/// The limits of a number on the command line.
-struct RealLimits {
-    double least;
-    double most;
-    /// Whether `least` itself is refused.
-    bool above_least = false;
-};
-
 /// Every finite number above 0.
-RealLimits positive();
+Limits positive();
 
 /// Reads the whole of `text` as a finite decimal number ("0.05", "1e-3"; not "0.05x", "nan", "inf" or "").
 /// @throws OptionError saying what was expected.
-double parse_real(std::string_view text, const RealLimits& limits);
+double parse_real(std::string_view text, const Limits& limits);
 
 /// As above, for a whole number.
 long long parse_integer(std::string_view text, long long least, long long most);
@@ -62,9 +55,9 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& names, Target& target,
 }
 
 /// Adds an option that takes one number and stores it in `target`.
-CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const RealLimits& limits,
+CLI::Option* add_real(CLI::App& app, const std::string& names, double& target, const Limits& limits,
                       const std::string& description);
-CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const RealLimits& limits,
+CLI::Option* add_real(CLI::App& app, const std::string& names, std::optional<double>& target, const Limits& limits,
                       const std::string& description);
 
 /// As above, for a whole number from `least` to the largest that fits the target.

@@ -1,5 +1,6 @@
 #include "samples/common/distributed_command.h"
 
+#include "engine/options/option_table.h"
 #include "engine/setup/presets.h"
 #include "partition/errors.h"
 #include "samples/common/command_help.h"
@@ -10,26 +11,18 @@ namespace seamflow {
 
 namespace {
 
-const char* const whole_mesh = "it takes the whole mesh, which no rank has; smooth knows it";
-const char* const one_process = "it shows the tasks of one process; smooth knows it";
-const char* const sweeps_alone = "ranks do not know such steps; smooth does";
-
+/// What is about the whole mesh, or shows the tasks of one process.
 std::vector<SmoothProgram::Lack> lacks()
 {
-    return {{"--noise", "the amount for it takes the whole mesh; say --time-step, --time-step-edges or --radius"},
-            {"--strict", whole_mesh},
-            {"--rescale", whole_mesh},
-            {"--scheme", sweeps_alone},
-            {"--keep-edges", whole_mesh},
-            {"--edges", whole_mesh},
-            {"--edges-from-file", whole_mesh},
-            {"--overlap", sweeps_alone},
-            {"--keep-gaps", sweeps_alone},
-            {"--self-intersections", whole_mesh},
-            {"--reference", whole_mesh},
-            {"--trace", one_process},
-            {"--task-graph", one_process},
-            {"--html", "a page shows the whole mesh, which no rank has; smooth writes it"}};
+    const char* const one_process = "it takes the whole mesh in one process; smooth has it";
+    std::vector<SmoothProgram::Lack> list{
+        {"--noise", "the amount for it takes the whole mesh; say --time-step, --time-step-edges or --radius"}};
+    for (const OptionTraits& one : all_options())
+        if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
+            list.push_back({std::string(one.option), one_process});
+    for (const char* const own : {"--edges-from-file", "--self-intersections", "--trace", "--task-graph", "--html"})
+        list.push_back({own, one_process});
+    return list;
 }
 
 /// Steps of ranks are in sub-meshes: sweeps where neither a tolerance is asked for nor a free boundary, which

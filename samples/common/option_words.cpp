@@ -1,70 +1,20 @@
 #include "samples/common/option_words.h"
 
-#include <algorithm>
 #include <cctype>
-#include <iterator>
+
+#include "engine/options/option_table.h"
 
 namespace seamflow {
 
 namespace {
-
-/// Fields that options set.
-constexpr std::string_view fields[] = {"approach",
-                                       "attachment",
-                                       "attachment_weights",
-                                       "boundary",
-                                       "colouring",
-                                       "conditions",
-                                       "converge_iterations",
-                                       "factorisation",
-                                       "feature_edges",
-                                       "filter",
-                                       "fixed_vertices",
-                                       "flow",
-                                       "keep_edges",
-                                       "keep_gaps",
-                                       "labels",
-                                       "laplacian",
-                                       "memory_limit",
-                                       "order",
-                                       "overlap",
-                                       "p",
-                                       "p_edge",
-                                       "p_rule",
-                                       "precision",
-                                       "q",
-                                       "radius",
-                                       "rescale",
-                                       "scheme",
-                                       "steps",
-                                       "subdomains",
-                                       "sweep",
-                                       "threads",
-                                       "time_step",
-                                       "tolerance",
-                                       "transmission",
-                                       "weld",
-                                       "within"};
 
 struct Exchange {
     std::string_view from;
     std::string_view to;
 };
 
-/// Those whose options are called otherwise.
-constexpr Exchange renamed[] = {{"attachment", "attach"},  {"attachment_weights", "attach-weights"},
-                                {"colouring", "coloring"}, {"feature_edges", "edges"},
-                                {"fixed_vertices", "fix"}, {"tolerance", "converge"}};
-
+/// Values of fields.
 constexpr Exchange values[] = {{"Approach::Sweep", "--approach sweep"}, {"Filter::LowPass", "--filter low-pass"}};
-
-std::string option_of(std::string_view field)
-{
-    const auto found = std::ranges::find(renamed, field, &Exchange::from);
-    std::string option(found == std::end(renamed) ? field : found->to);
-    std::ranges::replace(option, '_', '-');
-    return std::string("--").append(option);
-}
 
 bool is_of_word(char c)
 {
@@ -100,11 +50,14 @@ std::string in_words_of_options(std::string_view message)
     const std::size_t begin = found == std::string_view::npos ? 0 : found + another_flow.size();
     const std::string_view first = message.substr(begin, message.find(' ', begin) - begin);
     std::string text(message);
-    if (std::ranges::find(fields, first) != std::end(fields))
-        text.replace(begin, first.size(), option_of(first));
-    for (const std::string_view field : fields)
-        if (field.find('_') != std::string_view::npos)
-            exchange(text, field, option_of(field));
+    for (const OptionTraits& known : all_options()) {
+        if (known.option.empty())
+            continue;
+        if (known.field == first)
+            text.replace(begin, first.size(), known.option);
+        if (known.field.find('_') != std::string_view::npos)
+            exchange(text, known.field, known.option);
+    }
     for (const auto& [value, option] : values)
         exchange(text, value, option);
     return text;

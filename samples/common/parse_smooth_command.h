@@ -21,7 +21,7 @@ struct SmoothProgram {
     const char* description = "Smooths a mesh by mean curvature flow, cut into sub-meshes that are solved in parallel.";
     /// An option that it has not, and why.
     struct Lack {
-        const char* option;
+        std::string option;
         const char* reason;
     };
     std::vector<Lack> lacks = {};

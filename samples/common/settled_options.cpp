@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "engine/options/option_table.h"
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
 #include "samples/common/cpu_quota.h"
@@ -17,82 +19,39 @@ namespace seamflow {
 
 namespace {
 
-/// What an option concerns, so that others exclude or imply it.
-enum Concern : unsigned {
-    /// It shows or sets sub-meshes.
-    SubMeshes = 1U,
-    /// Sweeps over them.
-    Sweeps = 2U,
-    /// Sweeps are taken because of it.
-    ImpliesSweeps = 4U,
-    /// The method: no preset can go with it.
-    Method = 8U,
-    /// Factorisations of sub-meshes.
-    Factors = 16U,
-    /// Converged steps.
-    ConvergedSteps = 32U,
-    /// How the equations are solved, in any other way.
-    Solution = 64U,
-};
-constexpr unsigned any_equations = ~0U;
-
-struct ConcernedOption {
-    const char* name;
-    unsigned concerns;
-};
-
-/// All options about the equations of mean curvature flow; steps that keep edges have none of these.
-constexpr ConcernedOption options_of_equations[] = {
-    {"--subdomains", SubMeshes},
-    {"--labels", SubMeshes},
-    {"--parts", SubMeshes},
-    {"--task-graph", SubMeshes},
-    {"--trace", SubMeshes},
-    {"--paper", Sweeps | Method},
-    {"--scheme", Method},
-    {"--conditions", Sweeps | ImpliesSweeps | Method},
-    {"--transmission", Sweeps | ImpliesSweeps | Method},
-    {"--p", Sweeps | Method},
-    {"--p-rule", Sweeps | ImpliesSweeps | Method},
-    {"--p-edge", Sweeps | ImpliesSweeps | Method},
-    {"--q", Sweeps | Method},
-    {"--overlap", Sweeps | Method},
-    {"--no-correction", Sweeps | Method},
-    {"--sweep", Sweeps},
-    {"--coloring", Sweeps | ImpliesSweeps},
-    {"--keep-gaps", Method},
-    {"--converge", Solution},
-    {"--converge-iterations", ConvergedSteps},
-    {"--approach", Solution},
-    {"--memory-limit", Factors},
-    {"--factorisation", Factors},
-    {"--precision", Factors | ConvergedSteps},
-    {"--reference", Solution},
+/// Options of the program that are no fields of FlowOptions (see option_table.h).
+constexpr OptionTraits options_of_program[] = {
+    {"", "--parts", concern::sub_meshes},
+    {"", "--task-graph", concern::sub_meshes},
+    {"", "--trace", concern::sub_meshes},
+    {"", "--paper", concern::sweeps | concern::method},
 };
 
 /// The first of these options that was given; empty: none.
-std::string first_given(const CLI::App& app, std::initializer_list<const char*> names)
+std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names)
 {
-    for (const char* name : names)
-        if (const CLI::Option* option = app.get_option_no_throw(name); option != nullptr && option->count() > 0)
-            return name;
+    for (const std::string_view name : names)
+        if (const CLI::Option* option = app.get_option_no_throw(std::string(name));
+            option != nullptr && option->count() > 0)
+            return std::string(name);
     return {};
 }
 
 /// The same of those with one of these concerns.
 std::string first_given(const CLI::App& app, unsigned concerns)
 {
-    for (const auto& [name, own] : options_of_equations)
-        if ((own & concerns) != 0)
-            if (std::string found = first_given(app, {name}); !found.empty())
-                return found;
+    for (const std::span<const OptionTraits> list : {std::span<const OptionTraits>(options_of_program), all_options()})
+        for (const OptionTraits& one : list)
+            if ((one.concerns & concerns) != 0)
+                if (std::string found = first_given(app, {one.option}); !found.empty())
+                    return found;
     return {};
 }
 
 /// Options that mean nothing to steps that keep edges.
 void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
 {
-    const std::string other = first_given(app, any_equations);
+    const std::string other = first_given(app, concern::equations);
     if (command.options.keep_edges && !other.empty())
         throw OptionError(other +
                           " is about the equations of mean curvature flow, but --keep-edges smooths face normals "
@@ -110,8 +69,8 @@ void require_consistent_approach(const CLI::App& app, const SmoothCommand& comma
         throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
     if (approach != Approach::Sweep && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
-    const std::string of_sub_meshes =
-        first_given(app, approach == Approach::ConjugateGradients ? SubMeshes | Factors : SubMeshes);
+    const std::string of_sub_meshes = first_given(
+        app, approach == Approach::ConjugateGradients ? concern::sub_meshes | concern::factors : concern::sub_meshes);
     if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
         throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
                           " takes the whole mesh: leave one of them out");
@@ -120,12 +79,12 @@ void require_consistent_approach(const CLI::App& app, const SmoothCommand& comma
 /// Options that would have no effect are a mistake of the user's.
 void require_effective(const CLI::App& app, const SmoothCommand& command)
 {
-    const std::string of_sweeps = first_given(app, Sweeps);
+    const std::string of_sweeps = first_given(app, concern::sweeps);
     if (command.options.accuracy.tolerance && !of_sweeps.empty())
         throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
     require_consistent_approach(app, command, of_sweeps);
     if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
-        if (const std::string of_converged = first_given(app, ConvergedSteps); !of_converged.empty())
+        if (const std::string of_converged = first_given(app, concern::converged_steps); !of_converged.empty())
             throw OptionError(of_converged + " is for converged steps, but --converge never takes none");
     if (app.count("--p") > 0)
         if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
@@ -173,7 +132,7 @@ void apply_preset(const CLI::App& app, SmoothCommand& command)
                           " does so, too: give one of them");
     if (command.preset.empty() && has_amount)
         return;
-    if (const std::string other = first_given(app, Method); !other.empty())
+    if (const std::string other = first_given(app, concern::method); !other.empty())
         throw OptionError(
             fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}", other,
                         command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
@@ -250,9 +209,9 @@ void settle(const CLI::App& app, SmoothCommand& command)
         throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
                           " names edges to keep: say --preset cad, or --keep-edges with an angle, as well");
     command.limits_iterations = app.count("--converge-iterations") > 0;
-    if (app.count("--approach") == 0 && !first_given(app, ImpliesSweeps).empty())
+    if (app.count("--approach") == 0 && !first_given(app, concern::implies_sweeps).empty())
         command.options.accuracy.approach = Approach::Sweep;
-    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, SubMeshes).empty())
+    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, concern::sub_meshes).empty())
         command.options.accuracy.approach = Approach::Decomposed;
     require_consistent(app, command);
     if (app.count("--conditions") > 0 && app.count("--paper") == 0 &&

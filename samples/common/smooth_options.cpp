@@ -1,7 +1,5 @@
 #include "samples/common/smooth_options.h"
 
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "partition/errors.h"
@@ -40,13 +38,13 @@ void add_amount(CLI::App& app, SmoothCommand& command)
     add_real(app, "--time-step", command.amount.time_step, positive(), "time step, in length²");
     add_real(app, "--time-step-edges", command.amount.time_step_edges, positive(),
              "time step, in squared mean edge lengths");
-    add_integer(app, "--steps", options.steps, 0, "number of steps [1]");
+    add_field(app, options, "--steps", "number of steps [1]");
     add_length(app, "--within", command.within,
                "no vertex ends further than this from where it was\n"
                "Vertices beyond it are put back to it, and their neighbours follow smoothly.");
-    add_choice(app, "--rescale", options.motion.rescale,
-               "scale the result to the area or volume of the input [none]\n"
-               "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free.");
+    add_field(app, options, "--rescale",
+              "scale the result to the area or volume of the input [none]\n"
+              "The centroid stays. Not with fixed vertices; open surfaces therefore need --boundary free.");
 }
 
 void add_kind(CLI::App& app, SmoothCommand& command)
@@ -62,25 +60,25 @@ void add_kind(CLI::App& app, SmoothCommand& command)
                        describe_presets())
         ->check(CLI::IsMember(names).description(""))
         ->type_name("scan|cad|terrain|fair");
-    add_choice(app, "--laplacian", options.laplacian, laplacian_choices(), "discrete Laplacian [fujiwara]");
-    add_choice(app, "--flow", options.flow,
-               "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
-               "It turns closed surfaces without handles into spheres.");
-    add_choice(app, "--filter", options.filter,
-               "low-pass: large features hardly shrink [diffusion]\n"
-               "With λ = dt times an eigenvalue, the factor of diffusion is 1/(1 + λᵏ), that of low-pass "
-               "1 - (λ/(1 + λ))ᵐ.");
-    add_integer(app, "--order", options.order, 1,
-                "order of the filter, diffusion 1 to 3, low-pass 2 to 8: higher orders shrink large features less [1, "
-                "low-pass 2]\n"
-                "It is k of the filter diffusion and m of low-pass. A step takes 8 solutions for k = 2, 11 for k = 3, "
-                "m for low-pass.");
+    add_field(app, options, "--laplacian", "discrete Laplacian [fujiwara]");
+    add_field(app, options, "--flow",
+              "conformalized keeps the weights of the Laplacian; necks do not pinch [mean-curvature]\n"
+              "It turns closed surfaces without handles into spheres.");
+    add_field(app, options, "--filter",
+              "low-pass: large features hardly shrink [diffusion]\n"
+              "With λ = dt times an eigenvalue, the factor of diffusion is 1/(1 + λᵏ), that of low-pass "
+              "1 - (λ/(1 + λ))ᵐ.");
+    add_field(app, options, "--order",
+              "order of the filter, diffusion 1 to 3, low-pass 2 to 8: higher orders shrink large features less [1, "
+              "low-pass 2]\n"
+              "It is k of the filter diffusion and m of low-pass. A step takes 8 solutions for k = 2, 11 for k = 3, "
+              "m for low-pass.");
 }
 
 void add_feature_edges(CLI::App& app, SmoothCommand& command)
 {
-    add_real(
-        app, "--keep-edges", command.options.keep_edges, {0.0, 180.0, true},
+    add_field(
+        app, command.options, "--keep-edges",
         "keep edges sharper than this angle between faces, in degrees, and their corners; 20 to 40 suit most meshes\n"
         "The surface between them is smoothed; --time-step-edges 32 suits most noise. On the whole mesh.");
     auto* edges =
@@ -97,10 +95,10 @@ void add_feature_edges(CLI::App& app, SmoothCommand& command)
 void add_what_stays(CLI::App& app, SmoothCommand& command)
 {
     app.option_defaults()->group(option_group::kept);
-    MotionOptions& motion = command.options.motion;
+    FlowOptions& options = command.options;
     add_feature_edges(app, command);
-    add_choice(app, "--boundary", motion.boundary,
-               "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]");
+    add_field(app, options, "--boundary",
+              "boundary conditions: the boundary of an open surface stays, or shrinks freely [fixed]");
     auto* fix = app.add_option("--fix", command.fix,
                                "fixed vertices: their numbers from 0, one a line, or a .ply that marks them\n"
                                "The .ply has as many vertices, and a property that is not 0 at fixed ones.")
@@ -128,9 +126,9 @@ void add_what_stays(CLI::App& app, SmoothCommand& command)
     add_parsed(app, "--weld", command.weld, parse, "never|LENGTH",
                "copies of vertices along seams, at most this far apart, move as one [at equal places]\n"
                "A seam is where edges of one face each coincide, for example along those of a texture.");
-    app.add_flag("--strict", motion.strict,
-                 "refuse meshes that are not manifold or have edges or faces of size 0\n"
-                 "Without it, such vertices stay fixed, and unusable faces are left out.");
+    add_field(app, options, "--strict",
+              "refuse meshes that are not manifold or have edges or faces of size 0\n"
+              "Without it, such vertices stay fixed, and unusable faces are left out.");
 }
 
 void add_accuracy(CLI::App& app, FlowOptions& options)
@@ -140,39 +138,36 @@ void add_accuracy(CLI::App& app, FlowOptions& options)
                  "converge to the undecomposed step, to this relative residual; never: one sweep a step [auto]\n"
                  "auto: to a loose tolerance where --approach needs one or sweeps would drift, unless another option "
                  "concerns sweeps.");
-    add_integer(app, "--converge-iterations", options.accuracy.converge_iterations, 0,
-                "largest number of iterations of a converged step [1000]");
-    add_choice(app, "--approach", options.accuracy.approach,
-               "the solver [auto: the fastest]\n"
-               "sweep: one sweep over the sub-meshes; converged: sub-meshes converge to the undecomposed step; "
-               "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
-               "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another option "
-               "concerns them.");
-    add_choice(app, "--precision", options.resources.precision,
-               "precision of the factorisations of converged steps [auto]\n"
-               "Steps are refined to the tolerance in any case. auto: single where that loses few digits.");
-    add_choice(app, "--factorisation", options.resources.factorisation,
-               "the direct solver of sub-meshes [auto: the fastest]\n"
-               "cholmod: UMFPACK where they are not symmetric. With either, symmetric Laplacians take sweeps.");
-    add_choice(app, "--scheme", options.scheme,
-               "backward or explicit Euler steps [implicit]\n"
-               "Explicit steps are undecomposed, and stable for small time steps only.");
+    add_field(app, options, "--converge-iterations", "largest number of iterations of a converged step [1000]");
+    add_field(app, options, "--approach",
+              "the solver [auto: the fastest]\n"
+              "sweep: one sweep over the sub-meshes; converged: sub-meshes converge to the undecomposed step; "
+              "decomposed: one of the two; cg: conjugate gradients on the whole mesh, with hardly any set-up; "
+              "undecomposed: one factorisation of the whole mesh; auto: the fastest, in sub-meshes if another option "
+              "concerns them.");
+    add_field(app, options, "--precision",
+              "precision of the factorisations of converged steps [auto]\n"
+              "Steps are refined to the tolerance in any case. auto: single where that loses few digits.");
+    add_field(app, options, "--factorisation",
+              "the direct solver of sub-meshes [auto: the fastest]\n"
+              "cholmod: UMFPACK where they are not symmetric. With either, symmetric Laplacians take sweeps.");
+    add_field(app, options, "--scheme",
+              "backward or explicit Euler steps [implicit]\n"
+              "Explicit steps are undecomposed, and stable for small time steps only.");
 }
 
 /// Options that only mean something for the derivatives of the paper, and so ask for them.
-void add_parameters(CLI::App& app, InterfaceOptions& interface)
+void add_parameters(CLI::App& app, FlowOptions& options)
 {
     std::vector<CLI::Option*> of_derivatives;
+    of_derivatives.push_back(add_field(app, options, "--p", "Robin parameter, in 1/length [p* of each sub-mesh]"));
+    of_derivatives.push_back(add_field(app, options, "--p-rule", "η in p*: 1 or 1/dt [paper]"));
     of_derivatives.push_back(
-        add_real(app, "--p", interface.p, positive(), "Robin parameter, in 1/length [p* of each sub-mesh]"));
-    of_derivatives.push_back(add_choice(app, "--p-rule", interface.p_rule, "η in p*: 1 or 1/dt [paper]"));
-    of_derivatives.push_back(
-        add_choice(app, "--p-edge", interface.p_edge,
-                   "edge in p*: the shortest, the 5th percentile, or the mean [auto; with --paper min]\n"
-                   "auto: the shortest unless it is a sliver's, then the percentile."));
-    add_real(app, "--q", interface.q, {0.0, std::numeric_limits<double>::max()},
-             "Ventcell parameter, for adapted-ventcell and ventcell");
-    app.callback([of_derivatives, &app, &interface] {
+        add_field(app, options, "--p-edge",
+                  "edge in p*: the shortest, the 5th percentile, or the mean [auto; with --paper min]\n"
+                  "auto: the shortest unless it is a sliver's, then the percentile."));
+    add_field(app, options, "--q", "Ventcell parameter, for adapted-ventcell and ventcell");
+    app.callback([of_derivatives, &app, &interface = options.interface] {
         for (const CLI::Option* option : of_derivatives) {
             if (option->count() == 0)
                 continue;
@@ -188,35 +183,33 @@ void add_sub_meshes(CLI::App& app, SmoothCommand& command)
 {
     app.option_defaults()->group(option_group::sub_meshes);
     FlowOptions& options = command.options;
-    InterfaceOptions& interface = options.interface;
-    auto* subdomains = add_integer(app, "--subdomains", options.cut.subdomains, 0,
-                                   "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
+    auto* subdomains = add_field(app, options, "--subdomains", "number of sub-meshes; 1: undecomposed, 0: chosen [0]");
     app.add_option("--labels", command.labels, "file with the sub-mesh of every face, one a line")
         ->excludes(subdomains)
         ->type_name("FILE");
-    add_choice(app, "--conditions", interface.conditions, "conditions between sub-meshes [adapted-robin]");
-    add_choice(app, "--coloring", interface.colouring,
-               "colouring of the sub-meshes, which sets the order in which they solve [greedy]");
-    add_choice(app, "--sweep", interface.sweep,
-               "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
-    add_choice(app, "--transmission", interface.transmission,
-               "how the first sub-mesh at the interface takes account of the others [predicted]");
-    add_parameters(app, interface);
-    add_integer(app, "--overlap", interface.overlap, 1, "layers of faces by which sub-meshes overlap with schwarz [1]");
+    add_field(app, options, "--conditions", "conditions between sub-meshes [adapted-robin]");
+    add_field(app, options, "--coloring",
+              "colouring of the sub-meshes, which sets the order in which they solve [greedy]");
+    add_field(app, options, "--sweep",
+              "order of the colours from step to step [fixed for two sub-meshes, else alternating]");
+    add_field(app, options, "--transmission",
+              "how the first sub-mesh at the interface takes account of the others [predicted]");
+    add_parameters(app, options);
+    add_field(app, options, "--overlap", "layers of faces by which sub-meshes overlap with schwarz [1]");
     app.add_flag_callback(
-        "--no-correction", [&interface] { interface.correction = Correction::None; },
+        "--no-correction", [&options] { options.interface.correction = Correction::None; },
         "do not correct the vertices of the interface after a step");
-    app.add_flag("--keep-gaps", options.report.keep_gaps,
-                 "write the sub-meshes separately, each with its own copy of the interface; for robin and ventcell");
+    add_field(app, options, "--keep-gaps",
+              "write the sub-meshes separately, each with its own copy of the interface; for robin and ventcell");
 }
 
-void add_machine(CLI::App& app, ResourceOptions& resources)
+void add_machine(CLI::App& app, FlowOptions& options)
 {
     app.option_defaults()->group(option_group::machine);
-    add_integer(app, "--threads", resources.threads, 0,
-                "number of threads, at most 1024; 0: all cores that the control group allows [0]");
-    add_bytes(
-        app, "--memory-limit", resources.memory_limit,
+    add_field(app, options, "--threads",
+              "number of threads, at most 1024; 0: all cores that the control group allows [0]");
+    add_field(
+        app, options, "--memory-limit",
         "limit for the factorisations of sub-meshes at any time: 500M, 2GiB [as much as is fast]\n"
         "In bytes or with K, M, G, T, KiB, MiB, GiB, TiB. It implies sub-meshes; the result does not depend on "
         "its value. Converged steps recompute the factors that they cannot keep. By default sweeps take as little "
@@ -258,10 +251,9 @@ void add_flow_options(CLI::App& app, SmoothCommand& command)
     add_what_stays(app, command);
     add_sub_meshes(app, command);
     add_accuracy(app, options);
-    add_machine(app, options.resources);
+    add_machine(app, options);
     app.option_defaults()->group(option_group::written);
-    app.add_flag("--reference", options.report.reference,
-                 "also run the undecomposed flow, and print the distances to it (V_ and H_)");
+    add_field(app, options, "--reference", "also run the undecomposed flow, and print the distances to it (V_ and H_)");
     app.add_flag("--self-intersections", command.self_intersections,
                  "count the pairs of faces that cross each other, before and after; implied by --report");
 }

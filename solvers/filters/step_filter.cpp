@@ -87,6 +87,11 @@ void divide(const Polynomial& g, PointBlocks& rest, const std::function<const Po
 
 }  // namespace
 
+std::pair<int, int> orders_of(Filter filter)
+{
+    return filter == Filter::Diffusion ? std::pair{1, 3} : std::pair{2, 8};
+}
+
 double transfer(const StepFilter& filter, double lambda)
 {
     if (filter.kind == Filter::Diffusion)

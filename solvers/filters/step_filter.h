@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "partition/executor.h"
@@ -23,7 +24,7 @@ enum class Filter {
 /// A filter of some order: a polynomial of S, so that a step has one factorisation and several solutions.
 struct StepFilter {
     Filter kind = Filter::Diffusion;
-    /// 1 to 3 with Filter::Diffusion, at least 2 with Filter::LowPass.
+    /// See orders_of.
     int order = 1;
     /// How far 1 / (1 + λᵏ) may be missed, in parts of 1: it is a polynomial of S in effect. At least 1e-12.
     double tolerance = 1e-2;
@@ -33,6 +34,9 @@ struct StepFilter {
 
     friend bool operator==(const StepFilter&, const StepFilter&) = default;
 };
+
+/// The orders that a filter has: the least, which it has by default, and the most.
+std::pair<int, int> orders_of(Filter filter);
 
 /// What a step leaves of a mode with λ ≥ 0, without dimension.
 double transfer(const StepFilter& filter, double lambda);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "partition/errors.h"
 #include "solvers/laplacian/alexa_wardetzky.h"
@@ -62,24 +64,25 @@ void measure_face(std::span<const Index> corners, const Points& positions, typen
     action(Kernel::whole_polygon(corners, positions, Kernel::size(corners, positions), scratch));
 }
 
+/// All formulas.
+using Kernels = std::tuple<Fujiwara, AlexaWardetzky, VirtualRefinement, PtackovaVelho, Uniform>;
+
 /// Calls action with the formula of a Laplacian.
 /// @throws OptionError for what is no Laplacian.
-template <class Action>
+template <std::size_t i = 0, class Action>
 auto with_kernel(const ScaledLaplacian& laplacian, Action&& action)
 {
-    switch (laplacian.kind) {
-    case Laplacian::Fujiwara:
-        return action(Fujiwara{});
-    case Laplacian::AlexaWardetzky:
-        return action(AlexaWardetzky{});
-    case Laplacian::VirtualRefinement:
-        return action(VirtualRefinement{});
-    case Laplacian::PtackovaVelho:
-        return action(PtackovaVelho{});
-    case Laplacian::Uniform:
-        return action(Uniform{laplacian.edge_length});
+    using Kernel = std::tuple_element_t<i, Kernels>;
+    if (laplacian.kind == Kernel::traits.laplacian) {
+        if constexpr (requires { Kernel{laplacian.edge_length}; })
+            return action(Kernel{laplacian.edge_length});
+        else
+            return action(Kernel{});
     }
-    throw OptionError("no such Laplacian");
+    if constexpr (i + 1 < std::tuple_size_v<Kernels>)
+        return with_kernel<i + 1>(laplacian, std::forward<Action>(action));
+    else
+        throw OptionError("no such Laplacian");
 }
 
 }  // namespace seamflow

@@ -1,6 +1,7 @@
 #include "solvers/laplacian/laplacian.h"
 
 #include <array>
+#include <tuple>
 
 #include "partition/errors.h"
 #include "solvers/laplacian/kernels.h"
@@ -9,8 +10,13 @@ namespace seamflow {
 
 namespace {
 
-constexpr std::array all_traits{Fujiwara::traits, AlexaWardetzky::traits, VirtualRefinement::traits,
-                                PtackovaVelho::traits, Uniform::traits};
+template <class... Kernel>
+constexpr std::array<LaplacianTraits, sizeof...(Kernel)> traits_of_all(const std::tuple<Kernel...>*)
+{
+    return {Kernel::traits...};
+}
+
+constexpr std::array all_traits = traits_of_all(static_cast<const Kernels*>(nullptr));
 
 }  // namespace
 
