@@ -2,34 +2,28 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "engine/state/checksum.h"
+#include "engine/state/archive.h"
 #include "partition/errors.h"
-#include "partition/io/output_file.h"
-
-// The list is text: the line below, the step, how many arrays there are beside positions, a line for each number, for
-// each file and for each entry of the identity, and the checksum of all that. A file has the positions of a range and
-// then the arrays, as doubles as the machine has them.
 
 namespace seamflow {
 
 namespace {
 
-constexpr std::string_view line_of_lists = "seamflow checkpoint of ranks, format 2";
+constexpr std::string_view line_of_lists = "seamflow checkpoint of ranks\n";
+constexpr std::string_view line_of_ranges = "seamflow range of a rank\n";
 constexpr const char* list_name = "smooth-distributed.checkpoint";
 constexpr const char* prefix_of_steps = "smooth-distributed.step-";
 
-/// A file of positions and arrays.
+/// A file with the share of a rank.
 struct KeptRange {
     std::int64_t begin = 0;
     std::int64_t n_vertices = 0;
@@ -44,79 +38,16 @@ struct RankList {
     FlowIdentity identity;
 };
 
-std::uint64_t checksum_of_numbers(std::span<const double> numbers)
+auto fields(Is<KeptRange> auto& of)
 {
-    Checksum checksum;
-    checksum.add_numbers(numbers);
-    return checksum.value();
+    auto& [begin, n_vertices, checksum] = of;
+    return std::tie(begin, n_vertices, checksum);
 }
 
-[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& what)
+auto fields(Is<RankList> auto& of)
 {
-    throw InputError(fmt::format("{}: {}; remove it to begin anew", file.string(), what));
-}
-
-std::string text_of_list(const RankList& list)
-{
-    std::string text = fmt::format("{}\nstep {}\narrays {}\n", line_of_lists, list.step, list.n_arrays);
-    for (const double number : list.numbers)
-        text += fmt::format("number {:x}\n", std::bit_cast<std::uint64_t>(number));
-    for (const KeptRange& one : list.ranges)
-        text += fmt::format("file {} {} {}\n", one.begin, one.n_vertices, one.checksum);
-    for (const FlowIdentity::Entry& entry : list.identity.entries)
-        text += fmt::format("option {} {}\n", entry.name, entry.value);
-    return text + fmt::format("end {}\n", XXH3_64bits(text.data(), text.size()));
-}
-
-/// @throws InputError for a file that is none, or not as it was written.
-RankList read_rank_list(const std::filesystem::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    if (!stream || !text.starts_with(line_of_lists))
-        refuse_file(file, "is no list of a checkpoint of ranks that this version can read");
-    RankList list;
-    std::istringstream lines(text.substr(line_of_lists.size() + 1));
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string name;
-        words >> name;
-        if (name == "step") {
-            words >> list.step;
-        } else if (name == "arrays") {
-            words >> list.n_arrays;
-        } else if (name == "number") {
-            std::uint64_t bits = 0;
-            words >> std::hex >> bits;
-            list.numbers.push_back(std::bit_cast<double>(bits));
-        } else if (name == "file") {
-            KeptRange& one = list.ranges.emplace_back();
-            words >> one.begin >> one.n_vertices >> one.checksum;
-        } else if (name == "option") {
-            FlowIdentity::Entry& entry = list.identity.entries.emplace_back();
-            words >> entry.name;
-            std::getline(words >> std::ws, entry.value);
-        }
-    }
-    if (text_of_list(list) != text)
-        refuse_file(file, "has been changed since it was written, or is cut off");
-    return list;
-}
-
-/// @throws InputError unless the file is as it was written.
-std::vector<double> read_range(const std::filesystem::path& file, const KeptRange& range, std::int64_t n_arrays)
-{
-    std::error_code error;
-    const std::uintmax_t n_bytes = std::filesystem::file_size(file, error);
-    const auto n = static_cast<std::size_t>(range.n_vertices * 3 * (1 + n_arrays));
-    if (error || n_bytes != n * sizeof(double))
-        refuse_file(file, "is missing, or has not the length that the list of the checkpoint says");
-    std::vector<double> numbers(n);
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(n_bytes));
-    if (!stream || checksum_of_numbers(numbers) != range.checksum)
-        refuse_file(file, "has been changed since it was written");
-    return numbers;
+    auto& [step, n_arrays, numbers, ranges, identity] = of;
+    return std::tie(step, n_arrays, numbers, ranges, identity);
 }
 
 void require_belongs(const RankList& list, const FlowIdentity& identity, int steps, const std::filesystem::path& file)
@@ -180,6 +111,12 @@ std::string name_of_step(int step)
 
 }  // namespace
 
+auto fields(Is<RankFlowState> auto& of)
+{
+    auto& [step, vertices, arrays, numbers] = of;
+    return std::tie(step, vertices, arrays, numbers);
+}
+
 std::uint64_t checksum_of_mesh(Communicator& comm, const RankSlice& slice)
 {
     const SliceBounds bounds = gather_bounds(comm, slice);
@@ -233,13 +170,13 @@ std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<
             throw OutputError(folder_.string() + ": there can be no such folder for checkpoints; name another");
         if (!std::filesystem::exists(file()))
             return;
-        list = read_rank_list(file());
+        list = read_archive<RankList>(file(), line_of_lists);
         require_belongs(list, identity_, steps, file());
         std::int64_t n = 0;
         for (const KeptRange& one : list.ranges)
             n += one.begin == n ? one.n_vertices : 0;
         if (n != bounds.back())
-            refuse_file(file(), "does not list positions of all vertices");
+            refuse_archive(file(), "does not list positions of all vertices");
     });
     list.ranges = comm.broadcast(list.ranges);
     if (list.ranges.empty())
@@ -257,12 +194,10 @@ std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<
             const std::int64_t to = std::min(end, one.begin + one.n_vertices);
             if (from >= to)
                 continue;
-            const std::vector<double> numbers = read_range(file_of(state.step, i), one, counts[1]);
-            const double* next = numbers.data() + 3 * (from - one.begin);
-            for (Points* const array : arrays_of(state)) {
-                std::copy_n(next, 3 * (to - from), array->data() + 3 * (from - begin));
-                next += 3 * one.n_vertices;
-            }
+            const auto kept = read_archive<RankFlowState>(file_of(state.step, i), line_of_ranges, one.checksum);
+            const auto kept_arrays = arrays_of(kept);
+            for (std::size_t k = 0; Points* const array : arrays_of(state))
+                array->middleRows(from - begin, to - from) = kept_arrays[k++]->middleRows(from - one.begin, to - from);
         }
     });
     return state;
@@ -270,14 +205,9 @@ std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<
 
 void RankCheckpoint::keep(Communicator& comm, const RankFlowState& state) const
 {
-    std::vector<double> numbers;
-    numbers.reserve(static_cast<std::size_t>(state.vertices.size()) * (1 + state.arrays.size()));
-    for (const Points* const array : arrays_of(state))
-        numbers.insert(numbers.end(), array->data(), array->data() + array->size());
-    OutputFile file_here(file_of(state.step, static_cast<std::size_t>(comm.rank())));
-    file_here.text({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)});
-    file_here.commit();
-    const KeptRange own{.begin = 0, .n_vertices = state.vertices.rows(), .checksum = checksum_of_numbers(numbers)};
+    const std::uint64_t checksum =
+        write_archive(file_of(state.step, static_cast<std::size_t>(comm.rank())), line_of_ranges, state);
+    const KeptRange own{.begin = 0, .n_vertices = state.vertices.rows(), .checksum = checksum};
     // When rank 0 has them all files are on the disk.
     RankList list{.step = state.step,
                   .n_arrays = std::ssize(state.arrays),
@@ -288,9 +218,7 @@ void RankCheckpoint::keep(Communicator& comm, const RankFlowState& state) const
         std::int64_t n = 0;
         for (KeptRange& one : list.ranges)
             n = (one.begin = n) + one.n_vertices;
-        OutputFile file_of_list(file());
-        file_of_list.text(text_of_list(list));
-        file_of_list.commit();
+        write_archive(file(), line_of_lists, list);
         remove_others(folder_, name_of_step(state.step));
     });
 }
