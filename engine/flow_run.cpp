@@ -9,9 +9,11 @@
 #include "engine/measure/component_limits.h"
 #include "engine/measure/displacement_bound.h"
 #include "engine/measure/remarks.h"
+#include "engine/measure/rescaling.h"
 #include "engine/measure/surface_measures.h"
 #include "engine/measure/update_limit.h"
 #include "engine/steppers/make_stepper.h"
+#include "engine/steppers/vanishing_components.h"
 #include "engine/tasks/parallel_executor.h"
 #include "engine/tasks/stopwatch.h"
 #include "partition/errors.h"
@@ -75,14 +77,6 @@ bool goes_on_scaled(const FlowOptions& options)
     return options.motion.rescale != Rescale::None && options.flow == FlowEquation::Conformalized;
 }
 
-/// Rescales the surface that the next step begins with.
-void rescale(Stepper& stepper, const Rescaling& rescaling)
-{
-    Points rescaled = stepper.positions();
-    const Similarity similarity = rescaling.apply(rescaled);
-    stepper.continue_from(rescaled, similarity);
-}
-
 /// @throws InputError where a state does not fit the mesh.
 void require_positions(const StepMemory& memory, const PolygonMesh& mesh)
 {
@@ -134,6 +128,58 @@ class FlowRun::StepFractions {
     int n_done_ = 0;
 };
 
+/// What steps are taken and checked with, and what results are made of their positions.
+struct FlowRun::StepTools {
+    StepTools(const PolygonMesh& mesh, const Topology& topology, const FlowOptions& options)
+        : is_scaled(goes_on_scaled(options))
+        , is_scaled_apart(options.motion.rescale != Rescale::None && !is_scaled)
+        , rescaling(mesh, topology, options.motion.rescale)
+        , vanishing(options, mesh.vertices, find_small_components(mesh, topology))
+        , limit(mesh, options.accuracy.largest_update)
+    {
+        if (options.motion.limits.exist())
+            limited.emplace(mesh, topology, options.motion.limits);
+        if (options.motion.within)
+            bound.emplace(mesh, topology, *options.motion.within);
+    }
+
+    /// Whether results are other positions than those that the flow continues from.
+    [[nodiscard]] bool has_results_apart() const { return is_scaled_apart || bound || limited; }
+
+    /// Makes a result of positions of the flow.
+    void make_result(Points& positions)
+    {
+        if (is_scaled_apart)
+            rescaling.apply(positions);
+        if (bound)
+            bound->apply(positions);
+        if (limited)
+            limited->apply(positions);
+    }
+
+    /// Rescales the surface that the next step begins with, where steps begin with results.
+    void rescale(Stepper& stepper) const
+    {
+        if (!is_scaled)
+            return;
+        Points rescaled = stepper.positions();
+        const Similarity similarity = rescaling.apply(rescaled);
+        stepper.continue_from(rescaled, similarity);
+    }
+
+    /// Limits have a remark of their own on components that lose too much.
+    [[nodiscard]] std::string remark() const { return limited ? limited->remark() : vanishing.remark(); }
+
+    bool is_scaled;
+    bool is_scaled_apart;
+    Rescaling rescaling;
+    std::optional<LimitedComponents> limited;
+    std::optional<DisplacementBound> bound;
+
+    VanishingComponents vanishing;
+    const UpdateLimit limit;
+};
+
 FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Progress& progress, double setup,
                  FlowReport& report)
     : mesh_(mesh)
@@ -163,7 +209,7 @@ FlowRun::FlowRun(FlowingMesh& mesh, std::unique_ptr<PreparedFlow> prepared, Prog
 }
 
 /// Brings everything to where it was after a step.
-void FlowRun::restore(const FlowState& state, const std::function<void(Points& positions)>& make_result)
+void FlowRun::restore(const FlowState& state, StepTools& tools)
 {
     if (state.cut != checksum_of(report_.cut.labels))
         throw InputError("the state to resume from belongs to another cut of the same mesh: another version of the "
@@ -177,7 +223,7 @@ void FlowRun::restore(const FlowState& state, const std::function<void(Points& p
     if (reference_)
         reference_->restore(*state.reference);
     Points positions = stepper_->positions();
-    make_result(positions);
+    tools.make_result(positions);
     mesh_.move_to(positions);
     if (prepared_->meter)
         prepared_->meter->restore(state.displacement, mesh_.mesh().vertices);
@@ -204,15 +250,13 @@ FlowState FlowRun::capture(const FlowState* resume) const
     return state;
 }
 
-void FlowRun::compare_with_reference(int step, const Rescaling& rescaling, VanishingComponents& vanishing,
-                                     const StepFractions& fractions, StepReport& of_step)
+void FlowRun::compare_with_reference(int step, StepTools& tools, const StepFractions& fractions, StepReport& of_step)
 {
     progress_.enter(FlowPhase::Reference, step, fractions.begin_of_reference(), fractions.end());
     Stopwatch watch;
     named("step " + std::to_string(step) + " of the undecomposed flow", [&] {
-        vanishing.step(*reference_, reference_->positions());
-        if (goes_on_scaled(options()))
-            rescale(*reference_, rescaling);
+        tools.vanishing.step(*reference_, reference_->positions());
+        tools.rescale(*reference_);
     });
     of_step.reference_seconds = watch.lap();
     PolygonMesh undecomposed = mesh_.mesh();
@@ -243,75 +287,61 @@ void FlowRun::tell(const StepObserver& on_step, int step, const StepReport& of_s
     on_step({step, mesh_.given_positions(), of_step, separated, undecomposed, [&] { return capture(resume); }});
 }
 
+void FlowRun::measure(const Points& after, StepReport& of_step)
+{
+    if (!prepared_->meter)
+        return;
+    of_step.displacement = prepared_->meter->add_step(mesh_.mesh().vertices, after);
+    of_step.max_mean_curvature_before = curvature_before_;
+    of_step.max_mean_curvature_after = curvature_before_ =
+        measure_largest_curvature(mesh_.mesh(), prepared_->topology, after, laplacian_of(options()));
+}
+
 void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
 {
     const PolygonMesh& mesh = mesh_.mesh();
     const double extent = extent_of(mesh.vertices);
-    const UpdateLimit limit(mesh, options().accuracy.largest_update);
-    VanishingComponents vanishing(options(), mesh.vertices, find_small_components(mesh, prepared_->topology));
-    const Rescaling rescaling(mesh, prepared_->topology, options().motion.rescale);
-    std::optional<LimitedComponents> limited;
-    if (options().motion.limits.exist())
-        limited.emplace(mesh, prepared_->topology, options().motion.limits);
-    std::optional<DisplacementBound> bound;
-    if (options().motion.within)
-        bound.emplace(mesh, prepared_->topology, *options().motion.within);
+    StepTools tools(mesh, prepared_->topology, options());
     // Mean curvature is measured across edges, except for that of Δ_P.
     if (traits_of(options().laplacian).reach != Reach::TwoRings)
         prepared_->topology.twin = std::vector<Index>();
-    const bool is_scaled = goes_on_scaled(options());
-    const bool is_scaled_apart = options().motion.rescale != Rescale::None && !is_scaled;
-    // The flow continues from its own positions, whatever is made of them.
-    const bool is_result_apart = is_scaled_apart || bound || limited;
-    const auto make_result = [&](Points& positions) {
-        if (is_scaled_apart)
-            rescaling.apply(positions);
-        if (bound)
-            bound->apply(positions);
-        if (limited)
-            limited->apply(positions);
-    };
     if (resume != nullptr)
-        restore(*resume, make_result);
+        restore(*resume, tools);
     const auto first = static_cast<int>(report_.steps.size()) + 1;
     if (!report_.steps.empty())
         curvature_before_ = report_.steps.back().max_mean_curvature_after;
     StepFractions fractions(setup_, std::max(options().steps - first + 1, 1), reference_ != nullptr);
-    Points of_flow = is_result_apart ? stepper_->positions() : Points();
-    const Points& before = is_result_apart ? of_flow : mesh.vertices;
+    // The flow continues from its own positions, whatever is made of them.
+    const bool is_apart = tools.has_results_apart();
+    Points of_flow = is_apart ? stepper_->positions() : Points();
+    const Points& before = is_apart ? of_flow : mesh.vertices;
     Points result;
     Points undecomposed;
     for (int step = first; step <= options().steps; ++step) {
         const std::string name = "step " + std::to_string(step);
         progress_.enter(FlowPhase::Step, step, fractions.begin(), fractions.end_of_tasks());
         Stopwatch watch;
-        named(name, [&] { vanishing.step(*stepper_, before); });
+        named(name, [&] { tools.vanishing.step(*stepper_, before); });
         StepReport of_step;
         of_step.seconds = watch.lap();
         stepper_->describe(of_step);
         in_mean_edges(of_step.estimated_v_max, mesh, stepper_->positions());
         // Scaling could hide that vertices have been thrown away, or make too little of what is left.
         named(name, [&] {
-            limit.require(before, stepper_->positions(), report_.cut.labels);
-            if (is_scaled)
-                rescale(*stepper_, rescaling);
-            if (is_result_apart) {
+            tools.limit.require(before, stepper_->positions(), report_.cut.labels);
+            tools.rescale(*stepper_);
+            if (is_apart) {
                 of_flow = result = stepper_->positions();
-                make_result(result);
+                tools.make_result(result);
             }
         });
-        const Points& after = is_result_apart ? result : stepper_->positions();
-        if (prepared_->meter) {
-            of_step.displacement = prepared_->meter->add_step(mesh.vertices, after);
-            of_step.max_mean_curvature_before = curvature_before_;
-            of_step.max_mean_curvature_after = curvature_before_ =
-                measure_largest_curvature(mesh, prepared_->topology, after, laplacian_of(options()));
-        }
+        const Points& after = is_apart ? result : stepper_->positions();
+        measure(after, of_step);
         const double measuring = watch.lap();
         if (reference_) {
-            compare_with_reference(step, rescaling, vanishing, fractions, of_step);
+            compare_with_reference(step, tools, fractions, of_step);
             undecomposed = reference_->positions();
-            named(name + " of the undecomposed flow", [&] { make_result(undecomposed); });
+            named(name + " of the undecomposed flow", [&] { tools.make_result(undecomposed); });
         }
         fractions.end_step(of_step.seconds, measuring, of_step.reference_seconds.value_or(0.0));
 
@@ -323,11 +353,8 @@ void FlowRun::take_steps(const StepObserver& on_step, const FlowState* resume)
         if (on_step)
             tell(on_step, step, of_step, reference_ ? &undecomposed : nullptr, resume);
     }
-    // Limits have a remark of their own on components that lose too much.
-    if (!limited && !vanishing.remark().empty())
-        report_.remarks.push_back(vanishing.remark());
-    if (limited && !limited->remark().empty())
-        report_.remarks.push_back(limited->remark());
+    if (const std::string remark = tools.remark(); !remark.empty())
+        report_.remarks.push_back(remark);
     finish(extent, resume);
 }
 

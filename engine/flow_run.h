@@ -1,15 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "engine/measure/flow_report.h"
-#include "engine/measure/rescaling.h"
-#include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
+#include "engine/setup/prepared_flow.h"
 #include "engine/state/flow_state.h"
 #include "engine/steppers/stepper.h"
-#include "engine/steppers/vanishing_components.h"
 #include "engine/tasks/progress.h"
 
 namespace seamflow {
@@ -31,12 +28,13 @@ class FlowRun {
 
   private:
     class StepFractions;
+    struct StepTools;
 
     [[nodiscard]] const FlowOptions& options() const { return prepared_->options; }
-    void restore(const FlowState& state, const std::function<void(Points& positions)>& make_result);
+    void restore(const FlowState& state, StepTools& tools);
     [[nodiscard]] FlowState capture(const FlowState* resume) const;
-    void compare_with_reference(int step, const Rescaling& rescaling, VanishingComponents& vanishing,
-                                const StepFractions& fractions, StepReport& of_step);
+    void compare_with_reference(int step, StepTools& tools, const StepFractions& fractions, StepReport& of_step);
+    void measure(const Points& after, StepReport& of_step);
     void tell(const StepObserver& on_step, int step, const StepReport& of_step, const Points* undecomposed,
               const FlowState* resume) const;
     void finish(double extent_before, const FlowState* resume);

@@ -7,8 +7,8 @@
 
 #include "engine/flow_run.h"
 #include "engine/options/valid_options.h"
-#include "engine/prepare.h"
 #include "engine/setup/flowing_mesh.h"
+#include "engine/setup/prepared_flow.h"
 #include "engine/setup/smoothed_radius.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/stopwatch.h"

@@ -10,7 +10,7 @@
 #include "samples/benchmark/benchmark_command.h"
 #include "samples/benchmark/method_process.h"
 #include "samples/benchmark/sweeps.h"
-#include "samples/common/output_files.h"
+#include "samples/files/output_files.h"
 
 using namespace seamflow;
 

@@ -5,11 +5,11 @@
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
-#include "samples/common/compare_command.h"
-#include "samples/common/mesh_results.h"
-#include "samples/common/output_files.h"
-#include "samples/common/report_json.h"
-#include "samples/common/report_text.h"
+#include "samples/command/compare_command.h"
+#include "samples/files/mesh_results.h"
+#include "samples/files/output_files.h"
+#include "samples/report/report_json.h"
+#include "samples/report/report_text.h"
 
 using namespace seamflow;
 

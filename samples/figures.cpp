@@ -7,13 +7,13 @@
 #include <iostream>
 
 #include "engine/tasks/stopwatch.h"
-#include "samples/common/output_files.h"
 #include "samples/figures/claims.h"
 #include "samples/figures/curves.h"
 #include "samples/figures/experiments.h"
 #include "samples/figures/figures_command.h"
 #include "samples/figures/index_page.h"
 #include "samples/figures/runner.h"
+#include "samples/files/output_files.h"
 
 using namespace seamflow;
 

@@ -6,9 +6,9 @@
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/io/input_file.h"
-#include "samples/common/command_line.h"
-#include "samples/common/meshes.h"
-#include "samples/common/output_files.h"
+#include "samples/command/command_line.h"
+#include "samples/files/output_files.h"
+#include "samples/meshes/meshes.h"
 
 using namespace seamflow;
 

@@ -5,10 +5,10 @@
 #include "engine/tasks/workers.h"
 #include "partition/formats/mesh_io.h"
 #include "partition/inspection/mesh_inspection.h"
-#include "samples/common/command_line.h"
-#include "samples/common/inspection_text.h"
-#include "samples/common/mesh_results.h"
-#include "samples/common/report_json.h"
+#include "samples/command/command_line.h"
+#include "samples/files/mesh_results.h"
+#include "samples/report/inspection_text.h"
+#include "samples/report/report_json.h"
 
 using namespace seamflow;
 

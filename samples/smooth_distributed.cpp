@@ -27,18 +27,18 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "partition/formats/index_files.h"
 #include "partition/index_lists.h"
 #include "partition/io/input_file.h"
-#include "samples/common/distributed_command.h"
-#include "samples/common/mesh_results.h"
-#include "samples/common/output_files.h"
-#include "samples/common/peak_memory.h"
-#include "samples/common/rank_report.h"
-#include "samples/common/rank_roughness.h"
-#include "samples/common/report_json.h"
-#include "samples/common/report_text.h"
-#include "samples/common/smoothing_run.h"
+#include "samples/command/distributed_command.h"
+#include "samples/files/mesh_results.h"
+#include "samples/files/output_files.h"
+#include "samples/process/peak_memory.h"
+#include "samples/report/rank_report.h"
+#include "samples/report/rank_roughness.h"
+#include "samples/report/report_json.h"
+#include "samples/report/report_text.h"
+#include "samples/runs/rank_inputs.h"
+#include "samples/runs/smoothing_run.h"
 
 using namespace seamflow;
 
@@ -117,10 +117,10 @@ class RankRun {
         comm.look_together([&] { settle_amount(); });
         const SliceBounds bounds = gather_bounds(comm, slice);
         if (!command_.labels.empty())
-            slice.labels = read_labels_together(comm, slice);
+            slice.labels = read_labels(comm, command_, file_->faults(), bounds.faces);
         const std::uint64_t mesh = command_.checkpoint.empty() ? 0 : checksum_of_mesh(comm, slice);
-        std::vector<std::int64_t> fixed = read_fixed(comm);
-        std::vector<double> weights = read_weights(comm);
+        std::vector<std::int64_t> fixed = read_fixed(comm, command_, record_.size.vertices);
+        const std::vector<double> weights = read_weights(comm, command_, record_.size.vertices);
         record_.run.read_seconds = reading.seconds();
         print_input(out_, record_.run, record_.size.vertices, record_.size.faces);
         print_preset(out_, record_.run, command_.chosen);
@@ -136,7 +136,7 @@ class RankRun {
                                [&](std::int64_t number) { return std::ranges::binary_search(fixed, number) ? 1 : 0; });
         if (!command_.checkpoint.empty())
             find_checkpoint(comm, mesh, slice, bounds, fixed, weights);
-        deal_weights(comm, std::move(weights), bounds);
+        part_.attachment_weights = deal_weights(comm, weights, seams_, part_.vertex_numbers, bounds.vertices);
         bring_back(comm, seams_, slice);
         slice_vertices_ = std::move(slice.vertices);
         if (tells_measures())
@@ -165,66 +165,6 @@ class RankRun {
                 time_step_of(command_.amount, record_.run.scale, command_.options.steps, filter_of(command_.options));
         });
         record_.time_step = command_.options.time_step;
-    }
-
-    std::vector<Index> read_labels_together(Communicator& comm, const RankSlice& slice)
-    {
-        std::vector<Index> labels;
-        comm.at_first_rank([&] {
-            labels = labels_of_faces(command_.labels, static_cast<Index>(record_.size.faces),
-                                     file_->faults().faces_left_out);
-        });
-        return hand_out(comm, labels, slice);
-    }
-
-    /// The vertices of --fix, ascending.
-    std::vector<std::int64_t> read_fixed(Communicator& comm)
-    {
-        std::vector<std::int64_t> own;
-        comm.at_first_rank([&] {
-            if (command_.fix.empty())
-                return;
-            const auto fixed =
-                read_vertex_set(command_.fix, static_cast<Index>(record_.size.vertices), command_.fix_property);
-            own.assign(fixed.begin(), fixed.end());
-        });
-        return comm.gather_all(own);
-    }
-
-    /// The weights of --attach-weights, #V, at rank 0.
-    std::vector<double> read_weights(Communicator& comm)
-    {
-        std::vector<double> weights;
-        comm.at_first_rank([&] {
-            if (!command_.attach_weights.empty())
-                weights = read_vertex_weights(command_.attach_weights, static_cast<Index>(record_.size.vertices),
-                                              command_.attach_property);
-        });
-        return weights;
-    }
-
-    /// Gives the vertices of the part their weights: those of a seam the largest of all that move as one.
-    /// @param weights at rank 0.
-    void deal_weights(Communicator& comm, std::vector<double> weights, const SliceBounds& bounds)
-    {
-        if (command_.attach_weights.empty())
-            return;
-        std::vector<Bytes> to_each(static_cast<std::size_t>(comm.size()));
-        if (comm.rank() == 0) {
-            for (const SeamVertex& one : seams_.vertices)
-                weights[static_cast<std::size_t>(one.first)] = std::max(weights[static_cast<std::size_t>(one.first)],
-                                                                        weights[static_cast<std::size_t>(one.vertex)]);
-            for (std::size_t rank = 0; rank < to_each.size(); ++rank)
-                to_each[rank] = packed(std::vector<double>(weights.begin() + bounds.vertices[rank],
-                                                           weights.begin() + bounds.vertices[rank + 1]));
-        }
-        const auto own = unpacked<double>(comm.exchange(std::move(to_each)).front());
-        // As the first coordinates of points, which ranks can ask each other for.
-        RankSlice as_points;
-        as_points.vertices = Points::Zero(std::ssize(own), 3);
-        std::ranges::copy(own, as_points.vertices.col(0).begin());
-        const Points found = fetch_positions(comm, as_points, part_.vertex_numbers, bounds.vertices);
-        part_.attachment_weights.assign(found.col(0).begin(), found.col(0).end());
     }
 
     /// Where an earlier run was, if there was one.

@@ -37,8 +37,8 @@ forbid '#include "(engine|samples|tests)/' 'solvers know equations, not threads'
 forbid '#include "(samples|tests)/' 'the engine knows neither samples nor tests' engine
 forbid '#include "tests/' 'samples do not use tests' samples
 forbid '#include "[^/"]*"|#include "\.\.?/' 'includes start with the name of their folder' partition solvers engine samples tests
-# But for the place where callers of BLAS wait for each other, because of what it does where memory lacks.
-mapfile -t equations < <(find solvers -name '*.h' -o -name '*.cpp' | grep -vx 'solvers/direct/blas_work_area.cpp')
+# Except in the room of what the libraries below do with threads and memory.
+mapfile -t equations < <(find solvers -name '*.h' -o -name '*.cpp' | grep -v '^solvers/platform/')
 forbid '#include <(oneapi|tbb|thread|mutex|condition_variable|atomic|future)[/>]' 'equations know no threads' \
     /dev/null "${equations[@]}"
 forbid '#include <(umfpack|cholmod|oneapi|tbb)' 'meshes know no solvers' partition

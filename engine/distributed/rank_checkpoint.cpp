@@ -12,7 +12,7 @@
 #include <xxhash.h>
 
 #include "engine/state/archive.h"
-#include "partition/errors.h"
+#include "engine/state/checkpoint.h"
 
 namespace seamflow {
 
@@ -48,23 +48,6 @@ auto fields(Is<RankList> auto& of)
 {
     auto& [step, n_arrays, numbers, ranges, identity] = of;
     return std::tie(step, n_arrays, numbers, ranges, identity);
-}
-
-void require_belongs(const RankList& list, const FlowIdentity& identity, int steps, const std::filesystem::path& file)
-{
-    const auto message = [&](const std::exception& error) {
-        return file.string() + ": " + error.what() +
-               "; go on with the same input and options, name another folder, or remove it to begin anew";
-    };
-    try {
-        require_same(list.identity, identity);
-        if (list.step > steps)
-            throw OptionError(fmt::format("is after step {}, but steps is {}", list.step, steps));
-    } catch (const InputError& error) {
-        throw InputError(message(error));
-    } catch (const OptionError& error) {
-        throw OptionError(message(error));
-    }
 }
 
 /// Sums do not depend on who adds what.
@@ -164,14 +147,11 @@ std::optional<RankFlowState> RankCheckpoint::find(Communicator& comm, std::span<
 {
     RankList list;
     comm.at_first_rank([&] {
-        std::error_code error;
-        std::filesystem::create_directories(folder_, error);
-        if (!std::filesystem::is_directory(folder_))
-            throw OutputError(folder_.string() + ": there can be no such folder for checkpoints; name another");
+        make_checkpoint_folder(folder_);
         if (!std::filesystem::exists(file()))
             return;
         list = read_archive<RankList>(file(), line_of_lists);
-        require_belongs(list, identity_, steps, file());
+        require_belongs(file(), list.identity, identity_, list.step, steps);
         std::int64_t n = 0;
         for (const KeptRange& one : list.ranges)
             n += one.begin == n ? one.n_vertices : 0;

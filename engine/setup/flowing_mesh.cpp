@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/measure/origin_offset.h"
 #include "engine/measure/remarks.h"
-#include "engine/setup/origin_offset.h"
 #include "engine/tasks/parallel_executor.h"
 #include "partition/inspection/mesh_inspection.h"
 #include "partition/weld.h"

@@ -1,9 +1,14 @@
 #include "engine/state/checkpoint.h"
 
+#include <exception>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "engine/state/archive.h"
+#include "partition/errors.h"
 
 namespace seamflow {
 
@@ -71,6 +76,34 @@ void write_checkpoint(const std::filesystem::path& file, const FlowState& state)
 FlowState read_checkpoint(const std::filesystem::path& file)
 {
     return read_archive<FlowState>(file, first_line);
+}
+
+void make_checkpoint_folder(const std::filesystem::path& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder))
+        throw OutputError(fmt::format("{}: there can be no such folder for checkpoints, {}; name another",
+                                      folder.string(), error ? error.message() : "for that is a file"));
+}
+
+void require_belongs(const std::filesystem::path& file, const FlowIdentity& of_state, const FlowIdentity& of_flow,
+                     std::int64_t step, int steps)
+{
+    const auto message = [&](const std::exception& error) {
+        return fmt::format("{}: {}; go on with the same input and options, name another folder, or remove it to begin "
+                           "anew",
+                           file.string(), error.what());
+    };
+    try {
+        require_same(of_state, of_flow);
+        if (step > steps)
+            throw OptionError(fmt::format("is after step {}, but steps is {}", step, steps));
+    } catch (const InputError& error) {
+        throw InputError(message(error));
+    } catch (const OptionError& error) {
+        throw OptionError(message(error));
+    }
 }
 
 }  // namespace seamflow

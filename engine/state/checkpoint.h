@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "engine/state/flow_state.h"
@@ -14,5 +15,15 @@ void write_checkpoint(const std::filesystem::path& file, const FlowState& state)
 /// @throws InputError naming the file if it cannot be opened, is none of these files, comes from a version or a machine
 ///         that writes others, is cut off, or has changed since it was written.
 FlowState read_checkpoint(const std::filesystem::path& file);
+
+/// Makes the folder of a checkpoint if it is not there.
+/// @throws OutputError if there can be no such folder.
+void make_checkpoint_folder(const std::filesystem::path& folder);
+
+/// Checks that a checkpoint belongs to a flow, and is not beyond its end.
+/// @param step after which the checkpoint was kept. @param steps of the flow.
+/// @throws InputError and OptionError, naming the file, what differs, and what to do.
+void require_belongs(const std::filesystem::path& file, const FlowIdentity& of_state, const FlowIdentity& of_flow,
+                     std::int64_t step, int steps);
 
 }  // namespace seamflow

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/measure/origin_offset.h"
 #include "engine/options/option_names.h"
 #include "engine/options/option_table.h"
-#include "engine/setup/origin_offset.h"
 #include "engine/state/checksum.h"
 #include "partition/errors.h"
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/memory/workspaces.h"
 #include "engine/options/flow_options.h"
 #include "engine/steppers/stepper.h"
 #include "engine/tasks/progress.h"
 #include "engine/tasks/step_graph.h"
+#include "engine/tasks/workspaces.h"
 #include "solvers/filters/step_filter.h"
 #include "solvers/interface/interface_result.h"
 

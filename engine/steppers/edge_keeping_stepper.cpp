@@ -50,8 +50,7 @@ void EdgeKeepingStepper::step(const Points& before)
     Points from = before;
     for (int pass = 0; pass < passes; ++pass) {
         const Points normals = diffusion_.smoothed(from, time_step_ / passes, angle_, exec);
-        fit_vertices(*mesh_, *topology_, lines_, normals, diffusion_.noise(), from, positions_, exec);
-        from.swap(positions_);
+        fit_vertices(*mesh_, *topology_, lines_, {normals, diffusion_.noise()}, from, exec);
     }
     // Vertices fit at once, however short the step: they go all the way where it is long against faces.
     for_each(exec, mesh_->n_vertices(), [&](Index v) {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/memory/kept_factors.h"
-#include "engine/memory/shared_factor_pool.h"
 #include "engine/steppers/converged_stepper.h"
+#include "engine/steppers/kept_factors.h"
+#include "engine/steppers/shared_factor_pool.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
 #include "solvers/interface/interface_equation.h"

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/memory/shared_factor_pool.h"
 #include "engine/steppers/converged_stepper.h"
+#include "engine/steppers/shared_factor_pool.h"
 #include "partition/cut/cut.h"
 #include "partition/topology.h"
 #include "solvers/interface/trace_equation.h"

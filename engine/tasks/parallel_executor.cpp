@@ -4,7 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
-#include "engine/tasks/thread_sanitizer.h"
+#include "solvers/platform/thread_sanitizer.h"
 
 namespace seamflow {
 

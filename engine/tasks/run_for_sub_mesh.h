@@ -3,8 +3,8 @@
 #include <new>
 #include <string>
 
-#include "engine/tasks/library_threads.h"
 #include "partition/errors.h"
+#include "solvers/platform/library_threads.h"
 
 namespace seamflow {
 

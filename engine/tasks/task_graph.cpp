@@ -12,8 +12,8 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "engine/tasks/progress.h"
-#include "engine/tasks/thread_sanitizer.h"
 #include "partition/errors.h"
+#include "solvers/platform/thread_sanitizer.h"
 
 namespace seamflow {
 

@@ -17,14 +17,14 @@
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 #include <pthread.h>
-#include <sys/resource.h>
 
 #include "engine/options/flow_options.h"
 #include "engine/options/valid_options.h"
-#include "engine/tasks/library_threads.h"
 #include "engine/tasks/parallel_executor.h"
-#include "engine/tasks/thread_sanitizer.h"
 #include "partition/errors.h"
+#include "solvers/platform/address_space.h"
+#include "solvers/platform/library_threads.h"
+#include "solvers/platform/thread_sanitizer.h"
 
 namespace seamflow {
 
@@ -111,8 +111,7 @@ void require_room_for_threads(tbb::task_arena& arena)
     static std::mutex mutex;
     // oneTBB keeps its threads.
     static int most_made = 0;
-    rlimit limit = {};
-    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    if (!limit_of_address_space())
         return;
     {
         const std::lock_guard lock(mutex);

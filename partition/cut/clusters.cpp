@@ -54,23 +54,31 @@ struct Grown {
     }
 };
 
+/// Where clusters are put.
+struct ClusterPlace {
+    /// #F, negative where a face has no cluster yet.
+    std::vector<Index>& cluster_of;
+    /// #F: receives those of one cluster after the other.
+    std::vector<Index>& faces;
+    /// The number of the first cluster, and where its faces begin in `faces`.
+    Index first = 0;
+    Index begin = 0;
+};
+
 /// Fills a chunk of the faces with clusters. Of other faces nothing is read or written.
 class ClusterGrower {
   public:
-    /// @param first the number of the first cluster. @param begin where the faces of that one begin in `faces`.
-    /// @param cluster_of #F, negative where a face has no cluster yet. @param faces #F: receives those of one cluster
-    /// after the other.
-    ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk, Index first,
-                  Index begin, std::vector<Index>& cluster_of, std::vector<Index>& faces)
+    ClusterGrower(const PolygonMesh& mesh, const Topology& topology, Index weight, Chunk chunk,
+                  const ClusterPlace& place)
         : mesh_(mesh)
         , topology_(topology)
         , weight_(weight)
         , chunk_(chunk)
-        , first_(first)
-        , cluster_of_(cluster_of)
-        , faces_(faces)
-        , grown_{.begin = begin, .ends = {}, .touches_others = {}}
-        , end_(begin)
+        , first_(place.first)
+        , cluster_of_(place.cluster_of)
+        , faces_(place.faces)
+        , grown_{.begin = place.begin, .ends = {}, .touches_others = {}}
+        , end_(place.begin)
     {
     }
 
@@ -292,7 +300,7 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
     std::vector<Grown> grown(chunks.size());
     for_each(exec, static_cast<Index>(chunks.size()), [&](Index i) {
         const Chunk& own = chunks[i];
-        ClusterGrower grower(mesh, topology, weight, own, 0, own.begin, cluster_of, faces);
+        ClusterGrower grower(mesh, topology, weight, own, {cluster_of, faces, 0, own.begin});
         for (Index f = own.begin; f < own.end; ++f)
             grower.grow_around(f);
         grown[i] = grower.take();
@@ -300,8 +308,8 @@ FaceClusters grow_clusters(const PolygonMesh& mesh, const Topology& topology, In
 
     auto [clusters, left_over] = keep_inner(grown, std::move(faces), std::move(cluster_of), exec);
     const Chunk all{0, mesh.n_faces()};
-    ClusterGrower grower(mesh, topology, weight, all, clusters.size(), clusters.faces.offsets.back(),
-                         clusters.cluster_of, clusters.faces.values);
+    ClusterGrower grower(mesh, topology, weight, all,
+                         {clusters.cluster_of, clusters.faces.values, clusters.size(), clusters.faces.offsets.back()});
     for (const Index f : left_over)
         grower.grow_around(f);
     const std::vector<Index> ends = grower.take().ends;

@@ -148,23 +148,22 @@ std::vector<Index> normals_of_corners(TextScanner scanner, TextCounts counts)
 
 /// Writes a slice again.
 /// @param counts what stands before it. @param end what stands before the next.
-/// @param positions from vertex `first` of the file on. @param normals null: they stay.
 StayingNormals rewrite_slice(TextScanner scanner, Splicer splicer, TextCounts counts, const TextCounts& end,
-                             const Points& positions, std::int64_t first, const NormalUpdate* normals)
+                             const NewVertices<NormalUpdate>& now)
 {
     StayingNormals staying;
     while (counts != end && scanner.next_line()) {
         const std::string_view keyword = scanner.token();
         if (keyword == "v")
-            exchange_position(scanner, splicer, positions.row(counts.n_vertices++ - first));
+            exchange_position(scanner, splicer, now.position(counts.n_vertices++));
         if (keyword != "vn")
             continue;
         const auto normal = static_cast<Index>(counts.n_normals++);
-        if (normals == nullptr)
+        if (now.normals == nullptr)
             continue;
         const WrittenNormal given = read_normal(scanner);
-        if (const auto now = (*normals)(normal, given.value, staying))
-            exchange_normal(splicer, given, *now);
+        if (const auto moved = (*now.normals)(normal, given.value, staying))
+            exchange_normal(splicer, given, *moved);
     }
     splicer.finish();
     return staying;
@@ -207,7 +206,7 @@ std::vector<std::string> rewrite_obj(OutputFile& file, const std::filesystem::pa
     file.text(text.substr(0, text.size() - whole.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         staying[i] = rewrite_slice(TextScanner(whole, slices[i]), Splicer(slice, slices[i]), counts[i], counts[i + 1],
-                                   mesh.vertices, 0, normals ? &*normals : nullptr);
+                                   {mesh.vertices, 0, normals ? &*normals : nullptr});
     });
     return normals ? normals->remarks(path, staying) : std::vector<std::string>{};
 }
@@ -217,7 +216,7 @@ void rewrite_obj_slice(ByteWriter& file, const TextScanner& whole, const TextSli
 {
     const std::string_view bytes = slices.bytes[slice];
     rewrite_slice(TextScanner(whole, bytes), Splicer(file, bytes), slices.counts[slice], slices.counts[slice + 1],
-                  positions, slices.counts.front().n_vertices, nullptr);
+                  {positions, slices.counts.front().n_vertices});
 }
 
 }  // namespace seamflow

@@ -148,22 +148,21 @@ PolygonMesh read_slices(const TextScanner& after_header, const OffHeader& header
 }
 
 /// Writes the lines of a slice that are vertices.
-/// @param v, end the first of them and the one behind the last. @param positions from vertex `first` of the file on.
-/// @param normals null: they stay.
-void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const Points& positions, Index first,
-                   const MovedNormals* normals, const OffHeader& header)
+/// @param v, end the first of them and the one behind the last.
+void rewrite_slice(Splicer splicer, TextScanner scanner, Index v, Index end, const NewVertices<MovedNormals>& now,
+                   const OffHeader& header)
 {
     for (; v < end; ++v) {
         scanner.next_line();
-        exchange_position(scanner, splicer, positions.row(v - first));
-        if (normals == nullptr) {
+        exchange_position(scanner, splicer, now.position(v));
+        if (now.normals == nullptr) {
             if (scanner.crosses_lines())
                 pass_over_numbers(scanner, header.n_further_numbers());
             continue;
         }
         const WrittenNormal given = read_normal(scanner);
-        if (const auto now = normals->around_vertex(v, given.value))
-            exchange_normal(splicer, given, *now);
+        if (const auto moved = now.normals->around_vertex(v, given.value))
+            exchange_normal(splicer, given, *moved);
         if (scanner.crosses_lines())
             pass_over_numbers(scanner, header.n_further_numbers() - 3);
     }
@@ -218,9 +217,9 @@ class SlicedOff final : public SlicedText {
     void rewrite(ByteWriter& file, const TextSlices& slices, Index slice, const Points& positions) const override
     {
         const std::string_view bytes = slices.bytes[slice];
-        rewrite_slice(
-            Splicer(file, bytes), TextScanner(after_header(), bytes), vertices_before(slices.counts[slice], header_),
-            vertices_before(slices.counts[slice + 1], header_), positions, first_vertex(slices), nullptr, header_);
+        rewrite_slice(Splicer(file, bytes), TextScanner(after_header(), bytes),
+                      vertices_before(slices.counts[slice], header_),
+                      vertices_before(slices.counts[slice + 1], header_), {positions, first_vertex(slices)}, header_);
     }
 
   private:
@@ -369,9 +368,9 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     FaultLog known_faults{.of_faces_alone = true};
     if (header.has_normals())
         normals.emplace(mesh, read_off(path, content, slicing, &known_faults).vertices, slicing.exec);
+    const NewVertices<MovedNormals> now{mesh.vertices, 0, normals ? &*normals : nullptr};
     if (crosses_lines) {
-        rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), mesh.vertices, 0,
-                      normals ? &*normals : nullptr, header);
+        rewrite_slice(Splicer(file, content), scanner, 0, mesh.n_vertices(), now, header);
         return {};
     }
     const std::vector<std::string_view> slices = scanner.slices(slicing.bytes);
@@ -379,7 +378,7 @@ std::vector<std::string> rewrite_off(OutputFile& file, const std::filesystem::pa
     file.text(content.substr(0, content.size() - scanner.rest().size()));
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         rewrite_slice(Splicer(slice, slices[i]), TextScanner(scanner, slices[i]), vertices_before(counts[i], header),
-                      vertices_before(counts[i + 1], header), mesh.vertices, 0, normals ? &*normals : nullptr, header);
+                      vertices_before(counts[i + 1], header), now, header);
     });
     return {};
 }

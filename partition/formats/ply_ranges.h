@@ -112,11 +112,9 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
                                             const std::vector<PlyChange>& changes);
 
 /// Writes some vertices of a binary file with other positions.
-/// @param content the whole file, of which `bytes` are those of these vertices.
-/// @param positions one for each of them.
+/// @param positions those of the vertices from `begin` on.
 /// @returns whether positions were rounded.
-bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, std::string_view content,
-                          const PlyHeader& header, std::string_view bytes, const Points& positions,
+bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, const Points& positions,
                           const std::vector<PlyChange>& changes);
 
 /// Writes a slice of a text file with other positions.

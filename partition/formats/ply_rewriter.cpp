@@ -180,12 +180,10 @@ std::vector<std::string> rewrite_header(Splicer& splicer, const std::filesystem:
 }
 
 /// Writes a slice.
-/// @param positions from vertex `first` of the file on. @param normals null: they stay.
 /// @returns whether positions were rounded.
 template <class Source>
 bool rewrite_slice(Source source, Splicer splicer, const PlyHeader& header, const PlySlice& slice,
-                   const std::vector<Change>& changes, const Points& positions, Index first,
-                   const MovedNormals* normals)
+                   const std::vector<Change>& changes, const NewVertices<MovedNormals>& now)
 {
     VertexRewriter<Source> rewriter(source, splicer, header.encoding);
     const PlyElement* const vertices = header.element("vertex");
@@ -197,44 +195,51 @@ bool rewrite_slice(Source source, Splicer splicer, const PlyHeader& header, cons
                               pass_over(source, element, i);
                           else
                               rewriter.rewrite(element, changes, static_cast<Index>(i),
-                                               positions.row(static_cast<Index>(i) - first), normals);
+                                               now.position(static_cast<std::int64_t>(i)), now.normals);
                   });
     splicer.finish();
     return rewriter.rounded();
 }
 
+/// A file as it was read.
+struct ReadPly {
+    const std::filesystem::path& path;
+    std::string_view content;
+    const PlyHeader& header;
+    /// Stands at the last line of the header.
+    const TextScanner& after_header;
+};
+
 /// Writes all that follows the header.
-/// @param after_header stands at the last line of the header. @param normals null: there are none.
 /// @returns whether positions were rounded.
-bool rewrite_elements(OutputFile& file, const TextScanner& after_header, const std::filesystem::path& path,
-                      std::string_view content, const PlyHeader& header, const std::vector<Change>& changes,
-                      const PolygonMesh& mesh, const MovedNormals* normals, const Slicing& slicing)
+bool rewrite_elements(OutputFile& file, const ReadPly& read, const std::vector<Change>& changes,
+                      const NewVertices<MovedNormals>& now, const Slicing& slicing)
 {
+    const PlyHeader& header = read.header;
     const PlyElement* const vertices = header.element("vertex");
     const std::span<const PlyElement> elements(header.elements.data(), vertices + 1);
-    std::vector<PlySlice> slices = slice_ply(content, after_header, header.encoding, elements, slicing);
+    std::vector<PlySlice> slices = slice_ply(read.content, read.after_header, header.encoding, elements, slicing);
     const bool crosses_lines = header.encoding == Encoding::Ascii && slices.back().end != header.n_elements();
     if (crosses_lines)
-        slices = {{0, header.n_elements(), after_header.rest()}};
+        slices = {{0, header.n_elements(), read.after_header.rest()}};
     std::vector<std::uint8_t> rounded(slices.size());
     file.slices(static_cast<Index>(slices.size()), slicing.exec, [&](Index i, OutputBuffer& slice) {
         // Those that the reader has let pass.
         FaultLog known_faults{.of_faces_alone = true};
         const auto rewrite = [&](auto source) {
             source.note_faults_in(&known_faults);
-            return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes,
-                                 mesh.vertices, 0, normals);
+            return rewrite_slice(std::move(source), Splicer(slice, slices[i].bytes), header, slices[i], changes, now);
         };
-        const auto offset = static_cast<std::size_t>(slices[i].bytes.data() - content.data());
-        TextScanner scanner(after_header, slices[i].bytes);
+        const auto offset = static_cast<std::size_t>(slices[i].bytes.data() - read.content.data());
+        TextScanner scanner(read.after_header, slices[i].bytes);
         if (crosses_lines)
             scanner.cross_lines();
         rounded[i] = header.encoding == Encoding::Ascii
                          ? rewrite(PlyTextSource(scanner))
-                         : rewrite(PlyBinarySource(path, content, offset, header.encoding));
+                         : rewrite(PlyBinarySource(read.path, read.content, offset, header.encoding));
     });
     const std::string_view last = slices.back().bytes;
-    file.text(content.substr(static_cast<std::size_t>(last.data() - content.data()) + last.size()));
+    file.text(read.content.substr(static_cast<std::size_t>(last.data() - read.content.data()) + last.size()));
     return std::ranges::find(rounded, 1) != rounded.end();
 }
 
@@ -269,16 +274,16 @@ std::vector<std::string> rewrite_ply_header(ByteWriter& file, const std::filesys
     return remarks;
 }
 
-bool rewrite_ply_vertices(ByteWriter& file, const std::filesystem::path& path, std::string_view content,
-                          const PlyHeader& header, std::string_view bytes, const Points& positions,
+bool rewrite_ply_vertices(ByteWriter& file, const PlyRanges& ply, Index begin, const Points& positions,
                           const std::vector<PlyChange>& changes)
 {
-    const PlyElement& vertices = *header.element("vertex");
-    PlyBinarySource source(path, content, static_cast<std::size_t>(bytes.data() - content.data()), header.encoding);
+    const std::string_view bytes = ply.bytes_of_vertices(begin, begin + static_cast<Index>(positions.rows()));
+    const auto offset = static_cast<std::size_t>(bytes.data() - ply.content().data());
+    PlyBinarySource source(ply.path(), ply.content(), offset, ply.header().encoding);
     Splicer splicer(file, bytes);
-    VertexRewriter<PlyBinarySource> rewriter(source, splicer, header.encoding);
+    VertexRewriter<PlyBinarySource> rewriter(source, splicer, ply.header().encoding);
     for (Index v = 0; v < positions.rows(); ++v)
-        rewriter.rewrite(vertices, changes, v, positions.row(v), nullptr);
+        rewriter.rewrite(ply.vertex_element(), changes, v, positions.row(v), nullptr);
     splicer.finish();
     return rewriter.rounded();
 }
@@ -290,7 +295,7 @@ void rewrite_ply_text(ByteWriter& file, const TextScanner& after_header, const P
     PlyTextSource source(TextScanner(after_header, slice.bytes));
     source.note_faults_in(&known_faults);
     const std::vector<Change> changes = changes_of_positions(*header.element("vertex"), {true, true, true});
-    rewrite_slice(std::move(source), Splicer(file, slice.bytes), header, slice, changes, positions, first, nullptr);
+    rewrite_slice(std::move(source), Splicer(file, slice.bytes), header, slice, changes, {positions, first});
 }
 
 std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::path& path, std::string_view content,
@@ -298,6 +303,7 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
 {
     TextScanner scanner(path, content, ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
+    const ReadPly read{path, content, header, scanner};
     const PlyElement& vertices = *header.element("vertex");
     const std::vector<Change> changes =
         changes_of(vertices, coordinates_fit(vertices, mesh.vertices), normals_of(vertices) == Normals::Usable);
@@ -309,7 +315,7 @@ std::vector<std::string> rewrite_ply(OutputFile& file, const std::filesystem::pa
     std::vector<std::string> remarks = rewrite_header(splicer, path, vertices, changes);
     splicer.finish();
     const bool rounded =
-        rewrite_elements(file, scanner, path, content, header, changes, mesh, normals ? &*normals : nullptr, slicing);
+        rewrite_elements(file, read, changes, {mesh.vertices, 0, normals ? &*normals : nullptr}, slicing);
     if (normals_of(vertices) == Normals::Other)
         remarks.push_back("the normals of " + path.string() +
                           " are written as they were: they are not three floating-point numbers nx, ny, nz");

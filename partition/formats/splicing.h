@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -89,6 +90,18 @@ class MovedNormals {
     /// Where the mesh has seams.
     std::optional<Weld> welded_;
     std::optional<VertexNormals> across_seams_;
+};
+
+/// What stands anew in a file, or a slice of it.
+template <class Normals>
+struct NewVertices {
+    /// From vertex `first` of the file on.
+    const Points& positions;
+    std::int64_t first = 0;
+    /// Null: normals stay as they are.
+    const Normals* normals = nullptr;
+
+    [[nodiscard]] Point position(std::int64_t v) const { return positions.row(v - first); }
 };
 
 /// What is wrong with a file that cannot be written again.

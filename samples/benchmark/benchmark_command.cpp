@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <system_error>
 #include <thread>
@@ -10,10 +11,10 @@
 
 #include "engine/options/valid_options.h"
 #include "partition/errors.h"
-#include "samples/common/command_line.h"
-#include "samples/common/flow_choices.h"
-#include "samples/common/meshes.h"
-#include "samples/common/output_files.h"
+#include "samples/command/command_line.h"
+#include "samples/command/flow_choices.h"
+#include "samples/files/output_files.h"
+#include "samples/meshes/meshes.h"
 
 namespace seamflow {
 
@@ -193,132 +194,130 @@ std::vector<int> numbers_named(std::string_view word, std::string_view option)
     return threads;
 }
 
-std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, BenchmarkCommand& command)
-{
-    CLI::App app("Holds one implicit step of ours beside what a user would run instead, time, memory and accuracy.",
-                 "benchmark");
+namespace {
+
+/// What is said of peers and of modes, as it stands on the command line.
+struct Words {
     std::string peers;
     std::string simulated_threads;
     std::string simulated_ranks;
-    command.options.flow.time_step = 1.0;
-    command.options.flow.steps = 5;
-    add_mesh_options(app, command);
-    add_flow_options(app, command);
-    app.add_option("--peers", peers,
+};
+
+void add_peers(CLI::App& app, Words& words, BenchmarkCommand& command)
+{
+    app.add_option("--peers", words.peers,
                    "all, none, or a list of those that ours is held beside [all but ours by name]\n"
                    "cholmod,umfpack,cg,cg-ic,amg,cgal, and of ours by an approach that is named: "
                    "sweep,converged,our-cg,undecomposed. By default with --grid cholmod,cg,amg, with --whole-run "
                    "cholmod,cg; none with --scaling, --threads-sweep, --simulate-threads and --simulate-ranks.")
         ->type_name("LIST");
-    auto* reference =
-        add_choice<Reference>(app, "--reference", command.options.reference,
-                              {{"auto", Reference::Automatic},
-                               {"direct", Reference::Direct},
-                               {"iterative", Reference::Iterative},
-                               {"none", Reference::None}},
-                              "whose positions V_mean and V_max are measured from [auto]\n"
-                              "direct: those of a factorisation of the whole mesh; iterative: of conjugate "
-                              "gradients to 1e-12. auto: direct up to 2000000 vertices; none for sweeps "
-                              "without peers.");
+    add_choice<Reference>(app, "--reference", command.options.reference,
+                          {{"auto", Reference::Automatic},
+                           {"direct", Reference::Direct},
+                           {"iterative", Reference::Iterative},
+                           {"none", Reference::None}},
+                          "whose positions V_mean and V_max are measured from [auto]\n"
+                          "direct: those of a factorisation of the whole mesh; iterative: of conjugate "
+                          "gradients to 1e-12. auto: direct up to 2000000 vertices; none for sweeps "
+                          "without peers.");
     app.add_option("--json", command.json, "also write the numbers")->type_name("FILE");
-    auto* export_folder = app.add_option("--export", command.export_folder,
-                                         "also write the first step's equations as Matrix Market files")
-                              ->type_name("DIR");
-    auto* scaling = app.add_flag_callback(
-                           "--scaling", [&] { command.mode = BenchmarkMode::Scaling; }, "10^4, 10^5, … vertices")
-                        ->excludes("--mesh")
-                        ->excludes(export_folder);
-    auto* sweep =
-        app.add_flag_callback(
-               "--threads-sweep", [&] { command.mode = BenchmarkMode::ThreadsSweep; }, "ours with 1, 2, … threads")
-            ->excludes(scaling)
-            ->excludes("--peers")
-            ->excludes(export_folder);
-    app.add_option("--simulate-threads", simulated_threads,
-                   "ours, its tasks replayed with each of these numbers of threads: 1,2,8 or so, or all\n"
-                   "The tasks are those of the median step; all: 1, 2, 4, … 1024.")
-        ->excludes(scaling)
-        ->excludes(sweep)
-        ->excludes("--peers")
-        ->excludes(export_folder)
-        ->type_name("LIST");
-    app.add_option("--simulate-ranks", simulated_ranks,
-                   "ours, shared by each of these numbers of ranks: what they have to do and to say\n"
-                   "Ranks are threads of one process. What follows for large meshes is said by a model.")
-        ->excludes(scaling)
-        ->excludes(sweep)
-        ->excludes("--simulate-threads")
-        ->excludes("--peers")
-        ->excludes(export_folder)
-        ->type_name("LIST");
-    app.add_option("--grid", command.grid.files,
-                   "who is the fastest at equal accuracy, set-up included, on many meshes and these\n"
-                   "Triangles, quads, hexagons and mixed polygons (or --kind) of 10^4, 10^5, … vertices, and these "
-                   "meshes; dt 1, 5, 50 and 500 (or --time-step-edges); 1, 3 and 10 steps (or --steps).")
-        ->expected(0, -1)
-        ->excludes(scaling)
-        ->excludes(sweep)
-        ->excludes("--simulate-threads")
-        ->excludes("--simulate-ranks")
-        ->excludes("--mesh")
-        ->excludes(export_folder)
-        ->type_name("[FILE ...]");
-    app.add_flag_callback(
-           "--explain", [&] { command.mode = BenchmarkMode::Explain; },
-           "the model of costs by which ours chooses how it takes its steps\n"
-           "Its constants, what it predicts for each approach, and what each takes.")
-        ->excludes(scaling)
-        ->excludes(sweep)
-        ->excludes("--grid")
-        ->excludes("--simulate-threads")
-        ->excludes("--simulate-ranks")
-        ->excludes("--peers")
-        ->excludes("--conditions")
-        ->excludes(export_folder);
-    auto* whole_run =
-        app.add_flag_callback(
-               "--whole-run", [&] { command.mode = BenchmarkMode::WholeRun; },
-               "the program smooth from file to file, beside peers of equal accuracy and one step of cholmod\n"
-               "OBJ and PLY, or as --mesh is; peers go from file to file, too. With --scaling for 10^4, 10^5, … "
-               "vertices.")
-            ->excludes(sweep)
-            ->excludes("--grid")
-            ->excludes("--explain")
-            ->excludes("--simulate-threads")
-            ->excludes("--simulate-ranks")
-            ->excludes("--conditions")
-            ->excludes("--q")
-            ->excludes("--memory-limit")
-            ->excludes(export_folder);
-    auto* turns = add_integer(app, "--turns", command.turns, 1,
-                              "with --grid and --whole-run: how often what is compared is run, in turns [3]\n"
-                              "--grid goes by the least times.");
+    app.add_option("--export", command.export_folder, "also write the first step's equations as Matrix Market files")
+        ->type_name("DIR");
+}
+
+/// Adds what is measured in place of one case; each excludes the others, and options that mean nothing to it.
+void add_modes(CLI::App& app, Words& words, BenchmarkCommand& command)
+{
+    const auto add_mode = [&](const std::string& name, BenchmarkMode mode, const std::string& text) {
+        return app.add_flag_callback(
+            name, [&command, mode] { command.mode = mode; }, text);
+    };
+    const auto exclude = [](CLI::Option* mode, std::initializer_list<std::string> others) {
+        for (const std::string& other : others)
+            mode->excludes(other);
+    };
+    exclude(add_mode("--scaling", BenchmarkMode::Scaling, "10^4, 10^5, … vertices"), {"--mesh", "--export"});
+    exclude(add_mode("--threads-sweep", BenchmarkMode::ThreadsSweep, "ours with 1, 2, … threads"),
+            {"--scaling", "--peers", "--export"});
+    exclude(app.add_option("--simulate-threads", words.simulated_threads,
+                           "ours, its tasks replayed with each of these numbers of threads: 1,2,8 or so, or all\n"
+                           "The tasks are those of the median step; all: 1, 2, 4, … 1024.")
+                ->type_name("LIST"),
+            {"--scaling", "--threads-sweep", "--peers", "--export"});
+    exclude(app.add_option("--simulate-ranks", words.simulated_ranks,
+                           "ours, shared by each of these numbers of ranks: what they have to do and to say\n"
+                           "Ranks are threads of one process. What follows for large meshes is said by a model.")
+                ->type_name("LIST"),
+            {"--scaling", "--threads-sweep", "--simulate-threads", "--peers", "--export"});
+    exclude(app.add_option("--grid", command.grid.files,
+                           "who is the fastest at equal accuracy, set-up included, on many meshes and these\n"
+                           "Triangles, quads, hexagons and mixed polygons (or --kind) of 10^4, 10^5, … vertices, and "
+                           "these meshes; dt 1, 5, 50 and 500 (or --time-step-edges); 1, 3 and 10 steps (or --steps).")
+                ->expected(0, -1)
+                ->type_name("[FILE ...]"),
+            {"--scaling", "--threads-sweep", "--simulate-threads", "--simulate-ranks", "--mesh", "--export"});
+    exclude(add_mode("--explain", BenchmarkMode::Explain,
+                     "the model of costs by which ours chooses how it takes its steps\n"
+                     "Its constants, what it predicts for each approach, and what each takes."),
+            {"--scaling", "--threads-sweep", "--grid", "--simulate-threads", "--simulate-ranks", "--peers",
+             "--conditions", "--export"});
+    exclude(add_mode("--whole-run", BenchmarkMode::WholeRun,
+                     "the program smooth from file to file, beside peers of equal accuracy and one step of cholmod\n"
+                     "OBJ and PLY, or as --mesh is; peers go from file to file, too. With --scaling for 10^4, 10^5, … "
+                     "vertices."),
+            {"--threads-sweep", "--grid", "--explain", "--simulate-threads", "--simulate-ranks", "--conditions", "--q",
+             "--memory-limit", "--export"});
+    add_integer(app, "--turns", command.turns, 1,
+                "with --grid and --whole-run: how often what is compared is run, in turns [3]\n"
+                "--grid goes by the least times.");
+}
+
+/// Settles what follows from the options that were given.
+void settle(const CLI::App& app, const Words& words, BenchmarkCommand& command)
+{
+    const auto is_given = [&](const char* option) { return app.count(option) > 0; };
+    if (is_given("--simulate-threads"))
+        prepare_simulation(app, words.simulated_threads, command);
+    if (is_given("--simulate-ranks"))
+        prepare_ranks(words.simulated_ranks, command);
+    if (is_given("--conditions"))
+        command.options.flow.accuracy.approach = Approach::Sweep;
+    if (is_given("--grid"))
+        prepare_grid(app, command);
+    if (is_given("--whole-run"))
+        command.mode = is_given("--scaling") ? BenchmarkMode::WholeRunScaling : BenchmarkMode::WholeRun;
+    if (is_given("--turns") && !is_given("--grid") && !is_given("--whole-run"))
+        throw OptionError("--turns belongs to --grid and --whole-run");
+    command.options.peers = peers_named(!words.peers.empty() ? words.peers : usual_peers(command.mode));
+    if (command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid &&
+        command.mode != BenchmarkMode::Explain && command.options.peers.empty() && !is_given("--reference"))
+        command.options.reference = Reference::None;
+    if (is_given("--scaling") && !is_given("--vertices"))
+        command.vertices = largest_of_scaling;
+    require_consistent(app, command);
+    if (command.options.flow.resources.threads == 0)
+        command.options.flow.resources.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+std::optional<ExitStatus> parse_benchmark_command(int argc, char** argv, BenchmarkCommand& command)
+{
+    CLI::App app("Holds one implicit step of ours beside what a user would run instead, time, memory and accuracy.",
+                 "benchmark");
+    Words words;
+    command.options.flow.time_step = 1.0;
+    command.options.flow.steps = 5;
+    add_mesh_options(app, command);
+    add_flow_options(app, command);
+    add_peers(app, words, command);
+    add_modes(app, words, command);
     app.footer("benchmark --vertices 100000             one step of ours beside CHOLMOD, UMFPACK, CG and others\n"
                "benchmark --whole-run --mesh scan.ply   whole programs from file to file\n"
                "benchmark --explain --mesh scan.ply     why smooth takes its steps as it does\n");
     if (const auto end = parse_command_line(app, argc, argv))
         return end;
-    if (app.count("--simulate-threads") > 0)
-        prepare_simulation(app, simulated_threads, command);
-    if (app.count("--simulate-ranks") > 0)
-        prepare_ranks(simulated_ranks, command);
-    if (app.count("--conditions") > 0)
-        command.options.flow.accuracy.approach = Approach::Sweep;
-    if (app.count("--grid") > 0)
-        prepare_grid(app, command);
-    if (whole_run->count() > 0)
-        command.mode = scaling->count() > 0 ? BenchmarkMode::WholeRunScaling : BenchmarkMode::WholeRun;
-    if (turns->count() > 0 && app.count("--grid") + whole_run->count() == 0)
-        throw OptionError("--turns belongs to --grid and --whole-run");
-    command.options.peers = peers_named(!peers.empty() ? peers : usual_peers(command.mode));
-    if (command.mode != BenchmarkMode::Case && command.mode != BenchmarkMode::Grid &&
-        command.mode != BenchmarkMode::Explain && command.options.peers.empty() && reference->count() == 0)
-        command.options.reference = Reference::None;
-    if (scaling->count() > 0 && app.count("--vertices") == 0)
-        command.vertices = largest_of_scaling;
-    require_consistent(app, command);
-    if (command.options.flow.resources.threads == 0)
-        command.options.flow.resources.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settle(app, words, command);
     return std::nullopt;
 }
 

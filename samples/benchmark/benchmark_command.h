@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "samples/benchmark/benchmark_case.h"
-#include "samples/common/exit_status.h"
+#include "samples/process/exit_status.h"
 
 namespace seamflow {
 

@@ -16,7 +16,7 @@
 #include "samples/benchmark/process.h"
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
-#include "solvers/direct/blas_work_area.h"
+#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 

@@ -13,7 +13,7 @@
 
 #include "partition/errors.h"
 #include "samples/benchmark/method_json.h"
-#include "samples/common/output_files.h"
+#include "samples/files/output_files.h"
 
 namespace seamflow {
 

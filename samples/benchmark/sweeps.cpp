@@ -16,9 +16,9 @@
 #include "samples/benchmark/matrix_market.h"
 #include "samples/benchmark/simulated_ranks.h"
 #include "samples/benchmark/whole_run.h"
-#include "samples/common/mesh_results.h"
-#include "samples/common/meshes.h"
-#include "samples/common/report_text.h"
+#include "samples/files/mesh_results.h"
+#include "samples/meshes/meshes.h"
+#include "samples/report/report_text.h"
 #include "solvers/laplacian/degenerate.h"
 
 namespace seamflow {

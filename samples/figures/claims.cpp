@@ -5,10 +5,10 @@
 #include <map>
 #include <ostream>
 
-#include "samples/common/output_files.h"
 #include "samples/figures/experiment.h"
 #include "samples/figures/experiments.h"
 #include "samples/figures/measured.h"
+#include "samples/files/output_files.h"
 
 namespace seamflow {
 

@@ -10,7 +10,7 @@
 #include <png.h>
 
 #include "partition/errors.h"
-#include "samples/common/output_files.h"
+#include "samples/files/output_files.h"
 
 namespace seamflow {
 

@@ -4,9 +4,9 @@
 #include <sstream>
 #include <utility>
 
-#include "samples/common/output_files.h"
-#include "samples/common/report_json.h"
+#include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
+#include "samples/report/report_json.h"
 
 namespace seamflow {
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "partition/errors.h"
-#include "samples/common/command_line.h"
-#include "samples/common/output_files.h"
+#include "samples/command/command_line.h"
 #include "samples/figures/experiment.h"
 #include "samples/figures/experiments.h"
+#include "samples/files/output_files.h"
 #include "samples/page/page_html.h"
 
 namespace seamflow {

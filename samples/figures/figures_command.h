@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "samples/common/exit_status.h"
+#include "samples/process/exit_status.h"
 
 namespace seamflow {
 

@@ -6,7 +6,7 @@
 
 #include "partition/formats/mesh_io.h"
 #include "partition/metrics/triangulation.h"
-#include "samples/common/output_files.h"
+#include "samples/files/output_files.h"
 
 namespace seamflow {
 

@@ -10,8 +10,8 @@
 
 #include "partition/topology.h"
 #include "partition/vector_area.h"
-#include "samples/common/meshes.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/meshes.h"
+#include "samples/meshes/random_numbers.h"
 
 namespace seamflow {
 

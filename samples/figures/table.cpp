@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "samples/common/output_files.h"
+#include "samples/files/output_files.h"
 
 namespace seamflow {
 

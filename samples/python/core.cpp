@@ -22,9 +22,9 @@
 
 #include "partition/errors.h"
 #include "partition/version.h"
-#include "samples/common/option_words.h"
-#include "samples/common/parse_smooth_command.h"
-#include "samples/common/smooth_command.h"
+#include "samples/command/parse_smooth_command.h"
+#include "samples/command/smooth_command.h"
+#include "samples/process/option_words.h"
 #include "samples/python/flow_call.h"
 
 namespace py = pybind11;

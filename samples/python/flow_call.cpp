@@ -6,9 +6,9 @@
 #include "engine/tasks/stopwatch.h"
 #include "engine/tasks/workers.h"
 #include "partition/errors.h"
-#include "samples/common/option_words.h"
-#include "samples/common/report_json.h"
-#include "samples/common/smoothing_run.h"
+#include "samples/process/option_words.h"
+#include "samples/report/report_json.h"
+#include "samples/runs/smoothing_run.h"
 
 namespace seamflow {
 

@@ -5,7 +5,7 @@
 
 #include "engine/options/flow_control.h"
 #include "partition/polygon_mesh.h"
-#include "samples/common/smooth_command.h"
+#include "samples/command/smooth_command.h"
 
 namespace seamflow {
 

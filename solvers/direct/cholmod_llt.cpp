@@ -3,8 +3,8 @@
 
 #include <cholmod.h>
 
-#include "solvers/direct/blas_work_area.h"
 #include "solvers/direct/suitesparse.h"
+#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 

@@ -4,8 +4,8 @@
 
 #include <umfpack.h>
 
-#include "solvers/direct/blas_work_area.h"
 #include "solvers/direct/suitesparse.h"
+#include "solvers/platform/blas_work_area.h"
 
 namespace seamflow {
 

@@ -129,8 +129,8 @@ void ErrorEquation::assemble(Index s, const Points& before, const Points& after,
     for (Index i = first(s); i < first(s + 1); ++i) {
         const auto kinds = rows_.neighbours[i];
         const auto couplings = std::span(rows_.couplings).subspan(rows_.neighbours.offsets[i], kinds.size());
-        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_sub_mesh[i], kinds, before, after,
-                                       stiffness_at, time_step, couplings);
+        const ErrorRow row = error_row(sub_mesh, laplacian_, numbering_.index_in_sub_mesh[i], kinds,
+                                       {before, after, stiffness_at, time_step}, couplings);
         rows_.mass[i] = row.mass;
         rows_.diagonal[i] = row.diagonal;
         rows_.row_sum[i] = row.diagonal - std::accumulate(couplings.begin(), couplings.end(), 0.0);

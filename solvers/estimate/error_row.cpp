@@ -143,9 +143,9 @@ using WithinOneRing = std::conditional_t<Kernel::traits.reach == Reach::TwoRings
 }  // namespace
 
 ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
-                   const Points& before, const Points& after, const Points& stiffness_at, double time_step,
-                   std::span<double> couplings)
+                   const SolvedStep& step, std::span<double> couplings)
 {
+    const auto& [before, after, stiffness_at, time_step] = step;
     const auto& interface = sub_mesh.interface;
     const Index v = interface.vertices[i];
     std::fill(couplings.begin(), couplings.end(), 0.0);

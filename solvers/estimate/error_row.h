@@ -29,14 +29,21 @@ struct ErrorRow {
     Point normal = Point::Zero();
 };
 
+/// A step of a sub-mesh, #local by 3 each, the halo included.
+struct SolvedStep {
+    /// Vᵏ, and Vᵏ⁺¹ as solved.
+    const Points& before;
+    const Points& after;
+    /// The positions whose K the step has; Vᵏ, where it is not kept.
+    const Points& stiffness_at;
+    /// dt, in length².
+    double time_step;
+};
+
 /// The row at the i-th vertex of a sub-mesh's Γ. Δ_P has the T of Δ_A, and no residual here: its rows reach further.
 /// @param kinds one per edge neighbour of the vertex (see CorrectedVertices): its number on Γ, or one of the above.
-/// @param before, after #local by 3, the halo included: Vᵏ, and Vᵏ⁺¹ as solved.
-/// @param stiffness_at #local by 3: the positions whose K the step has; Vᵏ, where it is not kept.
-/// @param time_step dt, in length².
 /// @param couplings one per edge neighbour: receives -T_vw where it is on Γ, and else 0.
 ErrorRow error_row(const SubMesh& sub_mesh, const ScaledLaplacian& laplacian, Index i, std::span<const Index> kinds,
-                   const Points& before, const Points& after, const Points& stiffness_at, double time_step,
-                   std::span<double> couplings);
+                   const SolvedStep& step, std::span<double> couplings);
 
 }  // namespace seamflow

@@ -50,7 +50,8 @@ InterfaceResult InterfaceEquation::solve(std::span<const DenseFactor> complement
     };
     if (stop.iterations > 0)
         start(multiply, guess, unit, x, exec);
-    InterfaceResult result{conjugate_gradients(multiply, precondition, measure, stop, x, vectors_, exec)};
+    InterfaceResult result{
+        conjugate_gradients(PreconditionedEquations{multiply, precondition, measure}, stop, x, vectors_, exec)};
     require_finite_result(std::isfinite(result.residual));
     result.residuals = quotients(vectors_.norms(vectors_.r, exec), vectors_.b_norms);
     precondition(vectors_.r, vectors_.z);

@@ -78,7 +78,7 @@ InterfaceResult TraceEquation::solve(const FactorisedBlocks& system, const Itera
     const auto multiply = [&](const Points& p, Points& product) { this->multiply(system, p, product, threads); };
     const auto measure = [&] { renew(system, x, threads); };
     const GmresResult found = gmres(multiply, measure, {stop.tolerance * unit, stop.iterations},
-                                    most_directions(size()), basis_, traces_, residual_, exec);
+                                    most_directions(size()), {basis_, traces_, residual_}, exec);
     InterfaceResult result{found};
     result.residual = unit > 0.0 ? found.residual / unit : 0.0;
     result.estimated_distance = std::max(1.0, amplified_share * found.amplification) * longest_row(residual_);

@@ -85,17 +85,30 @@ void advance(const Multiply& multiply, Points& x, ConjugateGradientVectors& v, c
     });
 }
 
+/// The equations A X = B by what is done with them.
+template <class Multiply, class Precondition, class Measure>
+struct PreconditionedEquations {
+    /// multiply(p, q) makes q = A p.
+    const Multiply& multiply;
+    /// precondition(r, z) makes z = M⁻¹ r.
+    const Precondition& precondition;
+    /// measure(x, r) makes r = B - A X exactly.
+    const Measure& measure;
+};
+
+template <class Multiply, class Precondition, class Measure>
+PreconditionedEquations(const Multiply&, const Precondition&, const Measure&)
+    -> PreconditionedEquations<Multiply, Precondition, Measure>;
+
 /// Conjugate gradients for A X = B with a symmetric positive definite A, preconditioned (Saad, Iterative Methods for
 /// Sparse Linear Systems, 2003, algorithm 9.1), where products are rounded coarsely: now and then the residual is
 /// measured anew, without beginning anew; how far it had gone astray tells whether that is needed again. Sums are taken
 /// in a fixed order: the bits do not depend on how loops are run.
-/// @param multiply multiply(p, q) makes q = A p. @param precondition precondition(r, z) makes z = M⁻¹ r.
-/// @param measure measure(x, r) makes r = B - A X exactly.
 /// @param stop relative to the norms of B, for each column.
 /// @param x in: where to start. Out: the solution.
 /// @param v in: begun, and brought to x by `advance`, or not at all.
 template <class Multiply, class Precondition, class Measure>
-IterationResult conjugate_gradients(const Multiply& multiply, const Precondition& precondition, const Measure& measure,
+IterationResult conjugate_gradients(const PreconditionedEquations<Multiply, Precondition, Measure>& equations,
                                     const IterationStop& stop, Points& x, ConjugateGradientVectors& v,
                                     const Executor& exec)
 {
@@ -124,7 +137,7 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         const Point doubt = safety * drift.cwiseProduct(measured);
         if (!is_below(norms, goals()) || is_below(norms.cwiseMax(doubt), wanted))
             return norms;
-        measure(x, v.z);
+        equations.measure(x, v.z);
         for_each(exec, static_cast<Index>(x.rows()), [&](Index i) { v.r.row(i) -= v.z.row(i); });
         drift = quotients(v.norms(v.r, exec), measured).cwiseMax(least_drift);
         v.r.swap(v.z);
@@ -137,13 +150,13 @@ IterationResult conjugate_gradients(const Multiply& multiply, const Precondition
         int iterations = 0;
         do {
             // z = M⁻¹ r
-            precondition(v.r, v.z);
+            equations.precondition(v.r, v.z);
             // β = -(z, q) / (p, q): conjugate to the direction before even where the residual has just been measured.
             const Point beta = -quotients(v.products({{v.z, v.q}}, exec).front(), v.pq);
             // p = z + β p
             for_each(exec, static_cast<Index>(x.rows()),
                      [&](Index i) { v.p.row(i) = v.z.row(i) + v.p.row(i).cwiseProduct(beta); });
-            advance(multiply, x, v, exec);
+            advance(equations.multiply, x, v, exec);
         } while (++iterations < most && !is_below(v.norms(v.r, exec), goals()));
         const Point before = std::exchange(norms, norms_as_measured());
         criterion.note(iterations, largest_ratio(norms, v.b_norms), largest_ratio(norms, before));

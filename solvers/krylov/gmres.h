@@ -9,6 +9,16 @@
 
 namespace seamflow {
 
+/// What GMRES works on.
+struct GmresVectors {
+    /// Its memory is used again.
+    KrylovBasis& V;
+    /// In: where to start. Out: the solution.
+    Points& x;
+    /// B - A X.
+    const Points& residual;
+};
+
 /// How a cycle of GMRES ended.
 struct GmresCycle {
     /// Products with A.
@@ -22,23 +32,22 @@ struct GmresCycle {
 /// break down: directions that depend on others are left out. Adds to X what makes the residual smallest. Sums are
 /// taken in a fixed order: the bits do not depend on how loops are run.
 /// @param multiply multiply(v, product) makes the product A v.
-/// @param residual B - A X.
 /// @param goal ends when the residual is estimated to be no larger, in the Euclidean norm over all three columns. Where
 ///        that says too little of X, because the amplification is more than most_amplification, the goal is divided by
 ///        what it is too much.
 /// @param most products with A, for each of which 24 n bytes are kept.
-/// @param V its memory is used again.
 template <class Multiply>
-GmresCycle gmres_cycle(const Multiply& multiply, const Points& residual, double goal, int most, KrylovBasis& V,
-                       Points& x, const Executor& exec)
+GmresCycle gmres_cycle(const Multiply& multiply, double goal, int most, const GmresVectors& vectors,
+                       const Executor& exec)
 {
-    HessenbergLeastSquares least_squares(V.begin(residual, exec));
+    KrylovBasis& V = vectors.V;
+    HessenbergLeastSquares least_squares(V.begin(vectors.residual, exec));
     int iterations = 0;
     for (; iterations < most && !least_squares.has_reached(goal); ++iterations) {
         V.extend(multiply);
         least_squares.append(V.orthogonalise(exec));
     }
-    V.add_combination(least_squares.solution(), x, exec);
+    V.add_combination(least_squares.solution(), vectors.x, exec);
     return {iterations, least_squares.amplification()};
 }
 
@@ -53,27 +62,26 @@ struct GmresResult : IterationResult {
 /// @param stop residuals in the Euclidean norm over all three columns; as the goal of a cycle they count for more where
 ///        the amplification is large.
 /// @param most_in_cycle see gmres_cycle.
-/// @param x in: where to start. Out: the solution.
-/// @param residual that `measure` brings up to date. In: of x.
+/// @param vectors with the residual that `measure` brings up to date. In: of x.
 template <class Multiply, class Measure>
 GmresResult gmres(const Multiply& multiply, const Measure& measure, const IterationStop& stop, int most_in_cycle,
-                  KrylovBasis& V, Points& x, const Points& residual, const Executor& exec)
+                  const GmresVectors& vectors, const Executor& exec)
 {
     // What a cycle may leave of the residual without too little progress. The residual that GMRES estimates is about
     // the true one.
     constexpr double most_left = 0.95;
     constexpr double safety = 0.8;
 
-    double size = norm(residual, exec);
+    double size = norm(vectors.residual, exec);
     double amplification = 1.0;
     const auto excess = [&] { return std::max(1.0, amplification / most_amplification); };
     StoppingCriterion criterion(stop, most_left, size);
     while (!criterion.is_met()) {
-        const GmresCycle cycle = gmres_cycle(multiply, residual, safety * stop.tolerance / excess(),
-                                             std::min(most_in_cycle, criterion.iterations_left()), V, x, exec);
+        const GmresCycle cycle = gmres_cycle(multiply, safety * stop.tolerance / excess(),
+                                             std::min(most_in_cycle, criterion.iterations_left()), vectors, exec);
         amplification = std::max(amplification, cycle.amplification);
         measure();
-        const double before = std::exchange(size, norm(residual, exec));
+        const double before = std::exchange(size, norm(vectors.residual, exec));
         criterion.note(cycle.iterations, size * excess(), size / before);
     }
     return {criterion.result(size), amplification};

@@ -20,10 +20,18 @@ constexpr double fit_momentum = 0.5;
 /// A direction is half free at a vertex where the mean of the squared cosines between it and the normals is so much.
 constexpr double half_free = 1e-3;
 
+/// What vertices are to fit.
+struct WantedFaces {
+    const PolygonMesh& mesh;
+    const Topology& topology;
+    const Points& normals;
+    Points centroids;
+};
+
 /// The step of one vertex.
-Point fitting_step(const PolygonMesh& mesh, const Topology& topology, const Points& normals, const Points& centroids,
-                   const Points& positions, Index v, double relaxation)
+Point fitting_step(const WantedFaces& faces, const Points& positions, Index v, double relaxation)
 {
+    const auto& [mesh, topology, normals, centroids] = faces;
     const Point here = positions.row(v);
     Point fit = Point::Zero();
     Point towards_neighbours = Point::Zero();
@@ -48,25 +56,23 @@ Point fitting_step(const PolygonMesh& mesh, const Topology& topology, const Poin
 
 }  // namespace
 
-void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines, const Points& normals,
-                  double noise, const Points& from, Points& to, const Executor& exec)
+void fit_vertices(const PolygonMesh& mesh, const Topology& topology, const FeatureLines& lines,
+                  const NoisyNormals& wanted, Points& vertices, const Executor& exec)
 {
     // Chords of noise up to here, which folds hardly any face, are as long as relaxation is to go.
-    const double relaxation = std::min(noise, most_relaxation);
-    Points centroids(mesh.n_faces(), 3);
-    Points before = from;
-    copy(exec, from, to);
+    const double relaxation = std::min(wanted.noise, most_relaxation);
+    WantedFaces faces{mesh, topology, wanted.normals, Points(mesh.n_faces(), 3)};
+    Points before = vertices;
     for (int i = 0; i < relaxing_fits + plain_fits; ++i) {
-        for_each(exec, mesh.n_faces(), [&](Index f) { centroids.row(f) = centroid(mesh.face(f), to); });
-        before.swap(to);
+        for_each(exec, mesh.n_faces(), [&](Index f) { faces.centroids.row(f) = centroid(mesh.face(f), vertices); });
+        before.swap(vertices);
         for_each(exec, mesh.n_vertices(), [&](Index v) {
             if (!topology.moves(v))
                 return;
             const bool relaxes = i < relaxing_fits && topology.kind[v] == VertexKind::Interior;
-            // `to` has the positions of the iteration before the last.
-            to.row(v) = lines.on_line(
-                v, before.row(v) + fit_momentum * (before.row(v) - to.row(v)) +
-                       fitting_step(mesh, topology, normals, centroids, before, v, relaxes ? relaxation : 0.0));
+            // `vertices` has the positions of the iteration before the last.
+            vertices.row(v) = lines.on_line(v, before.row(v) + fit_momentum * (before.row(v) - vertices.row(v)) +
+                                                   fitting_step(faces, before, v, relaxes ? relaxation : 0.0));
         });
     }
 }

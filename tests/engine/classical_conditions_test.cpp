@@ -5,7 +5,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/cut_meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"

@@ -11,7 +11,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/tasks/parallel_executor.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;

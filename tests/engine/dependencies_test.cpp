@@ -14,7 +14,7 @@
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/laplacian.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"

@@ -10,7 +10,7 @@
 #include "partition/cut/cut.h"
 #include "partition/decomposition/overlap.h"
 #include "partition/decomposition/separated_sub_meshes.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/conditions/ventcell.h"
 #include "tests/support/flows.h"
 #include "tests/support/heap.h"

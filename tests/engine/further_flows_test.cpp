@@ -10,7 +10,7 @@
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/vector_area.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/geometry.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"

@@ -6,7 +6,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/geometry.h"
 #include "tests/support/flows.h"
 #include "tests/support/random_meshes.h"

@@ -9,7 +9,7 @@
 #include "engine/measure/remarks.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
 

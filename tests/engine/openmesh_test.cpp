@@ -4,7 +4,7 @@
 
 #include "engine/openmesh.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/openmesh.h"
 

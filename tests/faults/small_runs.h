@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/memory_limits.h"
 

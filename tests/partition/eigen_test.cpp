@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/eigen.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 
 using namespace seamflow;
 

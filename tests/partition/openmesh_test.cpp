@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/openmesh.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/openmesh.h"
 #include "tests/support/test_meshes.h"
 

@@ -7,7 +7,7 @@
 
 #include "partition/errors.h"
 #include "partition/topology.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;

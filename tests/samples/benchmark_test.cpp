@@ -20,7 +20,7 @@
 #include "samples/benchmark/run_method.h"
 #include "samples/benchmark/scratch_folder.h"
 #include "samples/benchmark/whole_run.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/temporary_directory.h"
 

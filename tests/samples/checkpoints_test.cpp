@@ -1,8 +1,9 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/checkpoints.h"
-#include "samples/common/long_run.h"
+#include "samples/command/command_line.h"
+#include "samples/files/checkpoints.h"
+#include "samples/runs/long_run.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;

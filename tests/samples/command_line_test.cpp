@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/command_line.h"
+#include "samples/command/command_line.h"
 
 using namespace seamflow;
 

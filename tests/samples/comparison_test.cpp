@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/comparison.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
+#include "samples/report/comparison.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;

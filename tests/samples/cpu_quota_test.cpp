@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/cpu_quota.h"
+#include "samples/process/cpu_quota.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;

@@ -6,8 +6,8 @@
 
 #include "partition/errors.h"
 #include "partition/formats/mesh_io.h"
-#include "samples/common/error_map.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
+#include "samples/report/error_map.h"
 #include "tests/support/relative.h"
 #include "tests/support/temporary_directory.h"
 

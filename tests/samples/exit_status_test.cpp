@@ -5,9 +5,9 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/exit_status.h"
-#include "samples/common/parse_smooth_command.h"
-#include "samples/common/smooth_command.h"
+#include "samples/command/parse_smooth_command.h"
+#include "samples/command/smooth_command.h"
+#include "samples/process/exit_status.h"
 
 using namespace seamflow;
 

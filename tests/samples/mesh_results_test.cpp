@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/mesh_results.h"
+#include "samples/files/mesh_results.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;

@@ -10,7 +10,7 @@
 #include "partition/errors.h"
 #include "partition/topology.h"
 #include "partition/vector_area.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/option_words.h"
+#include "samples/process/option_words.h"
 
 using namespace seamflow;
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/output_files.h"
+#include "samples/files/output_files.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;

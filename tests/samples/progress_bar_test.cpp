@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "samples/common/progress_bar.h"
+#include "samples/report/progress_bar.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;

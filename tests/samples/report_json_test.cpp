@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "partition/version.h"
-#include "samples/common/report_json.h"
+#include "samples/report/report_json.h"
 
 using namespace seamflow;
 using Json = nlohmann::json;

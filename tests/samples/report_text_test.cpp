@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/report_text.h"
-#include "samples/common/smoothing_request.h"
+#include "samples/report/report_text.h"
+#include "samples/report/smoothing_request.h"
 
 using namespace seamflow;
 

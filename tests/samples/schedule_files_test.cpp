@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "partition/errors.h"
-#include "samples/common/schedule_files.h"
+#include "samples/report/schedule_files.h"
 #include "tests/support/temporary_directory.h"
 
 using namespace seamflow;

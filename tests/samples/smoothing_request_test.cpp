@@ -5,8 +5,8 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
-#include "samples/common/smoothing_request.h"
+#include "samples/meshes/meshes.h"
+#include "samples/report/smoothing_request.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 

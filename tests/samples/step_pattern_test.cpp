@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/step_pattern.h"
+#include "samples/files/step_pattern.h"
 
 using namespace seamflow;
 

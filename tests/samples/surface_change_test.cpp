@@ -7,9 +7,9 @@
 
 #include "engine/tasks/parallel_executor.h"
 #include "partition/vector_area.h"
-#include "samples/common/meshes.h"
-#include "samples/common/smoothing_run.h"
-#include "samples/common/surface_change.h"
+#include "samples/meshes/meshes.h"
+#include "samples/report/surface_change.h"
+#include "samples/runs/smoothing_run.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 

@@ -1,5 +1,5 @@
 // Makes a race that ThreadSanitizer must report: what the engine tells it of the order of tasks
-// (engine/tasks/thread_sanitizer.h) may not hide those that have none.
+// (solvers/platform/thread_sanitizer.h) may not hide those that have none.
 //
 //     seamflow_race tasks|loop|pair|none
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "partition/cut/cut.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/test_meshes.h"
 
 namespace seamflow::test {

@@ -8,7 +8,7 @@
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/topology.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/normals/face_neighbours.h"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "engine/mean_curvature_flow.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/test_meshes.h"
 
 namespace seamflow::test {

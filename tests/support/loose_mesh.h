@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "partition/vector_area.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 
 namespace seamflow::test {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 
 namespace seamflow::test {
 

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "engine/setup/origin_offset.h"
+#include "engine/measure/origin_offset.h"
 #include "engine/state/checkpoint.h"
 #include "partition/topology.h"
 #include "solvers/laplacian/geometry.h"

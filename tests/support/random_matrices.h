@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/direct/columns.h"
 #include "solvers/sparse/sparse_pattern.h"
 

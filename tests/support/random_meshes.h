@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "tests/support/loose_mesh.h"
 
 namespace seamflow::test {

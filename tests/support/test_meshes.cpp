@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 
 namespace seamflow::test {
 

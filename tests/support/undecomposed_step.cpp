@@ -8,9 +8,9 @@
 
 #include <Eigen/LU>
 
+#include "engine/measure/origin_offset.h"
 #include "engine/setup/constraints.h"
 #include "engine/setup/flowing_mesh.h"
-#include "engine/setup/origin_offset.h"
 #include "tests/support/matrices.h"
 
 namespace seamflow::test {

@@ -4,7 +4,7 @@
 
 #include "engine/options/flow_options.h"
 #include "partition/polygon_mesh.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 
 namespace seamflow::test {
 

@@ -276,8 +276,7 @@ class SlicedPlyFile final : public SharedMeshFile {
             const Index end = std::min(own.end, begin + at_once);
             OutputBuffer piece;
             rounded |=
-                rewrite_ply_vertices(piece, ply.path(), ply.content(), ply.header(), ply.bytes_of_vertices(begin, end),
-                                     vertices.middleRows(begin - own.begin, end - begin), changes);
+                rewrite_ply_vertices(piece, ply, begin, vertices.middleRows(begin - own.begin, end - begin), changes);
             output.write(piece.content(), header.content().size() + at(begin) * vertex_bytes);
         }
         const auto old_end = static_cast<std::size_t>(end_of_vertices(ply) - ply.content().data());

@@ -183,23 +183,23 @@ int range_of(std::span<const std::int64_t> bounds, std::int64_t number)
     return static_cast<int>(std::ranges::upper_bound(bounds, number) - bounds.begin()) - 1;
 }
 
-Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<const std::int64_t> numbers,
-                       std::span<const std::int64_t> bounds)
+void fetch_rows(Communicator& comm, const RowsOfRange& rows, std::span<const std::int64_t> numbers,
+                std::span<const std::int64_t> bounds, std::span<double> fetched)
 {
     const std::int64_t first = bounds[comm.rank()];
-    Points positions(static_cast<Eigen::Index>(numbers.size()), 3);
+    const auto row_of = [&](std::int64_t number) { return rows.numbers.data() + rows.width * (number - first); };
     std::vector<Bytes> questions;
     // Where the answer of each rank belongs.
     std::vector<double*> places;
     for (auto begin = numbers.begin(); const std::int64_t bound : bounds.subspan(1)) {
         const auto end = std::lower_bound(begin, numbers.end(), bound);
-        const auto row = begin - numbers.begin();
         const bool is_own = static_cast<int>(places.size()) == comm.rank();
-        places.push_back(positions.data() + 3 * row);
+        double* const place = fetched.data() + rows.width * (begin - numbers.begin());
+        places.push_back(place);
         questions.push_back(is_own ? Bytes() : packed(std::span(begin, end)));
         if (is_own)
             for_each(run_in_parallel, static_cast<Index>(end - begin),
-                     [&](Index i) { positions.row(row + i) = slice.vertices.row(begin[i] - first); });
+                     [&](Index i) { std::copy_n(row_of(begin[i]), rows.width, place + rows.width * i); });
         begin = end;
     }
     std::vector<Bytes> answers;
@@ -207,9 +207,10 @@ Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<con
         Packer packer;
         if (!question.empty()) {
             const auto asked = unpacked<std::int64_t>(question);
-            packer.reserve(asked.size() * 3 * sizeof(double));
+            packer.reserve(asked.size() * static_cast<std::size_t>(rows.width) * sizeof(double));
             for (const std::int64_t number : asked)
-                packer.put_row(slice.vertices.row(number - first).data());
+                for (const double value : std::span(row_of(number), static_cast<std::size_t>(rows.width)))
+                    packer.put(value);
         }
         answers.push_back(packer.take());
     }
@@ -218,6 +219,15 @@ Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<con
             std::memcpy(*place, answer.data(), answer.size());
         ++place;
     }
+}
+
+Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<const std::int64_t> numbers,
+                       std::span<const std::int64_t> bounds)
+{
+    Points positions(static_cast<Eigen::Index>(numbers.size()), 3);
+    const auto n = static_cast<std::size_t>(slice.vertices.size());
+    fetch_rows(comm, {std::span<const double>(slice.vertices.data(), n), 3}, numbers, bounds,
+               std::span(positions.data(), static_cast<std::size_t>(positions.size())));
     return positions;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -42,8 +43,20 @@ void require_corners(const RankSlice& slice, const SliceBounds& bounds, int rank
 /// @param bounds of vertices or faces (see SliceBounds), the number within them.
 int range_of(std::span<const std::int64_t> bounds, std::int64_t number);
 
-/// Asks the ranks that have them for the positions of vertices. All ranks call this together.
+/// Rows of numbers, one for each vertex of a rank's range.
+struct RowsOfRange {
+    std::span<const double> numbers;
+    /// How many numbers a row has.
+    std::ptrdiff_t width = 1;
+};
+
+/// Asks the ranks that have them for the rows of vertices. All ranks call this together.
 /// @param numbers ascending, in the whole mesh. @param bounds those of vertices.
+/// @param fetched receives the rows, one after the other.
+void fetch_rows(Communicator& comm, const RowsOfRange& rows, std::span<const std::int64_t> numbers,
+                std::span<const std::int64_t> bounds, std::span<double> fetched);
+
+/// The same for the positions of vertices. All ranks call this together.
 /// @returns #numbers by 3.
 Points fetch_positions(Communicator& comm, const RankSlice& slice, std::span<const std::int64_t> numbers,
                        std::span<const std::int64_t> bounds);

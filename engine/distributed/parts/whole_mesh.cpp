@@ -64,20 +64,6 @@ RankSlice hand_out(Communicator& comm, const PolygonMesh& mesh, Index block)
     return slice;
 }
 
-std::vector<Index> hand_out(Communicator& comm, const std::vector<Index>& numbers, const RankSlice& slice)
-{
-    const auto sizes = comm.gather_all(std::vector<Index>{slice.n_faces()});
-    std::vector<Bytes> to_each(comm.size());
-    if (comm.rank() == 0) {
-        auto next = numbers.begin();
-        for (int r = 0; r < comm.size(); ++r) {
-            to_each[r] = packed(std::vector<Index>(next, next + sizes[r]));
-            next += sizes[r];
-        }
-    }
-    return unpacked<Index>(comm.exchange(std::move(to_each)).front());
-}
-
 Points gather_positions(Communicator& comm, const Points& own)
 {
     return points_of(comm.gather_at_first(coordinates_of(own)));

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/distributed/parts/deal.h"
 #include "engine/distributed/ranks/communicator.h"
+#include "engine/distributed/ranks/packing.h"
 #include "partition/polygon_mesh.h"
 
 /// From a mesh that rank 0 has as a whole to the ranges of all ranks, and back: for small meshes, and for what is
@@ -19,10 +22,19 @@ std::int64_t begin_of_range(std::int64_t n, int rank, int n_ranks, std::int64_t 
 /// @param mesh of rank 0; what others give is ignored. @param block see begin_of_range.
 RankSlice hand_out(Communicator& comm, const PolygonMesh& mesh, Index block);
 
-/// A number of each face to the ranks that have the faces.
-/// @param numbers of rank 0, #F of the whole mesh; what others give is ignored.
-/// @returns #F of the range.
-std::vector<Index> hand_out(Communicator& comm, const std::vector<Index>& numbers, const RankSlice& slice);
+/// A number of each vertex or face to the ranks in whose ranges they are.
+/// @param numbers of rank 0, of the whole mesh; what others give is ignored.
+/// @param bounds of vertices or faces (see SliceBounds).
+/// @returns those of the range.
+template <class Number>
+std::vector<Number> hand_out(Communicator& comm, const std::vector<Number>& numbers,
+                             std::span<const std::int64_t> bounds)
+{
+    std::vector<Bytes> to_each(comm.size());
+    for (std::size_t r = 0; comm.rank() == 0 && r < to_each.size(); ++r)
+        to_each[r] = packed(std::vector<Number>(numbers.begin() + bounds[r], numbers.begin() + bounds[r + 1]));
+    return unpacked<Number>(comm.exchange(std::move(to_each)).front());
+}
 
 /// The positions of all ranges at rank 0, #V of the whole mesh by 3; elsewhere 0 by 3.
 Points gather_positions(Communicator& comm, const Points& own);

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "tests/engine/distributed/shared_files.h"
 #include "tests/support/flows.h"
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/measure/displacement_meter.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 

@@ -5,7 +5,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/remarks.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 
 using namespace seamflow;
 

@@ -6,7 +6,7 @@
 #include "engine/measure/rescaling.h"
 #include "engine/measure/surface_measures.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/measure/surface_measures.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
 
 using namespace seamflow;

@@ -9,7 +9,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/measure/update_limit.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/flows.h"
 

@@ -9,7 +9,7 @@
 #include "engine/tasks/progress.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 
 using namespace seamflow;

@@ -9,7 +9,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/tasks/schedule_simulation.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/relative.h"
 

@@ -11,7 +11,7 @@
 #include "engine/setup/smoothed_radius.h"
 #include "engine/state/flow_state.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;

@@ -8,7 +8,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
 #include "partition/topology.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;

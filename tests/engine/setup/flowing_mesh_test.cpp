@@ -4,7 +4,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "engine/setup/smoothed_radius.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 
 using namespace seamflow;

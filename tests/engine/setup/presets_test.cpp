@@ -14,7 +14,7 @@
 #include "partition/metrics/flipped_faces.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/vertex_normals.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"
 #include "tests/support/random_meshes.h"

@@ -6,7 +6,7 @@
 #include "engine/state/checkpoint.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flow_kinds.h"
 #include "tests/support/temporary_directory.h"
 

@@ -10,7 +10,7 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/relative.h"

@@ -10,7 +10,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/geometry.h"
 #include "tests/support/denoising.h"
 #include "tests/support/flows.h"

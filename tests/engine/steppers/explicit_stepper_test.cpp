@@ -6,7 +6,7 @@
 #include "engine/mean_curvature_flow.h"
 #include "engine/steppers/explicit_stepper.h"
 #include "partition/errors.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/mean_curvature.h"
 #include "tests/support/flows.h"
 

@@ -8,7 +8,7 @@
 #include "partition/cut/colouring.h"
 #include "partition/cut/cut.h"
 #include "partition/decomposition/reverse_cuthill_mckee.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/cut_meshes.h"
 
 using namespace seamflow;

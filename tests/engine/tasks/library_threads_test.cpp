@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/mean_curvature_flow.h"
-#include "engine/tasks/library_threads.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
+#include "solvers/platform/library_threads.h"
 #include "tests/support/flows.h"
 #include "tests/support/skipped.h"
 

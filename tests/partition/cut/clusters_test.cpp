@@ -4,7 +4,7 @@
 
 #include "partition/connected_components.h"
 #include "partition/cut/clusters.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/cut_checks.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/cut/divide.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"
 

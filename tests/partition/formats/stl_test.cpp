@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/io/byte_order.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/temporary_directory.h"
 

@@ -16,7 +16,7 @@
 #include "partition/formats/off.h"
 #include "partition/formats/ply.h"
 #include "partition/formats/stl.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/temporary_directory.h"

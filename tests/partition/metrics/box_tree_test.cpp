@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/metrics/box_tree.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 
 using namespace seamflow;
 

@@ -5,7 +5,7 @@
 
 #include "partition/errors.h"
 #include "partition/metrics/displacement.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"

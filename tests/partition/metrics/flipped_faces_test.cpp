@@ -6,7 +6,7 @@
 
 #include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/flipped_faces.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/test_meshes.h"
 
 using namespace seamflow;

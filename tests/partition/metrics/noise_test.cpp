@@ -12,7 +12,7 @@
 #include "engine/tasks/parallel_executor.h"
 #include "partition/metrics/noise.h"
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/denoising.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"

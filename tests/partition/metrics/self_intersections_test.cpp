@@ -10,7 +10,7 @@
 #include "partition/metrics/self_intersections.h"
 #include "partition/metrics/triangle_crossing.h"
 #include "partition/metrics/triangulation.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/random_meshes.h"
 #include "tests/support/test_meshes.h"
 

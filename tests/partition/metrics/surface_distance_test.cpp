@@ -9,7 +9,7 @@
 #include "partition/metrics/surface_distance.h"
 #include "partition/metrics/triangulation.h"
 #include "partition/vector_area.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/relative.h"
 #include "tests/support/test_meshes.h"

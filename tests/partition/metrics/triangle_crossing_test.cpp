@@ -6,7 +6,7 @@
 
 #include "partition/metrics/exact_crossing.h"
 #include "partition/metrics/triangle_crossing.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 
 using namespace seamflow;
 

@@ -7,7 +7,7 @@
 
 #include "partition/metrics/triangulation.h"
 #include "partition/vector_area.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/relative.h"
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/metrics/vertex_normals.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/mesh_files.h"
 #include "tests/support/test_meshes.h"
 

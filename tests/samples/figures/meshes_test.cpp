@@ -7,9 +7,9 @@
 #include "partition/formats/mesh_io.h"
 #include "partition/metrics/roughness.h"
 #include "partition/topology.h"
-#include "samples/common/meshes.h"
 #include "samples/figures/experiments.h"
 #include "samples/figures/surfaces.h"
+#include "samples/meshes/meshes.h"
 #include "tests/samples/figures/made_up.h"
 #include "tests/support/temporary_directory.h"
 

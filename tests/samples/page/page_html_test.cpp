@@ -6,9 +6,9 @@
 
 #include "engine/mean_curvature_flow.h"
 #include "partition/errors.h"
-#include "samples/common/report_json.h"
 #include "samples/page/page_html.h"
 #include "samples/page/page_template.h"
+#include "samples/report/report_json.h"
 #include "tests/samples/page/inflated.h"
 #include "tests/support/relative.h"
 #include "tests/support/skipped.h"

@@ -11,7 +11,7 @@
 #include "partition/metrics/noise.h"
 #include "partition/metrics/vertex_distance.h"
 #include "partition/metrics/vertex_normals.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/denoising/chebyshev.h"
 #include "solvers/denoising/denoising_amount.h"
 #include "tests/support/denoising.h"

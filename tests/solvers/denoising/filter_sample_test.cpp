@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/tasks/parallel_executor.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/denoising/filter_sample.h"
 #include "tests/support/test_meshes.h"
 

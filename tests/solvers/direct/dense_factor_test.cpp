@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/direct/dense_factor.h"
 #include "tests/support/relative.h"
 

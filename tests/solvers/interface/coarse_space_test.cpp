@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/interface/coarse_space.h"
 #include "solvers/systems/neumann_system.h"
 #include "tests/support/cut_meshes.h"

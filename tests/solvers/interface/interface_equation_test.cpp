@@ -12,7 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/interface/interface_equation.h"
 #include "solvers/systems/neumann_system.h"
 #include "tests/support/cut_meshes.h"

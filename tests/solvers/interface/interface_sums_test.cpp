@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/interface/interface_sums.h"
 #include "tests/support/cut_meshes.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/krylov/conjugate_gradients.h"
 #include "tests/support/relative.h"
 
@@ -34,7 +34,8 @@ struct DefiniteSystem {
         ConjugateGradientVectors vectors(static_cast<Index>(right.rows()));
         x.setZero(right.rows(), 3);
         vectors.begin(right, run_serially);
-        return conjugate_gradients(multiply, precondition, measure, stop, x, vectors, run_serially);
+        return conjugate_gradients(PreconditionedEquations{multiply, precondition, measure}, stop, x, vectors,
+                                   run_serially);
     }
 
     /// The largest of the columns, relative to the right-hand side.

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/krylov/gmres.h"
 #include "tests/support/relative.h"
 
@@ -27,7 +27,8 @@ struct System {
     [[nodiscard]] GmresCycle cycle(double goal, int most, Points& x) const
     {
         KrylovBasis V(static_cast<Index>(right.rows()));
-        return gmres_cycle(multiply(), right - matrix * x, goal, most, V, x, run_serially);
+        const Points residual = right - matrix * x;
+        return gmres_cycle(multiply(), goal, most, {V, x, residual}, run_serially);
     }
 };
 
@@ -82,7 +83,7 @@ Restarted solve(const System& system, const IterationStop& stop, int most_in_cyc
         restarted.residuals.push_back(residual.norm());
     };
     KrylovBasis V(n);
-    restarted.result = gmres(system.multiply(), measure, stop, most_in_cycle, V, x, residual, run_serially);
+    restarted.result = gmres(system.multiply(), measure, stop, most_in_cycle, {V, x, residual}, run_serially);
     CHECK(restarted.result.residual == test::relative(residual_of(system, x), 1e-5));
     return restarted;
 }

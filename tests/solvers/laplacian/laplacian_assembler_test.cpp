@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"
 #include "tests/support/reference_data.h"

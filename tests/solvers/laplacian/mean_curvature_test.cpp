@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/mean_curvature.h"
 #include "tests/support/flows.h"
 #include "tests/support/matrices.h"

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/metrics/vertex_distance.h"
-#include "samples/common/meshes.h"
+#include "samples/meshes/meshes.h"
 #include "solvers/laplacian/geometry.h"
 #include "solvers/normals/face_neighbours.h"
 #include "solvers/normals/normal_diffusion.h"
@@ -160,11 +160,13 @@ TEST_CASE("vertices that fit their normals stay, others go to where they fit")
         normals.row(f) = vector_area(truth.face(f), truth.vertices).normalized();
     const PolygonMesh noisy = test::with_gaussian_noise(truth, 0.2, 1);
     PolygonMesh result = truth;
-    fit_vertices(truth, moving, FeatureLines(), normals, 0.1, truth.vertices, result.vertices);
+    fit_vertices(truth, moving, FeatureLines(), {normals, 0.1}, result.vertices);
     CHECK(test::compare_with_truth(truth, result).distance < 1e-3);
-    fit_vertices(truth, moving, FeatureLines(), normals, 0.1, noisy.vertices, result.vertices);
+    result.vertices = noisy.vertices;
+    fit_vertices(truth, moving, FeatureLines(), {normals, 0.1}, result.vertices);
     CHECK(test::angle_to_truth(truth, result) < 0.2);
     moving.fixed.assign(moving.fixed.size(), 1);
-    fit_vertices(truth, moving, FeatureLines(), normals, 0.1, noisy.vertices, result.vertices);
+    result.vertices = noisy.vertices;
+    fit_vertices(truth, moving, FeatureLines(), {normals, 0.1}, result.vertices);
     CHECK(result.vertices == noisy.vertices);
 }

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/sparse/sparse_pattern.h"
 
 using namespace seamflow;

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "partition/errors.h"
-#include "samples/common/meshes/random_numbers.h"
+#include "samples/meshes/random_numbers.h"
 #include "solvers/conditions/dirichlet.h"
 #include "solvers/conditions/predicted_side.h"
 #include "solvers/conditions/remainder.h"

@@ -1,0 +1,67 @@
+#include "engine/measure/origin_offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace seamflow {
+
+namespace {
+
+/// From this distance on, in extents, a mesh lies far away.
+constexpr double far = 16.0;
+
+bool has_sound_corners(const PolygonMesh& mesh)
+{
+    return std::ranges::all_of(mesh.face_vertices, [&](Index v) { return v >= 0 && v < mesh.n_vertices(); });
+}
+
+/// False where a few corners already show that the surface does not lie far away, which is nearly always. Every vertex
+/// of one that does is further than `far` - ½ extents from the origin in some coordinate, and extents of a few are
+/// smaller.
+bool may_lie_far(const PolygonMesh& mesh)
+{
+    constexpr std::size_t few = 1024;
+    const std::size_t stride = std::max(mesh.face_vertices.size() / few, std::size_t{1});
+    Point low = Point::Constant(std::numeric_limits<double>::infinity());
+    Point high = -low;
+    Point nearest = low;
+    for (std::size_t corner = 0; corner < mesh.face_vertices.size(); corner += stride) {
+        const Index v = mesh.face_vertices[corner];
+        if (v < 0 || v >= mesh.n_vertices())
+            return false;
+        const Point position = mesh.vertices.row(v);
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+        nearest = nearest.cwiseMin(position.cwiseAbs());
+    }
+    return nearest.maxCoeff() >= (far - 0.5) * (high - low).maxCoeff();
+}
+
+}  // namespace
+
+Point origin_offset(const PolygonMesh& mesh)
+{
+    if (!may_lie_far(mesh) || !has_sound_corners(mesh) || !mesh.vertices.allFinite())
+        return Point::Zero();
+    return origin_offset(box_of_faces(mesh));
+}
+
+Point origin_offset(const BoundingBox& box)
+{
+    const auto& [low, high] = box;
+    const double extent = (high - low).maxCoeff();
+    if (!std::isnormal(extent))
+        return Point::Zero();
+    // Multiples of the grid have few bits: what is left of a coordinate beside one has no more than it had itself.
+    const double grid = std::exp2(std::ilogb(extent) + 1);
+    Point offset = Point::Zero();
+    for (int c = 0; c < 3; ++c) {
+        const double middle = low[c] + (high[c] - low[c]) / 2.0;
+        if (std::abs(middle) >= far * extent)
+            offset[c] = std::round(middle / grid) * grid;
+    }
+    return offset;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,158 @@
+#include "engine/setup/prepared_flow.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "engine/measure/remarks.h"
+#include "engine/measure/surface_measures.h"
+#include "engine/setup/automatic_choices.h"
+#include "engine/setup/constraints.h"
+#include "engine/tasks/parallel_executor.h"
+#include "solvers/laplacian/laplacian.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Checks the mesh, and says what tells the flow from others where that is needed.
+FlowIdentity require_sound(const PolygonMesh& mesh, const FlowOptions& options, bool is_observed,
+                           const FlowState* resume, Progress& progress)
+{
+    require_valid(mesh, progress.exec());
+    progress.count();
+    if (resume == nullptr && !is_observed)
+        return {};
+    FlowIdentity identity = identify(mesh, options);
+    if (resume != nullptr)
+        require_same(resume->identity, identity);
+    progress.count();
+    return identity;
+}
+
+/// @param choices gets a sentence if the number of sub-meshes is chosen.
+Cut make_cut(const PolygonMesh& mesh, const MeshSize& size, const Topology& topology, const FlowOptions& options,
+             const Executor& exec, const Alongside& alongside, std::vector<std::string>& choices)
+{
+    if (options.keep_edges || options.scheme == Scheme::ExplicitEuler || takes_whole_mesh(options.accuracy.approach))
+        return cut_into(mesh, topology, 1, exec);
+    if (!options.cut.labels.empty())
+        return cut_by_labels(mesh, topology, options.cut.labels, exec);
+    if (options.cut.subdomains > 0)
+        return cut_into(mesh, topology, options.cut.subdomains, exec, alongside);
+    const SubdomainChoice choice =
+        choose_subdomains(size, options.time_step, needs_of(options.laplacian, options.accuracy.tolerance.has_value()));
+    choices.push_back(choice.reason + ".");
+    return cut_into(mesh, topology, choice.count, exec, alongside);
+}
+
+/// Joins the faces and settles which vertices move.
+void examine(PreparedFlow& prepared, FlowingMesh& mesh, Progress& progress)
+{
+    FlowOptions& options = prepared.options;
+    Topology& topology = prepared.topology;
+    const auto look = [&] {
+        // Part of the topology is made by one thread.
+        run_both([&] { topology = make_topology(mesh.mesh(), progress.exec()); },
+                 [&] { prepared.size = size_of(mesh.mesh()); });
+    };
+    const auto constrain_it = [&] {
+        prepared.remarks.clear();
+        constrain(topology, mesh.mesh(), options, progress.exec(), prepared.remarks);
+        prepared.size.vertices -= mesh.n_copies();
+    };
+    look();
+    mesh.weld_seams(topology, options.motion, progress.exec());
+    constrain_it();
+    // The sub-meshes as they are have all faces.
+    if (options.report.keep_gaps || !mesh.leave_out_repeated_faces(topology))
+        return;
+    options.cut.labels = mesh.of_faces_left(options.cut.labels);
+    look();
+    constrain_it();
+}
+
+/// METIS has one thread: the others measure in the meantime; where it has nothing to do measuring comes afterwards.
+void cut_and_measure(PreparedFlow& prepared, const PolygonMesh& mesh, Progress& progress)
+{
+    bool is_measured = false;
+    const auto measure = [&] {
+        is_measured = true;
+        const FlowOptions& options = prepared.options;
+        // Colours are ordered by it.
+        const bool is_ordering = options.accuracy.approach == Approach::Sweep;
+        const bool is_beside_cut = options.report.measures && !takes_whole_mesh(options.accuracy.approach);
+        if (is_ordering || is_beside_cut)
+            prepared.curvature = measure_curvature(mesh, prepared.topology, mesh.vertices, laplacian_of(options));
+        if (options.report.measures)
+            prepared.meter.emplace(mesh, prepared.topology);
+    };
+    prepared.cut = make_cut(
+        mesh, prepared.size, prepared.topology, prepared.options, progress.exec(),
+        [&](const std::function<void()>& serial) { run_both(serial, measure); }, prepared.choices);
+    if (!is_measured)
+        measure();
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedFlow> prepare(FlowingMesh& mesh, const FlowOptions& options, bool is_observed,
+                                      const FlowState* resume, Progress& progress)
+{
+    auto prepared = std::make_unique<PreparedFlow>();
+    prepared->options = options;
+    prepared->identity = require_sound(mesh.mesh(), options, is_observed, resume, progress);
+    examine(*prepared, mesh, progress);
+    progress.count();
+    const Topology& topology = prepared->topology;
+    AccuracyOptions& accuracy = prepared->options.accuracy;
+    const ApproachChoice choice = choose_approach(mesh.mesh(), topology, prepared->size, prepared->options,
+                                                  resume != nullptr ? std::optional(resume->approach) : std::nullopt);
+    accuracy.approach = choice.approach;
+    accuracy.tolerance = choice.tolerance;
+    progress.count();
+    cut_and_measure(*prepared, mesh.mesh(), progress);
+    std::vector<std::string>& remarks = prepared->remarks;
+    remarks.insert(remarks.begin(), prepared->cut.remarks.begin(), prepared->cut.remarks.end());
+    // One sub-mesh is solved exactly either way.
+    if (prepared->cut.n_parts == 1 && accuracy.approach == Approach::Converged && !choice.reason.empty()) {
+        accuracy.approach = Approach::Undecomposed;
+        accuracy.tolerance.reset();
+    } else if (!choice.reason.empty()) {
+        prepared->choices.insert(prepared->choices.begin(), choice.reason);
+    }
+    if (!accuracy.tolerance && options.scheme == Scheme::BackwardEuler)
+        require_boundary_unshared(topology, prepared->cut.labels, moving_boundary(mesh.mesh(), topology));
+    return prepared;
+}
+
+void describe(const PreparedFlow& prepared, const FlowingMesh& mesh, FlowReport& report)
+{
+    const FlowOptions& options = prepared.options;
+    const Topology& topology = prepared.topology;
+    report.mesh.vertices = mesh.mesh().n_vertices();
+    report.mesh.faces = mesh.mesh().n_faces();
+    report.time_step = options.time_step;
+    report.convergence.approach = options.accuracy.approach;
+    report.convergence.tolerance = options.accuracy.tolerance;
+    report.cut.repaired_faces = prepared.cut.repaired_faces;
+    report.choices = prepared.choices;
+    report.remarks = prepared.remarks;
+    report.mesh.non_manifold_vertices =
+        static_cast<Index>(std::count(topology.kind.begin(), topology.kind.end(), VertexKind::NonManifold));
+    if (report.mesh.non_manifold_vertices > 0)
+        report.remarks.push_back(remark_on_non_manifold_vertices(report.mesh.non_manifold_vertices));
+    for (Index v = 0; v < mesh.mesh().n_vertices(); ++v)
+        report.mesh.fixed_vertices += topology.moves(mesh.moves_with(v)) ? 0 : 1;
+    if (prepared.cut.n_parts > 1 && options.steps > 0 && !options.accuracy.tolerance) {
+        const double width = width_in_diffusion_lengths(prepared.size.area, prepared.cut.n_parts, options.time_step);
+        if (width < needs_of_sweeps.width)
+            report.remarks.push_back(fmt::format(
+                "The sub-meshes are narrow against √dt ({:.2f} √dt on average, 10 are good): the result may "
+                "drift from the undecomposed flow; use fewer sub-meshes.",
+                width));
+    }
+}
+
+}  // namespace seamflow

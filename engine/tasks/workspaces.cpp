@@ -1,0 +1,23 @@
+#include "engine/tasks/workspaces.h"
+
+#include <algorithm>
+
+#include <oneapi/tbb/task_arena.h>
+
+namespace seamflow {
+
+namespace arena = oneapi::tbb::this_task_arena;
+
+Workspaces::Workspaces()
+    : n_threads_(static_cast<Index>(arena::max_concurrency()))
+    // An arena of one thread gets a second one for what is put into it from outside (see TaskGraph::signal).
+    , workspaces_(std::max(at(n_threads_), std::size_t{2}))
+{
+}
+
+SolverWorkspace& Workspaces::local()
+{
+    return workspaces_.at(static_cast<std::size_t>(arena::current_thread_index()));
+}
+
+}  // namespace seamflow

@@ -1,0 +1,89 @@
+#include "samples/command/distributed_command.h"
+
+#include "engine/options/option_table.h"
+#include "engine/setup/presets.h"
+#include "partition/errors.h"
+#include "samples/command/command_help.h"
+#include "samples/command/command_line.h"
+#include "samples/command/presets.h"
+
+namespace seamflow {
+
+namespace {
+
+/// What is about the whole mesh, or shows the tasks of one process.
+std::vector<SmoothProgram::Lack> lacks()
+{
+    const char* const one_process = "it takes the whole mesh in one process; smooth has it";
+    std::vector<SmoothProgram::Lack> list{
+        {"--noise", "the amount for it takes the whole mesh; say --time-step, --time-step-edges or --radius"}};
+    for (const OptionTraits& one : all_options())
+        if ((one.concerns & concern::one_process) != 0 && !one.option.empty())
+            list.push_back({std::string(one.option), one_process});
+    for (const char* const own : {"--edges-from-file", "--self-intersections", "--trace", "--task-graph", "--html"})
+        list.push_back({own, one_process});
+    return list;
+}
+
+/// Steps of ranks are in sub-meshes: sweeps where neither a tolerance is asked for nor a free boundary, which
+/// sub-meshes can share in converged steps alone.
+void settle_approach(FlowOptions& options)
+{
+    AccuracyOptions& accuracy = options.accuracy;
+    if (accuracy.approach != Approach::Automatic && accuracy.approach != Approach::Decomposed)
+        return;
+    const bool shares_boundary = options.motion.boundary == Boundary::Free && options.interface == InterfaceOptions();
+    accuracy.approach = accuracy.tolerance || shares_boundary ? Approach::Converged : Approach::Sweep;
+}
+
+}  // namespace
+
+std::optional<ExitStatus> parse_distributed_command(int argc, char** argv, int rank, DistributedCommand& command)
+{
+    std::optional<std::size_t> whole_up_to;
+    const SmoothProgram program{
+        .name = "smooth-distributed",
+        .description = "Smooths a mesh as smooth does, on as many ranks of MPI as mpirun starts: mpirun -n 4 "
+                       "smooth-distributed INPUT OUTPUT …",
+        .lacks = lacks(),
+        .examples = "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1%   four ranks, each with a quarter\n"
+                    "mpirun -n 4 smooth-distributed scan.ply smooth.ply --time-step-edges 5 --converge 1e-6   exact "
+                    "steps\n"
+                    "mpirun -n 4 smooth-distributed scan.ply smooth.ply --radius 1% --steps 50 --checkpoint state   "
+                    "goes on where it was stopped\n",
+        .add_own =
+            [&](CLI::App& app) {
+                app.get_option("--approach")
+                    ->type_name("auto|decomposed|sweep|converged")
+                    ->description("how a step is taken [sweep; converged with --converge or --boundary free]\n"
+                                  "sweep: one sweep over the sub-meshes; converged: these converge to the undecomposed "
+                                  "step.");
+                app.get_option("--conditions")->type_name("adapted-robin|adapted-ventcell");
+                app.get_option("--preset")
+                    ->type_name("fair")
+                    ->description("options that suit a kind of mesh\nSmooth alone, which has the whole mesh, measures "
+                                  "noise and keeps edges.");
+                app.option_defaults()->group(option_group::machine);
+                add_bytes(app, "--whole-up-to", whole_up_to,
+                          "rank 0 alone reads and writes files of up to so many bytes, in any format [16MiB]");
+            },
+        .checks_files = rank == 0};
+    if (const auto end = parse_smooth_command(argc, argv, command.flow, program))
+        return end;
+    if (command.flow.options.keep_edges)
+        throw OptionError("--preset cad keeps edges, which takes the whole mesh: let smooth do it");
+    if (command.flow.chooses_amount) {
+        const PresetTraits& preset = preset_of(command.flow.preset);
+        if (preset.measures_noise())
+            throw OptionError("say how much to smooth by --time-step, --time-step-edges or --radius, or --preset fair: "
+                              "smooth alone, which has the whole mesh, can measure its noise");
+        command.flow.amount = {.time_step_edges = preset.time_step_edges, .radius = preset.radius};
+        command.flow.chosen += amount_of(preset);
+    }
+    settle_approach(command.flow.options);
+    if (whole_up_to)
+        command.sharing.whole_up_to = *whole_up_to;
+    return std::nullopt;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,157 @@
+#include "samples/command/parse_smooth_command.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "partition/io/input_file.h"
+#include "samples/command/command_help.h"
+#include "samples/command/command_line.h"
+#include "samples/command/settled_options.h"
+#include "samples/command/smooth_options.h"
+#include "samples/files/output_files.h"
+#include "samples/page/page_html.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Results in formats that there are.
+void require_usable_results(const SmoothCommand& command)
+{
+    if (!command.html.empty())
+        require_page();
+    kind_for_writing(command.output, FileKind{});
+    if (command.every_step)
+        kind_for_writing(command.every_step->path(1), FileKind{});
+    if (!command.parts.empty() && kind_for_writing(command.parts, FileKind{}).format != FileFormat::Ply)
+        throw OptionError("--parts " + command.parts.string() + ": the cut is written as .ply only");
+}
+
+/// The most that --every-step may write.
+constexpr int most_files = 100'000;
+
+/// Also keeps every result but OUTPUT from replacing one of the inputs.
+void require_usable_files(const SmoothCommand& command)
+{
+    if (command.every_step && command.options.steps > most_files)
+        throw OptionError(
+            fmt::format("--every-step would write {} files; {} are the most", command.options.steps, most_files));
+    std::vector<std::filesystem::path> results;
+    for (int step = 1; command.every_step && step <= command.options.steps; ++step)
+        results.push_back(command.every_step->path(step));
+    for (const auto& path : {command.csv, command.parts, command.trace, command.task_graph, command.html})
+        if (!path.empty())
+            results.push_back(path);
+    require_files(results);
+    if (is_standard_stream(command.report) && is_standard_stream(command.output))
+        throw OptionError("OUTPUT and --report are both -: name a file for one of them");
+    if (!command.report.empty() && !is_standard_stream(command.report))
+        results.push_back(command.report);
+    if (command.edges_from_file && is_input_stream(command.input))
+        throw OptionError("--edges-from-file reads INPUT a second time: name a file instead of -");
+    require_files({command.labels, command.fix, command.edges, command.attach_weights});
+    for (const auto& input : {command.input, command.labels, command.fix, command.edges, command.attach_weights}) {
+        std::vector<std::filesystem::path> files = results;
+        if (!input.empty())
+            files.push_back(input);
+        require_different(files);
+    }
+    results.push_back(command.output);
+    std::vector<std::filesystem::path> all = results;
+    if (!command.checkpoint.empty())
+        all.insert(all.end(), {command.checkpoint, Checkpoints(command.checkpoint, {}).file()});
+    require_different(all);
+    for (const auto& path : results)
+        require_writable(path);
+}
+
+/// --help does not speak of what a program has not.
+void hide(CLI::App& app, const SmoothProgram& program)
+{
+    for (const SmoothProgram::Lack& lack : program.lacks)
+        app.get_option(lack.option)->group("");
+}
+
+void require_known(const CLI::App& app, const SmoothProgram& program)
+{
+    for (const SmoothProgram::Lack& lack : program.lacks)
+        if (app.count(lack.option) > 0)
+            throw OptionError(fmt::format("{} has no {}: {}", program.name, lack.option, lack.reason));
+}
+
+}  // namespace
+
+std::optional<ExitStatus> parse_smooth_command(int argc, char** argv, SmoothCommand& command,
+                                               const SmoothProgram& program)
+{
+    CLI::App app(program.description, program.name);
+    std::string every_step;
+    add_flow_options(app, command);
+    add_files(app, command, every_step);
+    app.footer(program.examples.empty() ? smooth_examples() : program.examples);
+    if (program.add_own)
+        program.add_own(app);
+    hide(app, program);
+    if (const auto end = parse_command_line(app, argc, argv))
+        return end;
+    require_known(app, program);
+    command.arguments.assign(argv + 1, argv + argc);
+    settle(app, command);
+    // Nobody would see it.
+    command.options.report.measures = command.verbose || !command.report.empty() || !command.csv.empty() ||
+                                      !command.html.empty() || !command.checkpoint.empty();
+    command.self_intersections = command.self_intersections || !command.report.empty();
+    command.options.report.record_schedule = !command.trace.empty() || !command.task_graph.empty();
+    if (!every_step.empty())
+        command.every_step.emplace(every_step);
+    require_usable_results(command);
+    if (program.checks_files)
+        require_usable_files(command);
+    return std::nullopt;
+}
+
+std::vector<FlowOptionText> flow_options()
+{
+    CLI::App app;
+    app.set_help_flag();
+    SmoothCommand command;
+    add_flow_options(app, command);
+    std::vector<FlowOptionText> list;
+    for (const CLI::Option* option : options_by_groups(app))
+        for (const std::string& name : option->get_lnames())
+            list.push_back({.name = name,
+                            .type = option->get_type_name(),
+                            .description = option->get_description(),
+                            .is_flag = option->get_items_expected_max() == 0});
+    return list;
+}
+
+SmoothCommand parse_flow_options(const std::vector<std::string>& words)
+{
+    CLI::App app;
+    app.set_help_flag();
+    SmoothCommand command;
+    add_flow_options(app, command);
+    // CLI11 takes them last first.
+    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    try {
+        app.parse(std::move(reversed));
+    } catch (const CLI::ParseError& error) {
+        throw OptionError(error.what());
+    }
+    command.arguments = words;
+    settle(app, command);
+    return command;
+}
+
+int steps_failed(const SmoothCommand& command, const ConvergenceReport& report)
+{
+    if (!command.options.accuracy.tolerance)
+        return 0;
+    return command.limits_iterations ? report.steps_stagnated : report.steps_short_of_tolerance;
+}
+
+}  // namespace seamflow

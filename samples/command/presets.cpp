@@ -1,0 +1,46 @@
+#include "samples/command/presets.h"
+
+#include <fmt/format.h>
+
+#include "engine/options/option_names.h"
+
+namespace seamflow {
+
+std::vector<PresetOption> options_of(const PresetTraits& preset)
+{
+    using Attach = std::optional<LengthOnMesh>;
+    const PresetTraits defaults{};
+    std::vector<PresetOption> options;
+    // What keeps edges does not look at the Laplacian.
+    if (!preset.keep_edges)
+        options.push_back({"--laplacian", std::string(name_of(preset.laplacian)),
+                           [=](FlowOptions& o, Attach&) { o.laplacian = preset.laplacian; }});
+    if (preset.flow != defaults.flow)
+        options.push_back(
+            {"--flow", std::string(option_name(preset.flow)), [=](FlowOptions& o, Attach&) { o.flow = preset.flow; }});
+    if (preset.filter != defaults.filter)
+        options.push_back({"--filter", std::string(option_name(preset.filter)),
+                           [=](FlowOptions& o, Attach&) { o.filter = preset.filter; }});
+    if (preset.order != defaults.order)
+        options.push_back(
+            {"--order", fmt::format("{}", preset.order), [=](FlowOptions& o, Attach&) { o.order = preset.order; }});
+    if (preset.keep_edges)
+        options.push_back({"--keep-edges", fmt::format("{}", *preset.keep_edges),
+                           [=](FlowOptions& o, Attach&) { o.keep_edges = preset.keep_edges; }});
+    if (preset.attach)
+        options.push_back({"--attach", fmt::format("{:g}%", 100.0 * preset.attach->value),
+                           [=](FlowOptions&, Attach& attach) { attach = preset.attach; }});
+    if (preset.steps != defaults.steps)
+        options.push_back(
+            {"--steps", fmt::format("{}", preset.steps), [=](FlowOptions& o, Attach&) { o.steps = preset.steps; }});
+    return options;
+}
+
+std::string amount_of(const PresetTraits& preset)
+{
+    if (preset.time_step_edges)
+        return fmt::format("--time-step-edges {}", *preset.time_step_edges);
+    return preset.radius ? fmt::format("--radius {:g}%", 100.0 * preset.radius->value) : "";
+}
+
+}  // namespace seamflow

@@ -1,0 +1,224 @@
+#include "samples/command/settled_options.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/options/option_table.h"
+#include "partition/errors.h"
+#include "partition/formats/mesh_io.h"
+#include "samples/command/presets.h"
+#include "samples/process/cpu_quota.h"
+
+namespace seamflow {
+
+namespace {
+
+/// Options of the program that are no fields of FlowOptions (see option_table.h).
+constexpr OptionTraits options_of_program[] = {
+    {"", "--parts", concern::sub_meshes},
+    {"", "--task-graph", concern::sub_meshes},
+    {"", "--trace", concern::sub_meshes},
+    {"", "--paper", concern::sweeps | concern::method},
+};
+
+/// The first of these options that was given; empty: none.
+std::string first_given(const CLI::App& app, std::initializer_list<std::string_view> names)
+{
+    for (const std::string_view name : names)
+        if (const CLI::Option* option = app.get_option_no_throw(std::string(name));
+            option != nullptr && option->count() > 0)
+            return std::string(name);
+    return {};
+}
+
+/// The same of those with one of these concerns.
+std::string first_given(const CLI::App& app, unsigned concerns)
+{
+    for (const std::span<const OptionTraits> list : {std::span<const OptionTraits>(options_of_program), all_options()})
+        for (const OptionTraits& one : list)
+            if ((one.concerns & concerns) != 0)
+                if (std::string found = first_given(app, {one.option}); !found.empty())
+                    return found;
+    return {};
+}
+
+/// Options that mean nothing to steps that keep edges.
+void require_room_for_edges(const CLI::App& app, const SmoothCommand& command)
+{
+    const std::string other = first_given(app, concern::equations);
+    if (command.options.keep_edges && !other.empty())
+        throw OptionError(other +
+                          " is about the equations of mean curvature flow, but --keep-edges smooths face normals "
+                          "on the whole mesh: leave one of them out");
+}
+
+/// @param of_sweeps an option that is about sweeps; may be empty.
+void require_consistent_approach(const CLI::App& app, const SmoothCommand& command, const std::string& of_sweeps)
+{
+    const Approach approach = command.options.accuracy.approach;
+    if (app.count("--approach") == 0 || approach == Approach::Automatic || approach == Approach::Decomposed)
+        return;
+    const std::string name = fmt::format("--approach {}", option_name(approach));
+    if (approach == Approach::Sweep && command.options.accuracy.tolerance)
+        throw OptionError("--converge takes converged steps, but " + name + " takes sweeps: leave one of them out");
+    if (approach != Approach::Sweep && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but " + name + " takes none: leave one of them out");
+    const std::string of_sub_meshes = first_given(
+        app, approach == Approach::ConjugateGradients ? concern::sub_meshes | concern::factors : concern::sub_meshes);
+    if (takes_whole_mesh(approach) && !of_sub_meshes.empty())
+        throw OptionError(of_sub_meshes + " is about sub-meshes, but " + name +
+                          " takes the whole mesh: leave one of them out");
+}
+
+/// Options that would have no effect are a mistake of the user's.
+void require_effective(const CLI::App& app, const SmoothCommand& command)
+{
+    const std::string of_sweeps = first_given(app, concern::sweeps);
+    if (command.options.accuracy.tolerance && !of_sweeps.empty())
+        throw OptionError(of_sweeps + " is about sweeps, but --converge takes converged steps: leave one of them out");
+    require_consistent_approach(app, command, of_sweeps);
+    if (app.count("--converge") > 0 && command.options.accuracy.approach == Approach::Sweep)
+        if (const std::string of_converged = first_given(app, concern::converged_steps); !of_converged.empty())
+            throw OptionError(of_converged + " is for converged steps, but --converge never takes none");
+    if (app.count("--p") > 0)
+        if (const std::string rule = first_given(app, {"--p-rule", "--p-edge"}); !rule.empty())
+            throw OptionError(rule + " is about p*, but --p sets p itself: leave one of them out");
+    if (app.count("--fix-property") > 0 && format_of(command.fix) != FileFormat::Ply)
+        throw OptionError("--fix-property is for a .ply file; " + command.fix.string() + " has numbers of vertices");
+    if (app.count("--attach-property") > 0 && format_of(command.attach_weights) != FileFormat::Ply)
+        throw OptionError("--attach-property is for a .ply file; " + command.attach_weights.string() +
+                          " has a number a line");
+}
+
+/// Whether what a preset says by an option is said otherwise, or has no place beside what is.
+bool is_said(const CLI::App& app, const SmoothCommand& command, std::string_view option)
+{
+    if (app.count(std::string(option)) > 0)
+        return true;
+    const bool is_further = option == "--flow" || option == "--filter" || option == "--order" || option == "--attach";
+    if (app.count("--laplacian") > 0 && !is_symmetric(command.options.laplacian))
+        return is_further;
+    if (option == "--flow")
+        return command.options.accuracy.approach == Approach::ConjugateGradients;
+    return (option == "--attach" && app.count("--attach-weights") > 0) ||
+           (option == "--order" && app.count("--filter") > 0);
+}
+
+bool names_edges(const CLI::App& app)
+{
+    return app.count("--edges") + app.count("--edges-from-file") > 0;
+}
+
+bool keeps_edges(const CLI::App& app)
+{
+    return app.count("--keep-edges") > 0 || names_edges(app);
+}
+
+/// Takes from the preset that is asked for, or that an amount which is not given asks for, what no option says.
+void apply_preset(const CLI::App& app, SmoothCommand& command)
+{
+    const bool has_amount = !first_given(app, {"--time-step", "--time-step-edges", "--radius"}).empty();
+    if (app.count("--time-step") + app.count("--time-step-edges") + app.count("--radius") > 1)
+        throw OptionError("--time-step, --time-step-edges and --radius all say how much to smooth: give one of them");
+    if (has_amount && command.noise)
+        throw OptionError("--noise says how much a preset is to smooth, and " +
+                          first_given(app, {"--time-step", "--time-step-edges", "--radius"}) +
+                          " does so, too: give one of them");
+    if (command.preset.empty() && has_amount)
+        return;
+    if (const std::string other = first_given(app, concern::method); !other.empty())
+        throw OptionError(
+            fmt::format("{} {}: say how much to smooth by --time-step, --time-step-edges or --radius{}", other,
+                        command.preset.empty() ? "goes with no preset" : "and --preset exclude each other",
+                        command.preset.empty() ? "" : ", and leave the preset out"));
+    if (command.preset.empty())
+        command.preset = keeps_edges(app) ? "cad" : all_presets().front().name;
+    const PresetTraits& preset = preset_of(command.preset);
+    if (command.noise && !preset.measures_noise())
+        throw OptionError("--noise is for --preset scan and terrain; the amount of " + command.preset +
+                          " does not depend on it");
+    std::string left_out;
+    for (const PresetOption& option : options_of(preset)) {
+        if (is_said(app, command, option.name)) {
+            if (app.count(std::string(option.name)) == 0 && !is_symmetric(command.options.laplacian))
+                left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", option.name, option.value);
+            continue;
+        }
+        option.set(command.options, command.attach);
+        command.chosen += fmt::format("{} {} ", option.name, option.value);
+    }
+    if (!left_out.empty())
+        command.remarks.push_back(fmt::format("--preset {} leaves out {}, which --laplacian {} has no place for.",
+                                              command.preset, left_out, name_of(command.options.laplacian)));
+    command.chooses_amount = !has_amount;
+}
+
+void require_consistent(const CLI::App& app, const SmoothCommand& command)
+{
+    require_room_for_edges(app, command);
+    require_effective(app, command);
+    if (app.count("--overlap") > 0 && command.options.interface.conditions != Conditions::Schwarz)
+        throw OptionError("--overlap is for --conditions schwarz; other sub-meshes do not overlap");
+    if (command.options.interface.conditions == Conditions::Schwarz &&
+        command.options.interface.sweep == Sweep::Alternating)
+        throw OptionError(
+            "--conditions schwarz sweeps in the same order in every step; --sweep alternating contradicts "
+            "it");
+    if (command.options.interface.conditions == Conditions::Schwarz && command.options.interface.p)
+        throw OptionError("--p is for the Robin and Ventcell conditions; schwarz has no Robin parameter");
+    if (has_tangential_derivative(command.options.interface.conditions) && !command.options.interface.q)
+        throw OptionError("--conditions " + std::string(option_name(command.options.interface.conditions)) +
+                          " needs --q, the Ventcell parameter (see (20) to (25) of the paper)");
+    if (app.count("--transmission") > 0 && command.options.interface.conditions != Conditions::AdaptedRobin)
+        throw OptionError("--transmission is for --conditions adapted-robin; others have one way only");
+    if (app.count("--paper") > 0 && command.options.interface.sweep != FlowOptions::plain().interface.sweep)
+        throw OptionError("--paper sweeps in the same order in every step; --sweep alternating contradicts it");
+    if (app.count("--paper") > 0 &&
+        command.options.interface.transmission != FlowOptions::plain().interface.transmission)
+        throw OptionError("--paper keeps to the derivatives of the paper; --transmission predicted contradicts it");
+    if (command.options.motion.rescale != Rescale::None && !command.fix.empty())
+        throw OptionError(
+            "--rescale moves every vertex, but --fix holds some: leave --rescale out; --filter low-pass, with "
+            "which what is large hardly shrinks, lets them stay");
+    for (const auto& [option, path] : {std::pair{"--trace", command.trace}, {"--task-graph", command.task_graph}})
+        if (!path.empty() && command.options.scheme == Scheme::ExplicitEuler)
+            throw OptionError(
+                std::string(option).append(" shows the tasks of the sub-meshes; --scheme explicit has none"));
+    if (app.count("--factorisation") > 0 && command.options.scheme == Scheme::ExplicitEuler &&
+        !command.options.report.reference)
+        throw OptionError("--factorisation is for backward Euler steps; --scheme explicit solves no equations");
+    if (command.options.resources.memory_limit && command.options.scheme == Scheme::ExplicitEuler)
+        throw OptionError("--memory-limit is for the factorisations of sub-meshes; --scheme explicit has none");
+}
+
+}  // namespace
+
+void settle(const CLI::App& app, SmoothCommand& command)
+{
+    command.chooses_threads = command.options.resources.threads == 0;
+    if (command.chooses_threads)
+        command.options.resources.threads = threads_within_quota();
+    apply_preset(app, command);
+    if (names_edges(app) && !command.options.keep_edges)
+        throw OptionError(first_given(app, {"--edges", "--edges-from-file"}) +
+                          " names edges to keep: say --preset cad, or --keep-edges with an angle, as well");
+    command.limits_iterations = app.count("--converge-iterations") > 0;
+    if (app.count("--approach") == 0 && !first_given(app, concern::implies_sweeps).empty())
+        command.options.accuracy.approach = Approach::Sweep;
+    if (command.options.accuracy.approach == Approach::Automatic && !first_given(app, concern::sub_meshes).empty())
+        command.options.accuracy.approach = Approach::Decomposed;
+    require_consistent(app, command);
+    if (app.count("--conditions") > 0 && app.count("--paper") == 0 &&
+        command.options.interface.conditions == Conditions::AdaptedRobin)
+        command.remarks.emplace_back(
+            "--conditions adapted-robin alone is not the paper's own method, which takes --paper as well: a fixed "
+            "sweep, and derivatives at the old positions.");
+}
+
+}  // namespace seamflow

@@ -1,0 +1,38 @@
+#include "samples/files/checkpoints.h"
+
+#include "engine/state/checkpoint.h"
+
+namespace seamflow {
+
+namespace {
+
+constexpr const char* file_name = "smooth.checkpoint";
+
+}  // namespace
+
+Checkpoints::Checkpoints(const std::filesystem::path& folder, const CheckpointPeriod& period)
+    : file_(folder / file_name)
+    , period_(period)
+{
+}
+
+std::shared_ptr<const FlowState> Checkpoints::find(const PolygonMesh& mesh, const FlowOptions& options) const
+{
+    make_checkpoint_folder(file_.parent_path());
+    if (!std::filesystem::exists(file_))
+        return nullptr;
+    auto state = std::make_shared<const FlowState>(read_checkpoint(file_));
+    require_belongs(file_, state->identity, identify(mesh, options), state->n_steps(), options.steps);
+    return state;
+}
+
+void Checkpoints::keep(const StepState& state, bool is_last)
+{
+    if (!is_last && (state.step % period_.steps != 0 || since_kept_.seconds() < period_.seconds))
+        return;
+    write_checkpoint(file_, state.capture());
+    step_ = state.step;
+    since_kept_.lap();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,62 @@
+#include "samples/process/exit_status.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "partition/errors.h"
+#include "samples/process/blas_threads.h"
+#include "samples/process/option_words.h"
+
+namespace seamflow {
+
+namespace {
+
+ExitStatus tell(const char* program, const Failure& failure)
+{
+    std::cout.flush();
+    std::cerr << program << ": " << failure.message << '\n';
+    return failure.status;
+}
+
+}  // namespace
+
+Failure current_failure()
+{
+    try {
+        throw;
+    } catch (const OptionError& error) {
+        return {ExitStatus::WrongUsage, in_words_of_options(error.what())};
+    } catch (const InputError& error) {
+        return {ExitStatus::UnusableInput, error.what()};
+    } catch (const OutputError& error) {
+        return {ExitStatus::OutputNotWritten, error.what()};
+    } catch (const std::bad_alloc&) {
+        return {ExitStatus::ComputationFailed,
+                "there is not enough memory: close other programs, raise the limit of this one (ulimit -v), or "
+                "give it less to do at once (fewer vertices; where these options are, more --subdomains or fewer "
+                "--threads)"};
+    } catch (const std::exception& error) {
+        return {ExitStatus::ComputationFailed, error.what()};
+    } catch (...) {
+        return {ExitStatus::ComputationFailed, "failed for an unknown reason"};
+    }
+}
+
+int run_program(const char* program, const std::function<ExitStatus()>& body)
+{
+    ExitStatus status = ExitStatus::Success;
+    try {
+        do_without_blas_threads_where_limited();
+        status = body();
+    } catch (...) {
+        status = tell(program, current_failure());
+    }
+    std::cout.flush();
+    if (status == ExitStatus::Success && !std::cout)
+        status =
+            tell(program, {ExitStatus::OutputNotWritten, "standard output could not be written: is its disk full?"});
+    return static_cast<int>(status);
+}
+
+}  // namespace seamflow

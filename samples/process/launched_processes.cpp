@@ -1,0 +1,51 @@
+#include "samples/process/launched_processes.h"
+
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <iostream>
+#include <string_view>
+
+namespace seamflow {
+
+namespace {
+
+/// Where a launcher tells a process how many there are, and which of them it is.
+struct Launcher {
+    const char* size;
+    const char* rank;
+};
+
+/// Open MPI; MPICH and Intel MPI; MVAPICH; tasks of a step of Slurm.
+constexpr std::array launchers{Launcher{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+                               Launcher{"PMI_SIZE", "PMI_RANK"}, Launcher{"MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK"},
+                               Launcher{"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
+
+/// @returns -1 where the variable is not set, or is no number.
+int number_in(const char* variable)
+{
+    const char* const value = std::getenv(variable);
+    const std::string_view text = value != nullptr ? value : "";
+    int number = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? number : -1;
+}
+
+}  // namespace
+
+std::optional<ExitStatus> refuse_several_processes(const char* program)
+{
+    for (const Launcher& launcher : launchers) {
+        const int size = number_in(launcher.size);
+        if (size <= 1)
+            continue;
+        if (number_in(launcher.rank) <= 0)
+            std::cerr << program << ": " << size << " processes were started (" << launcher.size << " is " << size
+                      << "), each of which would write the same file. One process uses all cores of a machine: start "
+                      << program << " alone, without mpirun or srun, or with -n 1\n";
+        return ExitStatus::WrongUsage;
+    }
+    return std::nullopt;
+}
+
+}  // namespace seamflow

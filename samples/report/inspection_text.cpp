@@ -1,0 +1,148 @@
+#include "samples/report/inspection_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace seamflow {
+
+namespace {
+
+std::string digits_of(double value)
+{
+    return fmt::format("{:.6g}", value);
+}
+
+std::string text_of(Index element)
+{
+    return fmt::to_string(element);
+}
+
+std::string text_of(const Edge& edge)
+{
+    return fmt::format("{}-{}", edge[0], edge[1]);
+}
+
+/// Prints what was found wrong, one kind a paragraph.
+class FindingsPrinter {
+  public:
+    FindingsPrinter(std::ostream& out, int most_listed)
+        : out_(out)
+        , most_listed_(static_cast<std::size_t>(most_listed))
+    {
+    }
+
+    /// @param meaning what `smooth` does about it, or what the user may.
+    template <class Element>
+    void print(const std::vector<Element>& elements, const char* kind, const char* meaning)
+    {
+        if (elements.empty())
+            return;
+        begin(elements.size(), kind);
+        const std::size_t n_listed = std::min(elements.size(), most_listed_);
+        for (std::size_t i = 0; i < n_listed; ++i)
+            out_ << (i == 0 ? ": " : " ") << text_of(elements[i]);
+        out_ << (n_listed < elements.size() && n_listed > 0 ? " …" : "") << "\n    " << meaning << '\n';
+    }
+
+    void print(const FaultLog& faults)
+    {
+        if (faults.count == 0)
+            return;
+        begin(faults.count, "faults in the file");
+        out_ << '\n';
+        for (std::size_t i = 0; i < faults.messages.size() && i < most_listed_; ++i)
+            out_ << "    " << faults.messages[i] << '\n';
+        out_ << (faults.n_harmless == faults.count
+                     ? "    smooth leaves such faces and numbers out of the flow, and refuses the file with --strict\n"
+                     : "    smooth refuses the file until they are mended\n");
+    }
+
+    void print(const char* sentence)
+    {
+        out_ << sentence << '\n';
+        any_ = true;
+    }
+
+    [[nodiscard]] bool any() const { return any_; }
+
+  private:
+    void begin(std::uint64_t count, const char* kind)
+    {
+        out_ << kind << " (" << count << ')';
+        any_ = true;
+    }
+
+    std::ostream& out_;
+    std::size_t most_listed_;
+    bool any_ = false;
+};
+
+void print_sizes(std::ostream& out, const std::string& file, const MeshInspection& found)
+{
+    out << file << '\n'
+        << "vertices   " << found.counts.vertices << '\n'
+        << "edges      " << found.counts.edges << ", " << found.counts.boundary_edges
+        << " of them on the boundary; shortest " << digits_of(found.edge_lengths.shortest) << ", mean "
+        << digits_of(found.edge_lengths.mean) << ", longest " << digits_of(found.edge_lengths.longest) << '\n';
+    if (found.counts.seam_edges > 0)
+        out << "seams      " << found.counts.seam_edges << (found.counts.seam_edges == 1 ? " pair" : " pairs")
+            << " of boundary edges lie on each other; smooth moves the " << found.counts.seam_vertices
+            << " vertices along them as one\n";
+    out << "faces      " << found.counts.faces;
+    constexpr std::array<const char*, 5> names = {"triangles", "quads", "pentagons", "hexagons", "with more sides"};
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (found.counts.faces_by_sides[k] > 0)
+            out << ", " << found.counts.faces_by_sides[k] << ' ' << names[k];
+    out << '\n'
+        << "components " << found.counts.components << '\n'
+        << "box        " << digits_of(found.box.diagonal) << " from corner to corner, around ("
+        << digits_of(found.box.middle[0]) << ", " << digits_of(found.box.middle[1]) << ", "
+        << digits_of(found.box.middle[2]) << ")\n";
+}
+
+}  // namespace
+
+void print_inspection(std::ostream& out, const std::string& file, const FaultLog& faults, const MeshInspection& found,
+                      int most_listed)
+{
+    print_sizes(out, file, found);
+    FindingsPrinter printer(out, most_listed);
+    printer.print(faults);
+    printer.print(found.defects.vertices_not_finite, "vertices with coordinates that are no finite numbers",
+                  "smooth refuses them: give them positions, or remove them and their faces");
+    printer.print(found.defects.non_manifold_edges, "edges of three faces or more",
+                  "smooth holds their vertices fixed");
+    printer.print(found.defects.non_manifold_vertices, "vertices around which the mesh is not manifold",
+                  "smooth holds them fixed");
+    printer.print(found.defects.inconsistent_edges, "edges whose faces are oriented against each other",
+                  found.orientable ? "smooth does not mind; normals that it writes do"
+                                   : "smooth does not mind; no orientation fits all faces, as on a Möbius band");
+    printer.print(
+        found.defects.duplicate_faces, "faces with the same vertices as one before them",
+        "where they make the mesh not manifold smooth leaves them out of the flow, and keeps them in the file");
+    printer.print(found.defects.faces_without_area, "faces without area",
+                  "with any Laplacian but fujiwara smooth cannot move their vertices");
+    printer.print(found.defects.edges_without_length, "edges without length",
+                  "with fujiwara smooth cannot move their ends");
+    printer.print(found.defects.coincident_vertices, "vertices at the same place as one before them",
+                  "smooth moves those along seams as one, and each of the others with its own faces");
+    printer.print(found.defects.isolated_vertices, "vertices without faces", "they stay where they are");
+    printer.print(found.defects.self_intersections,
+                  found.defects.self_intersections.size() < most_self_intersections
+                      ? "pairs of faces that cross each other"
+                      : "pairs of faces that cross each other, and no more were looked for",
+                  "smooth moves them as if they did not; programs that fill or print the solid may mind");
+    if (found.bits_for_detail < 30)
+        printer.print("The mesh lies so far from the origin that its coordinates are coarse against its edges: floats "
+                      "cannot hold it; move it to the origin.");
+    if (!printer.any())
+        out << "nothing wrong was found\n";
+    out.flush();
+}
+
+}  // namespace seamflow

@@ -1,0 +1,53 @@
+#include "samples/report/json_parts.h"
+
+#include <cmath>
+#include <ctime>
+
+#include <fmt/chrono.h>
+
+#include "partition/version.h"
+
+namespace seamflow {
+
+ReportJson begin_report(const RunRecord& run)
+{
+    return {{"schema", report_schema},
+            {"version", version},
+            {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+            {"input", run.input},
+            {"output", run.output},
+            {"arguments", run.arguments}};
+}
+
+ReportJson json_number(double value)
+{
+    return std::isfinite(value) ? ReportJson(value) : ReportJson(nullptr);
+}
+
+void add_statistics(ReportJson& json, const std::string& name, const LengthStatistics& lengths, double mean_edge)
+{
+    json[name + "_mean"] = json_number(lengths.mean / mean_edge);
+    json[name + "_rms"] = json_number(lengths.rms / mean_edge);
+    json[name + "_max"] = json_number(lengths.max / mean_edge);
+    json[name + "_mean_absolute"] = json_number(lengths.mean);
+    json[name + "_rms_absolute"] = json_number(lengths.rms);
+    json[name + "_max_absolute"] = json_number(lengths.max);
+}
+
+ReportJson look_json(const SurfaceLook& look)
+{
+    ReportJson json{{"area", json_number(look.area)},
+                    {"volume", look.volume ? json_number(*look.volume) : ReportJson(nullptr)},
+                    {"roughness_rms", json_number(look.roughness.rms)},
+                    {"roughness_percentile_95", json_number(look.roughness.percentile_95)}};
+    if (look.self_intersections)
+        json["self_intersections"] = *look.self_intersections;
+    return json;
+}
+
+std::string text_of(const ReportJson& json)
+{
+    return json.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n";
+}
+
+}  // namespace seamflow

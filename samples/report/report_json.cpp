@@ -1,0 +1,275 @@
+#include "samples/report/report_json.h"
+
+#include <algorithm>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/options/option_names.h"
+#include "samples/process/peak_memory.h"
+#include "samples/report/json_parts.h"
+#include "samples/report/smoothing_request.h"
+
+namespace seamflow {
+
+namespace {
+
+using Json = ReportJson;
+
+/// One member of every sub-mesh.
+template <class Value>
+Json of_sub_meshes(const CutReport& cut, Value SubMeshReport::*member)
+{
+    Json list = Json::array();
+    for (const SubMeshReport& sub_mesh : cut.sub_meshes) {
+        if constexpr (std::is_same_v<Value, double>)
+            list.push_back(json_number(sub_mesh.*member));
+        else
+            list.push_back(sub_mesh.*member);
+    }
+    return list;
+}
+
+void add_distance(Json& json, const VertexDistance& distance)
+{
+    json["v_mean"] = json_number(distance.mean / distance.mean_edge);
+    json["v_rms"] = json_number(distance.rms / distance.mean_edge);
+    json["v_max"] = json_number(distance.max / distance.mean_edge);
+    json["v_mean_absolute"] = json_number(distance.mean);
+    json["v_rms_absolute"] = json_number(distance.rms);
+    json["v_max_absolute"] = json_number(distance.max);
+    json["mean_edge"] = json_number(distance.mean_edge);
+}
+
+/// In units of `unit`.
+void add_relative(Json& json, const std::string& name, const LengthStatistics& lengths, double unit)
+{
+    json[name + "_mean"] = json_number(lengths.mean / unit);
+    json[name + "_rms"] = json_number(lengths.rms / unit);
+    json[name + "_max"] = json_number(lengths.max / unit);
+}
+
+void add_displacement(Json& json, const DisplacementStatistics& displacement, double mean_edge)
+{
+    add_relative(json, "tangential", displacement.tangential, mean_edge);
+    add_relative(json, "normal", displacement.normal, mean_edge);
+}
+
+Json total_json(const TotalDisplacement& total, double mean_edge)
+{
+    Json json;
+    add_displacement(json, total.path, mean_edge);
+    add_relative(json, "drift", total.drift, mean_edge);
+    return json;
+}
+
+Json seconds_json(const RunRecord& run, const PhaseSeconds& seconds)
+{
+    return {{"read", json_number(run.read_seconds)},       {"cut", json_number(seconds.cut)},
+            {"analyse", json_number(seconds.analyse)},     {"assemble", json_number(seconds.assemble)},
+            {"factorise", json_number(seconds.factorise)}, {"solve", json_number(seconds.solve)},
+            {"correct", json_number(seconds.correct)},     {"interface", json_number(seconds.interface)},
+            {"step", json_number(seconds.step)},           {"total", json_number(seconds.total)},
+            {"write", json_number(run.write_seconds)}};
+}
+
+Json steps_json(const std::vector<StepReport>& steps, double mean_edge)
+{
+    Json list = Json::array();
+    for (const StepReport& step : steps) {
+        Json json{{"seconds", json_number(step.seconds)},
+                  {"max_mean_curvature_before", json_number(step.max_mean_curvature_before)},
+                  {"max_mean_curvature_after", json_number(step.max_mean_curvature_after)}};
+        add_displacement(json, step.displacement, mean_edge);
+        if (step.iterations)
+            json["iterations"] = *step.iterations;
+        if (step.residual)
+            json["residual"] = json_number(*step.residual);
+        if (step.gap)
+            add_statistics(json, "gap", *step.gap, mean_edge);
+        if (step.estimated_v_max)
+            json["estimated_v_max"] = json_number(*step.estimated_v_max);
+        if (step.distance)
+            add_distance(json, *step.distance);
+        if (step.distance && step.surface_distance)
+            add_statistics(json, "h", *step.surface_distance, step.distance->mean_edge);
+        if (step.reference_seconds)
+            json["reference_seconds"] = json_number(*step.reference_seconds);
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+Json surface_json(const RunRecord& run)
+{
+    Json json{{"before", look_json(run.surface.before)}, {"after", look_json(run.surface.after)}};
+    add_statistics(json, "moved", run.surface.moved, run.scale.mean_edge);
+    json["flipped_faces"] = run.surface.flipped_faces;
+    json["folded_faces"] = run.surface.folded_faces;
+    if (run.surface.new_self_intersections)
+        json["new_self_intersections"] = *run.surface.new_self_intersections;
+    return json;
+}
+
+/// Empty for what is not there or no number.
+std::string text_of_cell(const Json& value)
+{
+    return value.is_null() ? "" : value.dump();
+}
+
+}  // namespace
+
+std::string smooth_report_json(const RunRecord& run, const FlowReport& report)
+{
+    Json json = begin_report(run);
+    json["vertices"] = report.mesh.vertices;
+    json["faces"] = report.mesh.faces;
+    json["mean_edge"] = json_number(run.scale.mean_edge);
+    json["diagonal"] = json_number(run.scale.diagonal);
+    json["subdomains"] = report.cut.n_sub_meshes();
+    json["subdomain_vertices"] = of_sub_meshes(report.cut, &SubMeshReport::vertices);
+    json["subdomain_faces"] = of_sub_meshes(report.cut, &SubMeshReport::faces);
+    json["subdomain_colours"] = of_sub_meshes(report.cut, &SubMeshReport::colour);
+    json["colours"] = report.cut.n_colours();
+    json["interface_vertices"] = report.cut.interface_vertices;
+    json["repaired_faces"] = report.cut.repaired_faces;
+    json["non_manifold_vertices"] = report.mesh.non_manifold_vertices;
+    json["fixed_vertices"] = report.mesh.fixed_vertices;
+    json["laplacian"] = run.laplacian;
+    json["flow"] = option_name(run.flow);
+    json["filter"] = option_name(run.filter.kind);
+    json["order"] = run.filter.order;
+    if (!run.preset.empty())
+        json["preset"] = run.preset;
+    if (run.noise)
+        json["noise"] = json_number(*run.noise);
+    if (run.attachment)
+        json["attachment"] = json_number(*run.attachment);
+    json["attachment_weights"] = run.has_attachment_weights;
+    json["rescale"] = option_name(run.rescale);
+    if (run.keep_edges)
+        json["keep_edges"] = json_number(*run.keep_edges);
+    json["time_step"] = json_number(report.time_step);
+    json["time_step_edges"] = json_number(report.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+    json["radius"] = json_number(
+        smoothed_radius(report.time_step, static_cast<int>(std::max<std::size_t>(report.steps.size(), 1)), run.filter));
+    if (!run.keep_edges)
+        json["approach"] = option_name(report.convergence.approach);
+    if (report.convergence.tolerance) {
+        json["tolerance"] = json_number(*report.convergence.tolerance);
+        json["steps_short_of_tolerance"] = report.convergence.steps_short_of_tolerance;
+        json["steps_stagnated"] = report.convergence.steps_stagnated;
+    }
+    json["threads"] = report.resources.threads;
+    json["p"] = of_sub_meshes(report.cut, &SubMeshReport::p);
+    json["live_factors"] = report.resources.live_factors;
+    json["factor_memory_bytes"] = report.resources.factor_memory_bytes;
+    json["single_factors"] = report.resources.single_factors;
+    json["seconds"] = seconds_json(run, report.seconds);
+    json["steps"] = steps_json(report.steps, run.scale.mean_edge);
+    json["displacement"] = total_json(report.displacement, run.scale.mean_edge);
+    json["surface"] = surface_json(run);
+    json["choices"] = report.choices;
+    json["remarks"] = report.remarks;
+    json["peak_memory_bytes"] = peak_memory_bytes();
+    return text_of(json);
+}
+
+std::string smooth_failure_json(const RunRecord& run, const Failure& failure)
+{
+    Json json = begin_report(run);
+    json["error"] = {{"message", failure.message}, {"exit_status", static_cast<int>(failure.status)}};
+    return text_of(json);
+}
+
+std::string steps_csv(std::string_view report)
+{
+    const Json json = Json::parse(report);
+    std::vector<std::string> columns;
+    for (const Json& step : json.at("steps"))
+        for (const auto& [key, value] : step.items())
+            if (std::ranges::find(columns, key) == columns.end())
+                columns.push_back(key);
+    std::vector<double> p;
+    for (const Json& of_sub_mesh : json.value("p", Json::array()))
+        if (of_sub_mesh.is_number())
+            p.push_back(of_sub_mesh.get<double>());
+    std::string of_p = ",";
+    if (!p.empty())
+        of_p = Json(std::ranges::min(p)).dump() + "," + Json(std::ranges::max(p)).dump();
+    std::string text =
+        fmt::format("step,p_smallest,p_largest{}{}\n", columns.empty() ? "" : ",", fmt::join(columns, ","));
+    for (std::size_t i = 0; i < json.at("steps").size(); ++i) {
+        text += fmt::format("{},{}", i + 1, of_p);
+        for (const std::string& column : columns)
+            text += fmt::format(",{}", text_of_cell(json.at("steps")[i].value(column, Json(nullptr))));
+        text += "\n";
+    }
+    return text;
+}
+
+std::string compare_report_json(const Comparison& comparison)
+{
+    Json json;
+    json["reference"] = comparison.reference;
+    json["candidate"] = comparison.candidate;
+    json["vertices"] = comparison.vertices;
+    json["faces"] = comparison.faces;
+    json["mean_edge"] = json_number(comparison.mean_edge);
+    if (comparison.vertex_distance)
+        add_distance(json, *comparison.vertex_distance);
+    json["direction"] = name_of(comparison.direction);
+    if (comparison.surface_distance)
+        add_statistics(json, "h", *comparison.surface_distance, comparison.mean_edge);
+    if (comparison.surface_distance_back)
+        add_statistics(json, "h_back", *comparison.surface_distance_back, comparison.mean_edge);
+    if (comparison.displacement)
+        add_displacement(json, *comparison.displacement, comparison.mean_edge);
+    if (comparison.flipped_faces)
+        json["flipped_faces"] = *comparison.flipped_faces;
+    json["self_intersections"] = comparison.self_intersections;
+    json["candidate_self_intersections"] = comparison.candidate_self_intersections;
+    json["remarks"] = comparison.remarks;
+    return text_of(json);
+}
+
+std::string inspection_json(const std::string& file, const FaultLog& faults, const MeshInspection& found)
+{
+    const auto& sides = found.counts.faces_by_sides;
+    const MeshDefects& defects = found.defects;
+    const Json json{
+        {"file", file},
+        {"vertices", found.counts.vertices},
+        {"edges", found.counts.edges},
+        {"faces", found.counts.faces},
+        {"faces_by_sides", {{"3", sides[0]}, {"4", sides[1]}, {"5", sides[2]}, {"6", sides[3]}, {"more", sides[4]}}},
+        {"components", found.counts.components},
+        {"boundary_edges", found.counts.boundary_edges},
+        {"seam_edges", found.counts.seam_edges},
+        {"seam_vertices", found.counts.seam_vertices},
+        {"shortest_edge", found.edge_lengths.shortest},
+        {"mean_edge", found.edge_lengths.mean},
+        {"longest_edge", found.edge_lengths.longest},
+        {"middle", found.box.middle},
+        {"diagonal", found.box.diagonal},
+        {"bits_for_detail", found.bits_for_detail},
+        {"orientable", found.orientable},
+        {"faults", faults.count},
+        {"fault_messages", faults.messages},
+        {"vertices_not_finite", defects.vertices_not_finite},
+        {"non_manifold_edges", defects.non_manifold_edges},
+        {"non_manifold_vertices", defects.non_manifold_vertices},
+        {"inconsistent_edges", defects.inconsistent_edges},
+        {"duplicate_faces", defects.duplicate_faces},
+        {"faces_without_area", defects.faces_without_area},
+        {"edges_without_length", defects.edges_without_length},
+        {"coincident_vertices", defects.coincident_vertices},
+        {"isolated_vertices", defects.isolated_vertices},
+        {"self_intersections", defects.self_intersections},
+    };
+    return text_of(json);
+}
+
+}  // namespace seamflow

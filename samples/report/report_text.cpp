@@ -1,0 +1,270 @@
+#include "samples/report/report_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/options/option_names.h"
+#include "partition/io/input_position.h"
+#include "samples/process/peak_memory.h"
+#include "samples/report/smoothing_request.h"
+
+namespace seamflow {
+
+namespace {
+
+std::string digits(double value, int significant = 6)
+{
+    return fmt::format("{:.{}g}", value, significant);
+}
+
+void print_cut(std::ostream& out, const FlowReport& report)
+{
+    if (takes_whole_mesh(report.convergence.approach)) {
+        out << fmt::format("cut        none: {} of the whole mesh\n",
+                           report.convergence.approach == Approach::Undecomposed ? "one factorisation"
+                                                                                 : "conjugate gradients");
+        return;
+    }
+    out << fmt::format("cut        {} in {}, {}\n", counted(report.cut.n_sub_meshes(), "sub-mesh", "sub-meshes"),
+                       counted(report.cut.n_colours(), "colour", "colours"),
+                       counted(report.cut.interface_vertices, "interface vertex", "interface vertices"));
+    std::vector<Index> sizes;
+    for (const SubMeshReport& sub_mesh : report.cut.sub_meshes)
+        sizes.push_back(sub_mesh.vertices);
+    if (sizes.empty())
+        return;
+    std::sort(sizes.begin(), sizes.end());
+    out << fmt::format("sizes      {} / {} / {} vertices (smallest / median / largest)\n", sizes.front(),
+                       sizes[sizes.size() / 2], sizes.back());
+}
+
+/// "a -> b".
+std::string change(double before, double after, int significant)
+{
+    return digits(before, significant) + " -> " + digits(after, significant);
+}
+
+/// Explicit Euler steps factorise nothing. Only Cholesky's method has its memory set aside.
+void print_factors(std::ostream& out, const FlowReport& report)
+{
+    if (report.resources.live_factors == 0)
+        return;
+    out << "factors    at most " << report.resources.live_factors << " at once";
+    if (report.resources.factor_memory_bytes > 0)
+        out << ", " << digits(static_cast<double>(report.resources.factor_memory_bytes) / 1e6, 4) << " MB";
+    if (report.resources.single_factors > 0)
+        out << ", " << report.resources.single_factors << " in single precision";
+    out << '\n';
+}
+
+/// One line: mean, RMS and largest in units of `unit`.
+void print_lengths(std::ostream& out, const char* name, const LengthStatistics& lengths, double unit)
+{
+    const bool relative = unit > 0.0;
+    const double divisor = relative ? unit : 1.0;
+    out << fmt::format("{}mean {:.6g}, RMS {:.6g}, largest {:.6g}{}\n", name, lengths.mean / divisor,
+                       lengths.rms / divisor, lengths.max / divisor, relative ? " mean edge lengths" : "");
+}
+
+void print_total(std::ostream& out, const TotalDisplacement& total, double mean_edge)
+{
+    const double unit = mean_edge > 0.0 ? mean_edge : 1.0;
+    out << fmt::format("moved      tangentially {:.4g} (largest {:.4g}, net {:.4g}), normally {:.4g} (largest {:.4g}) "
+                       "mean edge lengths on average\n",
+                       total.path.tangential.mean / unit, total.path.tangential.max / unit, total.drift.mean / unit,
+                       total.path.normal.mean / unit, total.path.normal.max / unit);
+}
+
+void print_distance_to_reference(std::ostream& out, const StepReport& step)
+{
+    const double unit = step.distance->mean_edge > 0.0 ? step.distance->mean_edge : 1.0;
+    const auto print = [&](const char* name, const auto& distance) {
+        out << fmt::format("{0}_mean {1:.6g}  {0}_RMS {2:.6g}  {0}_max {3:.6g}", name, distance.mean / unit,
+                           distance.rms / unit, distance.max / unit);
+    };
+    print("V", *step.distance);
+    if (step.surface_distance) {
+        out << "  ";
+        print("H", *step.surface_distance);
+    }
+}
+
+void print_distance(std::ostream& out, const char* name, double absolute, double mean_edge)
+{
+    out << fmt::format("{}  {:.10g}", name, absolute);
+    if (mean_edge > 0.0)
+        out << fmt::format("  =  {:.6g} mean edge lengths", absolute / mean_edge);
+    out << '\n';
+}
+
+}  // namespace
+
+void print_input(std::ostream& out, const RunRecord& run, std::int64_t n_vertices, std::int64_t n_faces)
+{
+    out << fmt::format("input      {}: {}, {}, mean edge {:.6g}", run.input, counted(n_vertices, "vertex", "vertices"),
+                       counted(n_faces, "face", "faces"), run.scale.mean_edge)
+        << std::endl;
+}
+
+void print_preset(std::ostream& out, const RunRecord& run, const std::string& options)
+{
+    if (run.preset.empty())
+        return;
+    out << "preset     " << run.preset;
+    if (run.noise)
+        out << fmt::format(", for noise of {:.3g} mean edge lengths", *run.noise);
+    out << ": " << options << std::endl;
+}
+
+void print_amount(std::ostream& out, const MeshScale& scale, const FlowOptions& options)
+{
+    if (options.steps == 0) {
+        out << "amount     none" << std::endl;
+        return;
+    }
+    const std::string steps = fmt::format("amount     {} of {:.6g} squared mean edge lengths (dt {:.6g})",
+                                          counted(options.steps, "step", "steps"),
+                                          options.time_step / (scale.mean_edge * scale.mean_edge), options.time_step);
+    if (options.keep_edges) {
+        out << fmt::format("{}, edges sharper than {:g} degrees kept", steps, *options.keep_edges) << std::endl;
+        return;
+    }
+    const double radius = smoothed_radius(options.time_step, options.steps, filter_of(options));
+    out << fmt::format("{}: bumps of radius {:.6g}, {:.3g}% of the diagonal, lose half their height", steps, radius,
+                       100.0 * radius / scale.diagonal)
+        << std::endl;
+}
+
+void print_step(std::ostream& out, const StepReport& report, int step, int steps, double mean_edge)
+{
+    const double edge = mean_edge > 0.0 ? mean_edge : 1.0;
+    out << fmt::format("step {} of {}  {:.3f} s  moved {:.3g} normally, {:.3g} tangentially", step, steps,
+                       report.seconds, report.displacement.normal.mean / edge,
+                       report.displacement.tangential.mean / edge);
+    if (report.iterations)
+        out << fmt::format("  iterations {}, residual {:.2g}", *report.iterations, report.residual.value_or(0.0));
+    if (report.gap)
+        out << fmt::format("  gap mean {:.6g}, largest {:.6g}", report.gap->mean / edge, report.gap->max / edge);
+    if (report.estimated_v_max)
+        out << fmt::format("  estimated distance to the undecomposed flow {:.2g} mean edge lengths",
+                           *report.estimated_v_max);
+    if (report.distance) {
+        out << "  ";
+        print_distance_to_reference(out, report);
+    }
+    if (report.reference_seconds)
+        out << fmt::format("  (undecomposed {:.3f} s)", *report.reference_seconds);
+    out << std::endl;
+}
+
+void print_details(std::ostream& out, const RunRecord& run, const FlowReport& report)
+{
+    out << "flow       "
+        << (run.keep_edges ? fmt::format("edges sharper than {:g} degrees kept", *run.keep_edges) : run.laplacian);
+    if (run.flow != FlowEquation::MeanCurvature)
+        out << ", " << option_name(run.flow);
+    if (!run.filter.is_plain())
+        out << ", " << option_name(run.filter.kind) << " of order " << run.filter.order;
+    if (run.attachment)
+        out << ", attached with " << digits(*run.attachment, 4) << " / length²";
+    if (run.has_attachment_weights)
+        out << ", attached by weights";
+    if (run.rescale != Rescale::None)
+        out << ", " << option_name(run.rescale) << " kept";
+    out << ", time step " << digits(report.time_step, 10) << '\n';
+    print_cut(out, report);
+    print_factors(out, report);
+    out << fmt::format(
+        "in tasks   assemble {:.3f} s, factorise {:.3f} s, solve {:.3f} s, correct {:.3f} s (summed over threads)\n",
+        report.seconds.assemble, report.seconds.factorise, report.seconds.solve, report.seconds.correct);
+    print_total(out, report.displacement, run.scale.mean_edge);
+}
+
+void print_result(std::ostream& out, const RunRecord& run, const FlowReport& report)
+{
+    for (std::size_t i = 0; i < report.choices.size(); ++i)
+        out << (i == 0 ? "chosen     " : " ") << report.choices[i] << (i + 1 == report.choices.size() ? "\n" : "");
+    const PhaseSeconds& phases = report.seconds;
+    out << fmt::format("time       {:.3g} s: read {:.3f}, set-up {:.3f}, steps {:.3f}, write {:.3f}; {}, {} MB\n",
+                       run.seconds, run.read_seconds, phases.cut + phases.analyse, phases.step, run.write_seconds,
+                       counted(report.resources.threads, "thread", "threads"),
+                       digits(static_cast<double>(peak_memory_bytes()) / 1e6, 4));
+    for (const std::string& remark : report.remarks)
+        out << "remark     " << remark << '\n';
+    if (!report.steps.empty() && report.steps.back().distance) {
+        out << "distance   ";
+        print_distance_to_reference(out, report.steps.back());
+        out << " mean edge lengths, from the undecomposed flow\n";
+    }
+    const SurfaceLook& before = run.surface.before;
+    const SurfaceLook& after = run.surface.after;
+    const LengthStatistics& moved = run.surface.moved;
+    if (before.self_intersections && after.self_intersections)
+        out << fmt::format("crossing   {} of faces -> {}\n",
+                           counted(static_cast<std::uint64_t>(*before.self_intersections), "pair", "pairs"),
+                           *after.self_intersections);
+    const double edge = run.scale.mean_edge > 0.0 ? run.scale.mean_edge : 1.0;
+    out << fmt::format(
+        "result     {}: moved {:.3g} mean edge lengths on average, {:.3g} at most; roughness {} degrees, "
+        "area {}",
+        run.output, moved.mean / edge, moved.max / edge, change(before.roughness.rms, after.roughness.rms, 3),
+        change(before.area, after.area, 6));
+    if (before.volume && after.volume)
+        out << ", volume " << change(*before.volume, *after.volume, 6);
+    if (!report.steps.empty() && report.steps.back().estimated_v_max.value_or(0.0) > 0.0)
+        out << fmt::format("; by estimate {:.2g} mean edge lengths at most from the undecomposed flow",
+                           *report.steps.back().estimated_v_max);
+    out << std::endl;
+}
+
+void print_comparison(std::ostream& out, const Comparison& comparison)
+{
+    const double unit = comparison.mean_edge;
+    const auto print = [&](const char* name, const auto& distance) {
+        const std::string prefix = name;
+        print_distance(out, (prefix + "_mean").c_str(), distance.mean, unit);
+        print_distance(out, (prefix + "_RMS ").c_str(), distance.rms, unit);
+        print_distance(out, (prefix + "_max ").c_str(), distance.max, unit);
+    };
+    if (comparison.vertex_distance)
+        print("V", *comparison.vertex_distance);
+    if (comparison.surface_distance)
+        print("H", *comparison.surface_distance);
+    if (comparison.surface_distance_back) {
+        out << "from the vertices of the candidate to the surface of the reference:\n";
+        print("H", *comparison.surface_distance_back);
+    }
+    if (comparison.flipped_faces)
+        out << "flipped     " << counted(*comparison.flipped_faces, "face", "faces") << " by more than 90 degrees\n";
+    out << "crossing    " << counted(comparison.self_intersections, "pair", "pairs") << " of faces in the reference, "
+        << comparison.candidate_self_intersections << " in the candidate\n";
+    if (comparison.displacement) {
+        print_lengths(out, "tangential  ", comparison.displacement->tangential, unit);
+        print_lengths(out, "normal      ", comparison.displacement->normal, unit);
+    }
+    for (const std::string& remark : comparison.remarks)
+        out << "remark  " << remark << '\n';
+    out << "(" << counted(comparison.vertices, "vertex", "vertices") << ", mean edge of " << comparison.reference
+        << ": " << digits(unit, 10) << "; H_ " << name_of(comparison.direction) << ")" << std::endl;
+}
+
+void print_error_map(std::ostream& out, const std::string& file, const ErrorRange& range)
+{
+    out << "error map  " << file << ", from " << digits(range.first) << " (blue) to " << digits(range.last) << " (red)"
+        << std::endl;
+}
+
+void print_simulations(std::ostream& out, const std::vector<Simulation>& simulations)
+{
+    out << "workers      makespan  efficiency  speed-up            critical path\n";
+    for (const Simulation& simulation : simulations)
+        out << fmt::format("{:7}  {:9.3f} ms  {:10.3f}  {:8.2f}  {:9.3f} ms, {:3} tasks\n", simulation.workers,
+                           1e3 * simulation.makespan, simulation.efficiency(), simulation.speed_up(),
+                           1e3 * simulation.critical_path_seconds, simulation.critical_path.size());
+}
+
+}  // namespace seamflow

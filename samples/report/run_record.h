@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/options/flow_options.h"
+#include "samples/report/smoothing_request.h"
+#include "samples/report/surface_change.h"
+
+namespace seamflow {
+
+/// What `smooth` knows about its run beyond the FlowReport.
+struct RunRecord {
+    std::string input;
+    std::string output;
+    /// As the user typed them.
+    std::vector<std::string> arguments;
+    /// Name of the Laplacian.
+    std::string laplacian;
+    /// The flow beside it: FlowOptions::flow, its filter, and MotionOptions::attachment.
+    FlowEquation flow = FlowEquation::MeanCurvature;
+    StepFilter filter = {};
+    /// In 1/length²; empty where there is none.
+    std::optional<double> attachment = {};
+    /// Whether each vertex has one of its own.
+    bool has_attachment_weights = false;
+    /// MotionOptions::rescale, and FlowOptions::keep_edges: in degrees.
+    Rescale rescale = Rescale::None;
+    std::optional<double> keep_edges = {};
+    /// The preset that chose options; empty: none.
+    std::string preset = {};
+    /// Of the input.
+    MeshScale scale = {};
+    /// Its noise in mean edge lengths, if the amount follows from it.
+    std::optional<double> noise = {};
+    /// What is to be said before the remarks of the flow, a sentence each.
+    std::vector<std::string> remarks = {};
+    /// Wall-clock time for reading all inputs and for writing all results, report and trace excepted.
+    double read_seconds = 0.0;
+    double write_seconds = 0.0;
+    /// Of the whole run so far.
+    double seconds = 0.0;
+    /// From the input to the result.
+    SurfaceChange surface = {};
+};
+
+}  // namespace seamflow

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+
+#include "engine/measure/flow_report.h"
+#include "engine/options/flow_control.h"
+#include "partition/formats/mesh_io.h"
+#include "samples/command/smooth_command.h"
+#include "samples/files/checkpoints.h"
+#include "samples/process/exit_status.h"
+#include "samples/process/interruption.h"
+#include "samples/report/progress_bar.h"
+
+namespace seamflow {
+
+/// Where the last complete step goes if the run is interrupted: "smooth.ply" becomes "smooth.interrupted.ply", and so
+/// on if that is the input.
+std::filesystem::path interrupted_path(const std::filesystem::path& output, const std::filesystem::path& input);
+
+/// What accompanies the flow of `smooth`: the progress bar, checkpoints, and what becomes of it when it is interrupted.
+class LongRun {
+  public:
+    /// Takes up the checkpoint, if there is one; from here on, a signal makes the flow stop.
+    /// @param file its mesh is the one that flows; all must outlive this.
+    /// @throws what Checkpoints::find throws.
+    LongRun(const SmoothCommand& command, const MeshFile& file, Interruption& interruption, std::ostream& out);
+
+    /// What the flow is to get. Its observer must not outlive this.
+    [[nodiscard]] FlowControl control();
+
+    /// An observer that does all that `inner` does, and keeps checkpoints.
+    [[nodiscard]] StepObserver observing(StepObserver inner);
+
+    /// After the flow: makes room for other text.
+    void end() { bar_.erase(); }
+
+    /// After the flow was cancelled: writes the last complete step, if there was one, and says so.
+    /// @returns how to end.
+    /// @throws OutputError.
+    [[nodiscard]] ExitStatus end_early();
+
+    /// After the flow has failed: writes the last complete step, if there was one and it can be written, and says so.
+    void keep_last_step();
+
+  private:
+    [[nodiscard]] std::filesystem::path write_last_step() const;
+
+    const SmoothCommand* command_;
+    const MeshFile* file_;
+    Interruption* interruption_;
+    ProgressBar bar_;
+    std::optional<Checkpoints> checkpoints_;
+    std::shared_ptr<const FlowState> resume_;
+    /// The last complete step of this run; 0: none.
+    int step_ = 0;
+    /// With --keep-gaps, as they were then.
+    std::optional<PolygonMesh> separated_;
+};
+
+}  // namespace seamflow

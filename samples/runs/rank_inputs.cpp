@@ -1,0 +1,60 @@
+#include "samples/runs/rank_inputs.h"
+
+#include <algorithm>
+
+#include "engine/distributed/parts/deal.h"
+#include "engine/distributed/parts/whole_mesh.h"
+#include "partition/formats/index_files.h"
+#include "samples/runs/smoothing_run.h"
+
+namespace seamflow {
+
+std::vector<Index> read_labels(Communicator& comm, const SmoothCommand& command, const FaultLog& faults,
+                               std::span<const std::int64_t> bounds)
+{
+    std::vector<Index> labels;
+    comm.at_first_rank(
+        [&] { labels = labels_of_faces(command.labels, static_cast<Index>(bounds.back()), faults.faces_left_out); });
+    return hand_out(comm, labels, bounds);
+}
+
+std::vector<std::int64_t> read_fixed(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices)
+{
+    std::vector<std::int64_t> own;
+    comm.at_first_rank([&] {
+        if (command.fix.empty())
+            return;
+        const auto fixed = read_vertex_set(command.fix, static_cast<Index>(n_vertices), command.fix_property);
+        own.assign(fixed.begin(), fixed.end());
+    });
+    return comm.gather_all(own);
+}
+
+std::vector<double> read_weights(Communicator& comm, const SmoothCommand& command, std::int64_t n_vertices)
+{
+    std::vector<double> weights;
+    comm.at_first_rank([&] {
+        if (!command.attach_weights.empty())
+            weights =
+                read_vertex_weights(command.attach_weights, static_cast<Index>(n_vertices), command.attach_property);
+    });
+    return weights;
+}
+
+std::vector<double> deal_weights(Communicator& comm, std::vector<double> weights, const JoinedSeams& seams,
+                                 std::span<const std::int64_t> numbers, std::span<const std::int64_t> bounds)
+{
+    if (comm.broadcast(std::vector<char>{static_cast<char>(weights.empty() ? 0 : 1)}).front() == 0)
+        return {};
+    if (comm.rank() == 0)
+        for (const SeamVertex& one : seams.vertices) {
+            double& first = weights[static_cast<std::size_t>(one.first)];
+            first = std::max(first, weights[static_cast<std::size_t>(one.vertex)]);
+        }
+    const std::vector<double> own = hand_out(comm, weights, bounds);
+    std::vector<double> dealt(numbers.size());
+    fetch_rows(comm, {own, 1}, numbers, bounds, dealt);
+    return dealt;
+}
+
+}  // namespace seamflow

@@ -1,0 +1,115 @@
+#include "samples/runs/smoothing_run.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/setup/presets.h"
+#include "samples/command/parse_smooth_command.h"
+#include "samples/command/presets.h"
+
+namespace seamflow {
+
+namespace {
+
+/// The amount that the preset chooses.
+void choose_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+{
+    PresetChoice choice{.options = std::move(command.options)};
+    const PresetTraits& preset = preset_of(command.preset);
+    choose_amount(preset, mesh, command.noise, choice, exec);
+    command.options = std::move(choice.options);
+    if (!choice.remark.empty())
+        run.remarks.push_back(choice.remark);
+    if (choice.noise)
+        run.noise = run.scale.mean_edge > 0.0 ? *choice.noise / run.scale.mean_edge : 0.0;
+    if (!choice.remark.empty())
+        command.chosen = "nothing is smoothed";
+    else if (preset.radius)
+        command.chosen += amount_of(preset);
+    else
+        command.chosen += fmt::format("--time-step-edges {:.3g}",
+                                      command.options.time_step / (run.scale.mean_edge * run.scale.mean_edge));
+}
+
+}  // namespace
+
+RunRecord begin_record(const SmoothCommand& command)
+{
+    return {.input = command.input.string(),
+            .output = command.output.string(),
+            .arguments = command.arguments,
+            .laplacian = std::string(name_of(command.options.laplacian)),
+            .flow = command.options.flow,
+            .filter = filter_of(command.options),
+            .rescale = command.options.motion.rescale,
+            .keep_edges = command.options.keep_edges,
+            .preset = command.preset,
+            .remarks = command.remarks};
+}
+
+void resolve_amount(SmoothCommand& command, const PolygonMesh& mesh, const Executor& exec, RunRecord& run)
+{
+    run.scale = measure_scale(mesh, exec);
+    MotionOptions& motion = command.options.motion;
+    motion.weld = command.weld ? std::optional(length_of(*command.weld, run.scale.diagonal)) : std::nullopt;
+    motion.within = command.within ? std::optional(length_of(*command.within, run.scale.diagonal)) : std::nullopt;
+    if (command.attach)
+        motion.attachment = attachment_of(*command.attach, run.scale.diagonal);
+    if (command.chooses_amount)
+        choose_amount(command, mesh, exec, run);
+    else
+        command.options.time_step =
+            time_step_of(command.amount, run.scale, command.options.steps, filter_of(command.options));
+    if (motion.attachment > 0.0)
+        run.attachment = motion.attachment;
+    run.has_attachment_weights = !motion.attachment_weights.empty();
+}
+
+void remark_on_loss(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks,
+                    bool can_rescale)
+{
+    constexpr double much = 0.2;
+    constexpr double most = 0.5;  // of the area: noise alone may have much of it
+    if (options.motion.rescale != Rescale::None)
+        return;
+    if (!change.before.volume || !change.after.volume) {
+        if (change.after.area < most * change.before.area)
+            remarks.push_back(fmt::format("The surface has lost {:.0f}% of its area: less smoothing is gentler.",
+                                          100.0 * (1.0 - change.after.area / change.before.area)));
+        return;
+    }
+    const double lost = 1.0 - *change.after.volume / *change.before.volume;
+    if (lost > much)
+        remarks.push_back(fmt::format("The surface has lost {:.0f}% of its volume: less smoothing is gentler{}{}.",
+                                      100.0 * lost,
+                                      options.filter == Filter::LowPass ? "" : ", --filter low-pass loses less",
+                                      can_rescale ? ", --rescale volume scales it back" : ""));
+}
+
+void remark_on_folds(const FlowOptions& options, const SurfaceChange& change, std::vector<std::string>& remarks)
+{
+    std::string what;
+    if (change.folded_faces > 0)
+        what = fmt::format("{} turned over against those around",
+                           change.folded_faces == 1 ? "1 face has" : fmt::format("{} faces have", change.folded_faces));
+    if (const std::size_t n = change.new_self_intersections.value_or(0); n > 0)
+        what += fmt::format("{}{} of faces cross{} now that did not before", what.empty() ? "" : ", and ",
+                            n == 1 ? "1 pair" : fmt::format("{} pairs", n), n == 1 ? "es" : "");
+    if (!what.empty())
+        remarks.push_back(
+            what + ": smooth less, or pass " +
+            (options.motion.within ? "a smaller --within." : "--within with a length below that of the edges there."));
+}
+
+std::string missed_tolerance(const SmoothCommand& command, const ConvergenceReport& report)
+{
+    const int missed = steps_failed(command, report);
+    if (missed == 0)
+        return {};
+    return fmt::format("the tolerance {} was missed in {} {}", *command.options.accuracy.tolerance, missed,
+                       missed == 1 ? "step" : "steps");
+}
+
+}  // namespace seamflow

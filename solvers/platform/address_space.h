@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace seamflow {
+
+/// The limit of the address space of this process (ulimit -v), in bytes; empty: there is none.
+std::optional<std::size_t> limit_of_address_space();
+
+/// How much of it is left, in bytes; 0 where nobody knows.
+std::size_t room_within(std::size_t limit);
+
+}  // namespace seamflow
