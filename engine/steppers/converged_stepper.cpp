@@ -80,22 +80,6 @@ void ConvergedStepper::solve()
     seconds_.back().interface += watch.seconds();
 }
 
-const Points& ConvergedStepper::localised_data(std::span<const Index> local_to_global, SolverWorkspace& workspace) const
-{
-    set_rows(workspace.data, static_cast<Eigen::Index>(local_to_global.size()));
-    for (std::size_t v = 0; v < local_to_global.size(); ++v)
-        workspace.data.row(static_cast<Eigen::Index>(v)) = data_->row(local_to_global[v]);
-    return workspace.data;
-}
-
-const Points& ConvergedStepper::localised(std::span<const Index> local_to_global, SolverWorkspace& workspace) const
-{
-    set_rows(workspace.positions, static_cast<Eigen::Index>(local_to_global.size()));
-    for (std::size_t v = 0; v < local_to_global.size(); ++v)
-        workspace.positions.row(static_cast<Eigen::Index>(v)) = before_->row(local_to_global[v]);
-    return workspace.positions;
-}
-
 void ConvergedStepper::continue_from(const Points& image, const Similarity&)
 {
     copy(run_in_parallel, image, positions_);

@@ -41,10 +41,6 @@ class ConvergedStepper : public Stepper {
     /// Takes back what `save` has added.
     virtual void restore_further(StepMemoryReader&) {}
 
-    /// Vᵏ of a sub-mesh, in the workspace.
-    /// @param local_to_global of its own vertices.
-    const Points& localised(std::span<const Index> local_to_global, SolverWorkspace& workspace) const;
-
     /// Fills in what all such steps report.
     /// @param parts all sub-meshes.
     /// @param advice what to do where steps missed the tolerance for want of iterations; may be empty.
@@ -58,9 +54,6 @@ class ConvergedStepper : public Stepper {
 
     /// The same without the parts.
     void describe_steps(const std::string& advice, FlowReport& report) const;
-
-    /// `data_` of a sub-mesh, in the workspace.
-    const Points& localised_data(std::span<const Index> local_to_global, SolverWorkspace& workspace) const;
 
     Workspaces workspaces_;
     double time_step_;

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "engine/steppers/condensed_sub_mesh.h"
 #include "engine/steppers/converged_stepper.h"
 #include "engine/steppers/kept_factors.h"
 #include "engine/steppers/shared_factor_pool.h"
@@ -15,7 +14,6 @@
 #include "partition/topology.h"
 #include "solvers/interface/interface_equation.h"
 #include "solvers/interface/interface_peers.h"
-#include "solvers/systems/neumann_system.h"
 
 namespace seamflow {
 
@@ -59,24 +57,6 @@ class SchurStepper final : public ConvergedStepper {
     void describe(FlowReport& report) const override;
 
   private:
-    /// What steps need of a sub-mesh (see SubMesh).
-    struct OwnVertices {
-        std::vector<Index> faces;
-        Index n_vertices = 0;
-        std::vector<Index> local_to_global;
-        std::vector<std::uint8_t> owned;
-    };
-    struct Part {
-        OwnVertices sub_mesh;
-        /// None of a foreign sub-mesh, for which nothing is done.
-        std::unique_ptr<NeumannSystem> system;
-        /// That of its factor in this step, or Automatic until it is known.
-        Precision precision = Precision::Automatic;
-        /// From condensation to back substitution, where it is kept.
-        std::optional<NeumannSystem::Factor> factor;
-        /// The largest of the interior in each column, when it was condensed last.
-        Point residual = Point::Zero();
-    };
     /// Where factors live.
     struct FactorStore {
         Precision precision = Precision::Automatic;
@@ -104,39 +84,31 @@ class SchurStepper final : public ConvergedStepper {
 
     void run_for(Index s, const std::function<void()>& body) const;
     [[nodiscard]] bool is_own(Index s) const { return peers_->is_own(s); }
-    void make_systems(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
-                      Progress& progress);
+    [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
+    void make_sub_meshes(Decomposition& decomposition, const PolygonMesh& mesh, const FlowOptions& options,
+                         Progress& progress);
     void limit_factors(const FlowOptions& options);
     void make_graph();
-    [[nodiscard]] bool is_kept(Index s) const { return factors_.plan.whole[s] != 0; }
     void take_turns(const std::vector<StepGraph::Node>& tasks);
     template <class Action>
-    void for_each_part(const Executor& exec, Action&& action);
-    void fetch_increments(Index s, Points& increments) const;
-    NeumannSystem::Assembled assemble(Index s, SolverWorkspace& workspace) const;
-    NeumannSystem::Factor factorise_and_condense(Index s, SolverWorkspace& workspace);
-    void condense_with(Index s, const NeumannSystem::Assembled& equations, NeumannSystem::Factor& factor);
-    NeumannSystem::Factor take_factor(Index s, SolverWorkspace& workspace);
-    void substitute(Index s, NeumannSystem::Factor& factor, const Points& update, SolverWorkspace& workspace);
-    void begin_increments(Index s, SolverWorkspace& workspace);
+    void for_each_sub_mesh(const Executor& exec, Action&& action);
+    CondensedStep shared_step();
     void condense(Index s);
-    void condense_again(Index s);
-    void condense_in(Index s, Precision precision);
-    void refine(Index s, const Points& update);
+    void back_substitute(Index s);
+    Points& refine_all(const Points& update, const Executor& exec);
     [[nodiscard]] bool has_single() const;
     [[nodiscard]] Point interior_residual() const;
     [[nodiscard]] std::array<bool, 3> at_rest(const Executor& exec) const;
     bool refine_interiors(double tolerance, const Point& first, const Executor& exec);
-    Points& refine_all(const Points& update, const Executor& exec);
     InterfaceResult solve_on_interface(const IterationStop& stop, const Executor& exec);
     InterfaceResult solve_equation(const IterationStop& stop, const Executor& exec) override;
-    void back_substitute(Index s);
     void restore_further(StepMemoryReader& memory) override;
 
     std::unique_ptr<InterfacePeers> peers_;
     std::function<void(Index, const std::function<void()>&)> run_for_;
     FactorStore factors_;
-    std::vector<Part> parts_;
+    /// Null for foreign sub-meshes, for which nothing is done.
+    std::vector<std::unique_ptr<CondensedSubMesh>> sub_meshes_;
     InterfaceEquation equation_;
     Interface interface_;
 };

@@ -10,6 +10,7 @@
 #include "engine/tasks/stopwatch.h"
 #include "partition/decomposition/local_mesh.h"
 #include "partition/errors.h"
+#include "solvers/direct/columns.h"
 
 namespace seamflow {
 
@@ -91,7 +92,8 @@ void SchwarzGmresStepper::assemble_and_factorise(Index s)
     Stopwatch watch;
     SolverWorkspace& workspace = workspaces_.local();
     SchwarzBlock& block = *blocks_.of[s];
-    const auto equations = block.assemble(localised(parts_[s].sub_mesh.local_to_global, workspace), time_step_);
+    const auto equations =
+        block.assemble(gather_rows(parts_[s].sub_mesh.local_to_global, *before_, workspace.positions), time_step_);
     seconds_[s].assemble += watch.lap();
     blocks_.factors[s].reset();
     blocks_.factors[s] = block.factorise(equations, *memory_, workspace);

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include <Eigen/Core>
+
+#include "partition/polygon_mesh.h"
 
 namespace seamflow {
 
@@ -17,6 +22,16 @@ void set_rows(Array& array, Eigen::Index n)
     if (array.rows() != n)
         array.resize(0, Array::ColsAtCompileTime);
     array.resize(n, Array::ColsAtCompileTime);
+}
+
+/// The rows of some vertices.
+/// @param rows #V by 3. @param gathered receives #vertices by 3. @returns that.
+inline const Points& gather_rows(std::span<const Index> vertices, const Points& rows, Points& gathered)
+{
+    set_rows(gathered, static_cast<Eigen::Index>(vertices.size()));
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        gathered.row(static_cast<Eigen::Index>(v)) = rows.row(vertices[v]);
+    return gathered;
 }
 
 }  // namespace seamflow

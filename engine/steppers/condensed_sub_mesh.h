@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/measure/flow_report.h"
+#include "solvers/direct/dense_factor.h"
+#include "solvers/direct/factor_memory.h"
+#include "solvers/direct/solver_workspace.h"
+#include "solvers/systems/neumann_system.h"
+
+namespace seamflow {
+
+/// A step that is condensed to Γ, as all sub-meshes share it.
+struct CondensedStep {
+    /// #V by 3: Vᵏ.
+    const Points& before;
+    /// #V by 3: Vᵏ⁺¹ in the end; until then interiors have Vᵏ⁺¹ - Vᵏ there, as far as the step has come.
+    Points& positions;
+    /// #V by 3: while the step is applied to something else than Vᵏ, that; else null.
+    const Points* data;
+    /// dt, in length².
+    double time_step;
+    /// #vertices of Γ by 3: the update of Γ at which the interiors are.
+    const Points& reached;
+    /// #copies by 3: the right-hand sides on Γ of all sub-meshes, and later what is left of them.
+    Points& condensed;
+};
+
+/// A sub-mesh whose equations are condensed to Γ and solved by back substitution. One thread at a time.
+class CondensedSubMesh {
+  public:
+    /// What steps need of a SubMesh.
+    struct Vertices {
+        std::vector<Index> faces = {};
+        Index n_vertices = 0;
+        std::vector<Index> local_to_global = {};
+        std::vector<std::uint8_t> owned = {};
+    };
+
+    /// @param on_interface the vertices of Γ that it has copies of, and the first of these copies (see
+    ///        InterfaceCopies). @param seconds receives the time in its tasks. Both must outlive the object.
+    CondensedSubMesh(Vertices vertices, std::unique_ptr<NeumannSystem> system, std::span<const Index> on_interface,
+                     Index first_copy, PhaseSeconds& seconds);
+
+    [[nodiscard]] const Vertices& vertices() const { return vertices_; }
+    [[nodiscard]] const NeumannSystem& system() const { return *system_; }
+
+    /// @param is_kept whether the factor lives from condensation to back substitution; otherwise it is made again
+    ///        whenever it is needed, with the same bits.
+    void use_memory(FactorMemory& memory, bool is_kept);
+    [[nodiscard]] bool is_kept() const { return is_kept_; }
+
+    /// Whether the factor of this step is in single precision.
+    [[nodiscard]] bool is_single() const { return precision_ == Precision::Single; }
+
+    /// The largest residual of the interior in each column, when it was condensed last.
+    [[nodiscard]] const Point& residual() const { return residual_; }
+
+    /// Factorises and condenses, from Vᵏ⁺¹ = Vᵏ on.
+    /// @param complement receives the Schur complement.
+    void condense(const CondensedStep& step, Precision precision, SolverWorkspace& workspace, DenseFactor& complement);
+
+    /// Condenses other data, with the factor of the first solution of the step.
+    void condense_again(const CondensedStep& step, SolverWorkspace& workspace);
+
+    /// Solves for the interior at an update of Γ, and condenses what is left of the equations.
+    void refine(const CondensedStep& step, const Points& update, SolverWorkspace& workspace);
+
+    /// Completes Vᵏ⁺¹, or what the step makes of other data, at the vertices that it owns.
+    /// @param keeps_factor whether there is another solution to come.
+    void back_substitute(const CondensedStep& step, const Points& update, bool keeps_factor,
+                         SolverWorkspace& workspace);
+
+  private:
+    [[nodiscard]] std::span<const Index> interior() const
+    {
+        return std::span(system_->unknowns()).first(static_cast<std::size_t>(system_->n_interior()));
+    }
+    [[nodiscard]] Index global(Index v) const { return vertices_.local_to_global[v]; }
+    void begin_increments(const CondensedStep& step, SolverWorkspace& workspace) const;
+    void fetch_increments(const CondensedStep& step, SolverWorkspace& workspace) const;
+    NeumannSystem::Assembled assemble(const CondensedStep& step, SolverWorkspace& workspace) const;
+    NeumannSystem::Factor factorise(const CondensedStep& step, SolverWorkspace& workspace);
+    NeumannSystem::Factor take_factor(const CondensedStep& step, SolverWorkspace& workspace);
+    void eliminate(const CondensedStep& step, const NeumannSystem::Assembled& equations, NeumannSystem::Factor& factor);
+    void substitute(const CondensedStep& step, NeumannSystem::Factor& factor, const Points& update,
+                    SolverWorkspace& workspace) const;
+
+    Vertices vertices_;
+    std::unique_ptr<NeumannSystem> system_;
+    std::span<const Index> on_interface_;
+    Index first_copy_;
+    PhaseSeconds* seconds_;
+    FactorMemory* memory_ = nullptr;
+    bool is_kept_ = true;
+    /// That of its factor in this step, or Automatic until it is known.
+    Precision precision_ = Precision::Automatic;
+    std::optional<NeumannSystem::Factor> factor_;
+    Point residual_ = Point::Zero();
+};
+
+}  // namespace seamflow
