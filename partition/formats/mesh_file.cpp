@@ -1,7 +1,6 @@
 #include "partition/formats/mesh_file.h"
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -14,14 +13,6 @@
 namespace seamflow {
 
 namespace {
-
-/// In the order of FileFormat.
-constexpr std::array<FormatTraits, 4> format_traits = {{
-    {FileFormat::Obj, "OBJ", ".obj", Encoding::Ascii, true},
-    {FileFormat::Off, "OFF", ".off", Encoding::Ascii, true},
-    {FileFormat::Ply, "PLY", ".ply", Encoding::BinaryBigEndian, true},
-    {FileFormat::Stl, "STL", ".stl", Encoding::BinaryLittleEndian, false},
-}};
 
 /// @throws Error if there is none.
 template <class Error>

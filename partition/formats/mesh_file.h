@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -39,6 +40,14 @@ struct FormatTraits {
     /// Whether its faces may have more than three sides.
     bool holds_polygons;
 };
+
+/// One for each FileFormat, in its order.
+inline constexpr std::array<FormatTraits, 4> format_traits = {{
+    {FileFormat::Obj, "OBJ", ".obj", Encoding::Ascii, true},
+    {FileFormat::Off, "OFF", ".off", Encoding::Ascii, true},
+    {FileFormat::Ply, "PLY", ".ply", Encoding::BinaryBigEndian, true},
+    {FileFormat::Stl, "STL", ".stl", Encoding::BinaryLittleEndian, false},
+}};
 
 const FormatTraits& traits_of(FileFormat format);
 

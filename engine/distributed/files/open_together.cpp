@@ -110,16 +110,12 @@ bool is_text(const std::filesystem::path& path, FileFormat format)
 {
     const OpenFile file(path);
     const InputFile input(file);
-    switch (format) {
-    case FileFormat::Obj:
-        return true;
-    case FileFormat::Off:
+    if (format == FileFormat::Off)
         return !start_of_binary_off(input.content());
-    case FileFormat::Stl:
+    if (format == FileFormat::Stl)
         return is_text_stl(input.content());
-    case FileFormat::Ply:
-        break;
-    }
+    if (format != FileFormat::Ply)
+        return true;
     TextScanner scanner(path, input.content(), ply_syntax);
     const PlyHeader header = read_ply_header(scanner);
     if (const PlyElement* const strips = header.element("tristrips"); strips != nullptr && strips->count > 0)
@@ -138,7 +134,12 @@ std::unique_ptr<SharedMeshFile> open_sliced(const std::filesystem::path& path, F
         return open_sliced_ply(path, format, sharing);
     const TextSlicer slicer = format == FileFormat::Obj   ? slice_obj_text
                               : format == FileFormat::Off ? slice_off_text
-                                                          : slice_ply_text;
+                              : format == FileFormat::Ply ? slice_ply_text
+                                                          : nullptr;
+    if (slicer == nullptr)
+        throw InputError(fmt::format("{}: ranks cannot read slices of {} files; let one rank read all (--whole-up-to), "
+                                     "or convert the file",
+                                     path.string(), traits_of(format).name));
     return open_sliced_text(path, slicer, sharing, exec);
 }
 
